@@ -9,15 +9,15 @@
 #   [ONLY="FILE LINE COLUMN LENGTH TEXT"] this one
 # A campaign that was stopped goes on where it was: build/mutate/SEED-SOURCES/{first,again}, a line for each mutant.
 #
-# Two passes. In the first, the library is a shared object, so that a mutant is one compilation and one link; programs end at the first
-# check that fails; few programs run. In the second, the survivors meet all programs, with sanitizers, as in make test.
+# The library is a shared object, so that a mutant is one compilation and one link; programs end at the first check that fails. Two
+# passes: quick programs first, then, of the survivors, the slower ones that test what the folder does.
 # A mutant whose object code is the same is no mutant; nor is one that does not compile. A test that takes four times as long as before,
 # and a second, kills.
 cd "$(dirname "$0")/../.." || exit 1
 root=$PWD/build/mutate tree=$PWD/build/mutate/tree
 : "${SEED:=$(date +%Y%m%d)}" "${N:=500}" "${MINUTES:=10000}"
 : "${FILES:=$(find lib -mindepth 2 -name 'gn_*.[ch]' | grep -v -e gn_tables -e lib/compact/ | sort | tr '\n' ' ')}"
-: "${TESTS:=test_changes test_golden test_refused test_frame test_tiles test_lists test_window test_runs test_walk test_kept test_random}"
+: "${TESTS:=test_refused test_random test_golden test_kept test_frame}"
 
 # The tree is copied: the sources stay as they are. Objects of before are kept where the sources are the same.
 mkdir -p "$tree"
@@ -36,8 +36,8 @@ sources=$(cat $FILES | cksum | cut -d ' ' -f 1)
 found=$root/$SEED-$sources
 mkdir -p "$found"
 
-# Tests of a file: those of its name and folder.
-first() {
+# Tests of a file: those of its name and folder, the quick ones and the slower ones.
+quick() {
     stem=$(basename "$1" | sed 's/^gn_//; s/\..*//')
     [ ! -f tests/unit/test_"$stem".c ] || echo "test_$stem"
     case $1 in
@@ -45,94 +45,99 @@ first() {
     lib/geometry/*) echo test_affine test_xform test_clip test_walk test_texture test_skin ;;
     lib/scene/* | lib/frame/*) echo test_refused test_limits test_defaults test_reentry ;;
     lib/light/*) echo test_object test_receiver_bias test_lists test_punctual ;;
-    lib/shadow/*) echo test_persp test_filter test_window test_tiles test_kept ;;
+    lib/shadow/*) echo test_persp test_tiles test_window test_filter test_fit ;;
     lib/visible/*) echo test_runs test_walk test_background test_pick ;;
     lib/shade/*) echo test_pixel test_corner test_arrival test_alpha test_background ;;
     esac
 }
-names=$(for folder in unit property oracle; do for program in tests/$folder/test_*.c; do basename "$program" .c; done; done |
-    grep -v -e test_extremes_many -e test_rows -e test_accuracy -e test_seams -e test_cores)
+slow() {
+    echo test_limits test_lists test_extremes test_extremes_light
+    case $1 in
+    lib/base/* | lib/geometry/*) echo test_math test_pixel test_radiance test_texture test_vertex_cache test_corner_cases test_stages ;;
+    lib/scene/* | lib/frame/*) echo test_cores test_crawl test_flicker test_culling test_groups ;;
+    lib/light/*) echo test_bias test_casters test_culling ;;
+    lib/shadow/*) echo test_casters test_bias test_culling test_stages test_census ;;
+    lib/visible/*) echo test_groups test_screen test_corner_cases test_stages ;;
+    lib/shade/*) echo test_radiance test_punctual test_corner_cases test_screen test_contact test_stages test_census ;;
+    esac
+}
 tests_of() { # tests_of PASS FILE: each once, if there is such a test
     case $1 in
-    first) echo test_changes $(first "$2") $TESTS ;;
-    again) echo $(first "$2") test_refused test_limits test_random $names ;;
+    first) echo test_golden_random test_changes $(quick "$2") $TESTS ;;
+    again) slow "$2" ;;
     esac | tr ' ' '\n' | awk '!seen[$1]++' | while read -r name; do [ -z "$(find tests -name "$name.c")" ] || echo "$name"; done
 }
+all_tests_of() { for file in $FILES; do tests_of "$1" "$file"; done | sort -u; }
 
 # Without line numbers, which a mutant changes. An interposed symbol would keep the compiler from what it does to an object.
 flags="-g0 -fPIC -fno-semantic-interposition"
-objects=$(for file in lib/*/*.c; do case $file in lib/compact/*) ;; *) echo "obj/${file%.c}.o" ;; esac; done)
-library() { # library PASS: builds it
-    case $1 in first) san=$flags ;; again) san="$flags -fsanitize=address,undefined -fno-sanitize-recover=all" ;; esac
-    make -s BUILD="$1" OPT="-O2 -Wl,--no-as-needed" HOST_OPT=-O1 SAN="$san" WERROR= $(echo "$objects" | sed "s|^|$1/|") >"$root/make" 2>&1 &&
-        gcc $san -shared -o "$1/libgnomon.so" $(echo "$objects" | sed "s|^|$1/|")
-}
-programs() { # programs PASS NAME...: builds them; they stay linked to the library as it is then
-    pass=$1
-    shift
-    case $pass in first) san=$flags ;; again) san="$flags -fsanitize=address,undefined -fno-sanitize-recover=all" ;; esac
-    make -s BUILD="$pass" OPT="-O2 -Wl,--no-as-needed" HOST_OPT=-O1 SAN="$san" WERROR= LIB_OBJ="$pass/libgnomon.so" -o "$pass/libgnomon.so" \
-        $(printf "$pass/%s " "$@") >"$root/make" 2>&1
-}
-signature() { (cd first && cat $objects) | cksum; }
-run() { # run PASS NAME SECONDS, of CPU time
-    (ulimit -t "$3" && SCENES=3000 "$1/$2" >"$root/out" 2>&1)
+objects=$(for file in lib/*/*.c; do case $file in lib/compact/*) ;; *) echo "b/obj/${file%.c}.o" ;; esac; done)
+mk() { make -s BUILD=b OPT="-O2 -Wl,--no-as-needed" HOST_OPT=-O1 SAN="$flags" WERROR= "$@" >"$root/make" 2>&1; }
+library() { mk $objects && gcc -shared -o b/libgnomon.so $objects; }
+programs() { mk LIB_OBJ=b/libgnomon.so -o b/libgnomon.so $(printf "b/%s " "$@"); } # they load the library when they run
+signature() { cat $objects | cksum; }
+run() { # run NAME SECONDS, of CPU time
+    (ulimit -t "$2" && SCENES=3000 "b/$1" >"$root/out" 2>&1)
 }
 
 gcc -std=c11 -O1 -o "$root/mutants" tests/mutation/mutants.c || exit 1
 
 # The original, and how long its tests take.
-prepare() { # prepare PASS NAME...
-    pass=$1
-    shift
-    library "$pass" && programs "$pass" "$@" || { tail -n 5 "$root/make"; exit 1; }
+prepare() { # prepare NAME...
+    library && programs "$@" || { tail -n 5 "$root/make"; exit 1; }
     for name in "$@"; do
-        [ "$pass/$name.seconds" -nt "$pass/$name" ] && continue
-        run "$pass" "$name" 1000 || { echo "$name fails without a mutant: $(tail -n 1 "$root/out")"; exit 1; }
-        (run "$pass" "$name" 1000; times) | awk -F '[ms ]+' 'NR == 2 { printf "%.0f\n", 4 * (60 * $1 + $2) + 1.5 }' >"$pass/$name.seconds"
+        [ "b/$name.seconds" -nt "b/$name" ] && continue
+        (run "$name" 1000 && times) | awk -F '[ms ]+' 'NR == 2 { printf "%.0f\n", 4 * (60 * $1 + $2) + 1.5 }' >"b/$name.seconds"
+        [ -s "b/$name.seconds" ] || { echo "$name fails without a mutant: $(tail -n 1 "$root/out")"; exit 1; }
     done
+}
+
+# Sources, objects and programs as they are without a mutant, with their times: so nothing is compiled twice.
+save() {
+    rm -rf "$root/saved" && mkdir "$root/saved" && cp -a b lib "$root/saved/" && touch "$root/stamp" && original=$(signature)
+}
+restore() {
+    find b lib -type f -newer "$root/stamp" | while read -r changed; do cp -p "$root/saved/$changed" "$changed"; done
 }
 
 # judge PASS: reads mutants, and writes what became of each.
 judge() {
-    pass=$1
     while IFS= read -r mutant; do
         [ $(($(date +%s) - begin)) -lt $((60 * MINUTES)) ] || break
         file=$(echo "$mutant" | cut -d ' ' -f 1) line=$(echo "$mutant" | cut -d ' ' -f 2) column=$(echo "$mutant" | cut -d ' ' -f 3)
         length=$(echo "$mutant" | cut -d ' ' -f 4) text=$(echo "$mutant" | cut -d ' ' -f 5-)
-        cp "$file" "$root/source"
         TEXT="$text" awk -v l="$line" -v c="$column" -v n="$length" \
-            'NR == l { $0 = substr($0, 1, c - 1) ENVIRON["TEXT"] substr($0, c + n) } { print }' "$root/source" >"$file"
-        by=SURVIVED built=
-        if ! library "$pass"; then by="not built"
-        elif [ "$pass" = first ] && [ "$(signature)" = "$original" ]; then by="same code"
+            'NR == l { $0 = substr($0, 1, c - 1) ENVIRON["TEXT"] substr($0, c + n) } { print }' "$root/saved/$file" >"$file"
+        by=SURVIVED
+        if ! library; then by="not built"
+        elif [ "$(signature)" = "$original" ]; then by="same code"
         else
-            for name in $(tests_of "$pass" "$file"); do
-                case $file in *.h) built="$built $name" && { programs "$pass" "$name" || { by="not built" && break; }; } ;; esac
-                run "$pass" "$name" "$(cat "$pass/$name.seconds")" || { by="killed by $name" && break; }
+            for name in $(tests_of "$1" "$file"); do
+                case $file in *.h) programs "$name" || { by="not built" && break; } ;; esac
+                run "$name" "$(cat "$root/saved/b/$name.seconds")" || { by="killed by $name" && break; }
             done
         fi
-        cp "$root/source" "$file"
-        [ -z "$built" ] || { library "$pass" && programs "$pass" $built; } # as they were
+        restore
         echo "$by: $mutant"
     done
 }
+# new RESULTS: of the mutants that are read those that are not in it; headers, which half of the library includes, last
+new() { sed 's/^[^:]*: //' "$1" >"$root/known" && grep -v -x -F -f "$root/known" | awk '$1 ~ /h$/ { later[++n] = $0; next } { print } END { for (i = 1; i <= n; i++) print later[i] }'; }
 
 begin=$(date +%s)
-trap '[ -f "$root/source" ] && cp "$root/source" "$file"; exit 1' HUP INT TERM
 if [ -n "$ONLY" ]; then echo "$ONLY"; else "$root/mutants" "$SEED" "$N" $FILES; fi >"$root/chosen"
 [ -z "$ONLY$AGAIN" ] || rm -f "$found/again"
 [ -z "$ONLY" ] || rm -f "$found/first"
 touch "$found/first" "$found/again"
 
-# What of the files is in the tree of the last mutant, if that was stopped, is the original by now: copied above.
-prepare first $(for file in $FILES; do tests_of first "$file"; done | sort -u)
-original=$(signature)
-tail -n +$(($(wc -l <"$found/first") + 1)) "$root/chosen" | judge first >>"$found/first"
+prepare $(all_tests_of first)
+save
+new "$found/first" <"$root/chosen" >"$root/left" && judge first <"$root/left" >>"$found/first"
 
-grep '^SURVIVED' "$found/first" | sed 's/^SURVIVED: //' >"$root/survivors"
-prepare again $names
-tail -n +$(($(wc -l <"$found/again") + 1)) "$root/survivors" | judge again >>"$found/again"
+sed -n 's/^SURVIVED: //p' "$found/first" >"$root/survivors"
+prepare $(all_tests_of again)
+save
+new "$found/again" <"$root/survivors" >"$root/left" && judge again <"$root/left" >>"$found/again"
 
 grep '^SURVIVED' "$found/again"
 for folder in $(sed 's|^[^:]*: lib/||; s|/.*||' "$found/first" | sort -u) all; do
