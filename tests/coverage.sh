@@ -10,7 +10,7 @@ missing=0
 [ "$1" != --missing ] || { missing=1 && shift; }
 for program in tests/*/test_*.c; do basename "$program" .c; done >build/coverage.names
 [ $# = 0 ] || printf '%s\n' "$@" >build/coverage.names
-make -s -j2 WERROR=-Werror $(sed "s|^|$build/|" build/coverage.names) BUILD=$build OPT=-O0 HOST_OPT=-O1 SAN=--coverage >build/coverage.log 2>&1 || { tail -n 5 build/coverage.log; exit 1; }
+make -s -j2 WERROR=-Werror $(sed "s|^|$build/|" build/coverage.names) BUILD=$build OPT=-O0 HOST_OPT=-O1 SAN="--coverage -Dalways_inline=unused" >build/coverage.log 2>&1 || { tail -n 5 build/coverage.log; exit 1; }
 find $build -name '*.gcda' -delete
 xargs -P 2 -I '{}' sh -c "SCENES=\${SCENES:-20000} $build/{} >/dev/null || echo '{} failed'" <build/coverage.names
 
@@ -18,7 +18,7 @@ xargs -P 2 -I '{}' sh -c "SCENES=\${SCENES:-20000} $build/{} >/dev/null || echo 
 shipped() {
     name=$1 source=$2
     shift 2
-    gcc -std=c11 -w -O0 --coverage -D_POSIX_C_SOURCE=200809L -Ilib -I. -Itests -Itests/support "$@" -c -o "$build/shipped/$name.o" lib/gnomon.c &&
+    gcc -std=c11 -w -O0 --coverage -Dalways_inline=unused -D_POSIX_C_SOURCE=200809L -Ilib -I. -Itests -Itests/support "$@" -c -o "$build/shipped/$name.o" lib/gnomon.c &&
         gcc -std=c11 -w -O1 -D_POSIX_C_SOURCE=200809L -Ilib -I. -Itests -Itests/support "$@" -o "$build/shipped/$name" "$source" "$build/shipped/$name.o" --coverage -lm &&
         SCENES=3000 "$build/shipped/$name" 3000 >/dev/null || echo "$name failed"
 }
