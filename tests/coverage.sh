@@ -25,6 +25,8 @@ shipped() {
 shipped tiny tests/property/test_random.c -DGN_PRESET=GN_PRESET_TINY
 shipped accurate tests/property/test_random.c -DGN_PRESET=GN_PRESET_ACCURATE -DGN_ATLAS_SIZE=128 -DGN_OTHER_ATLAS_SIZE=64 -DGN_STATIC_LAYER=1
 shipped size-first tests/property/test_random.c -DGN_SIZE_FIRST=1 -DGN_PRESET=GN_PRESET_TINY -DGN_POSITION_BITS=16 -DGN_NORMAL_BITS=8
+shipped capacities tests/property/test_random.c -DGN_PRESET=GN_PRESET_FAST -DGN_MAX_TRIANGLES=12 -DGN_MAX_TILE_REFS=24 -DGN_MAX_OBJECTS=3 -DGN_MAX_LIGHTS=3 \
+    -DGN_SURFACE_LIGHTS=2 -DGN_MAX_SHADOW_TILES=2 -DGN_MAX_OTHER_TILES=3 -DGN_ATLAS_SIZE=32 -DGN_OTHER_ATLAS_SIZE=32 -DGN_VERTEX_CACHE=4
 shipped compact tests/property/test_random.c -DGN_COMPACT=1
 shipped compact-range tests/oracle/compact_range.c -DGN_COMPACT=1 -DGN_VALIDATION=0 -DGN_PRESET=GN_PRESET_TINY -DGN_SRGB=0 -DGN_MAX_TRIANGLES=64 -DGN_MAX_HEIGHT=64
 

@@ -4,7 +4,7 @@
 #   [SEED=n]      which mutants; the same seed chooses the same ones of the same sources. By default the date
 #   [N=500]       how many. With MINUTES=m none begins after m minutes
 #   [FILES="lib/scene/gn_scene.c ..."]    of these; else of lib/ without the generated tables, and lib/compact, which test_compact.sh tests
-#   [TESTS="test_golden test_frame"]      run against these, after those of the file's folder
+#   [TESTS="test_golden test_frame"]      run what survives the quick programs against these, before the slower ones of the file's folder
 #   [AGAIN=1]     the survivors of this seed again, after a change of the tests
 #   [ONLY="FILE LINE COLUMN LENGTH TEXT"] this one
 # A campaign that was stopped goes on where it was: build/mutate/SEED-SOURCES/{first,again}, a line for each mutant.
@@ -17,7 +17,7 @@ cd "$(dirname "$0")/../.." || exit 1
 root=$PWD/build/mutate tree=$PWD/build/mutate/tree
 : "${SEED:=$(date +%Y%m%d)}" "${N:=500}" "${MINUTES:=10000}"
 : "${FILES:=$(find lib -mindepth 2 -name 'gn_*.[ch]' | grep -v -e gn_tables -e lib/compact/ | sort | tr '\n' ' ')}"
-: "${TESTS:=test_refused test_random test_golden test_kept test_frame}"
+: "${TESTS:=test_golden test_kept test_frame}"
 
 # The tree is copied: the sources stay as they are. Objects of before are kept where the sources are the same.
 mkdir -p "$tree"
@@ -63,8 +63,8 @@ slow() {
 }
 tests_of() { # tests_of PASS FILE: each once, if there is such a test
     case $1 in
-    first) echo test_golden_random test_changes $(quick "$2") $TESTS ;;
-    again) slow "$2" ;;
+    first) echo test_golden_random test_changes $(quick "$2") test_refused test_random ;;
+    again) echo $TESTS $(slow "$2") ;;
     esac | tr ' ' '\n' | awk '!seen[$1]++' | while read -r name; do [ -z "$(find tests -name "$name.c")" ] || echo "$name"; done
 }
 all_tests_of() { for file in $FILES; do tests_of "$1" "$file"; done | sort -u; }
