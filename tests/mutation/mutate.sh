@@ -3,7 +3,7 @@
 # built and run against the tests until one fails. Prints the survivors and the score. make mutate
 #   [SEED=n]      which mutants; the same seed chooses the same ones of the same sources. By default the date
 #   [N=500]       how many. With MINUTES=m none begins after m minutes
-#   [FILES="lib/scene/gn_scene.c ..."]    of these; else of lib/ without the generated tables, and lib/compact, which test_compact.sh tests
+#   [FILES="lib/scene/gn_scene.c ..."]    of these; else of lib/ without the generated tables, and lib/compact, which has tests of its own
 #   [TESTS="test_golden test_frame"]      run what survives the quick programs against these, before the slower ones of the file's folder
 #   [AGAIN=1]     the survivors of this seed again, after a change of the tests
 #   [ONLY="FILE LINE COLUMN LENGTH TEXT"] this one
@@ -62,9 +62,10 @@ slow() {
     esac
 }
 tests_of() { # tests_of PASS FILE: each once, if there is such a test
+    case $1-$2 in *-lib/compact/*) return ;; esac
     case $1 in
     first) echo test_golden_random test_changes $(quick "$2") test_refused test_random ;;
-    again) echo $TESTS $(slow "$2") ;;
+    again) echo $TESTS $(quick "$2") $(slow "$2") ;;
     esac | tr ' ' '\n' | awk '!seen[$1]++' | while read -r name; do [ -z "$(find tests -name "$name.c")" ] || echo "$name"; done
 }
 all_tests_of() { for file in $FILES; do tests_of "$1" "$file"; done | sort -u; }
@@ -75,7 +76,7 @@ objects=$(for file in lib/*/*.c; do case $file in lib/compact/*) ;; *) echo "b/o
 mk() { make -s BUILD=b OPT="-O2 -Wl,--no-as-needed" HOST_OPT=-O1 SAN="$flags" WERROR= "$@" >"$root/make" 2>&1; }
 library() { mk $objects && gcc -shared -o b/libgnomon.so $objects; }
 programs() { mk LIB_OBJ=b/libgnomon.so -o b/libgnomon.so $(printf "b/%s " "$@"); } # they load the library when they run
-signature() { cat $objects | cksum; }
+signature() { cat $objects 2>/dev/null | cksum; }
 run() { # run NAME SECONDS, of CPU time
     (ulimit -t "$2" && SCENES=3000 "b/$1" >"$root/out" 2>&1)
 }
@@ -84,6 +85,7 @@ gcc -std=c11 -O1 -o "$root/mutants" tests/mutation/mutants.c || exit 1
 
 # The original, and how long its tests take.
 prepare() { # prepare NAME...
+    [ $# -gt 0 ] || return 0
     library && programs "$@" || { tail -n 5 "$root/make"; exit 1; }
     for name in "$@"; do
         [ "b/$name.seconds" -nt "b/$name" ] && continue
@@ -100,6 +102,22 @@ restore() {
     find b lib -type f -newer "$root/stamp" | while read -r changed; do cp -p "$root/saved/$changed" "$changed"; done
 }
 
+# compact NAME: what test_compact.sh runs, of the host alone, and the verdict
+compact() {
+    one="gcc -w -O1 -g0 -Ilib -I. -Iboards/common -Iboards/apps -Itests -Itests/support" seconds=$(if [ "$1" = mutant ]; then echo 5; else echo 1000; fi)
+    small="-std=c11 -DGN_COMPACT=1 -DGN_VALIDATION=0 -DGN_PRESET=GN_PRESET_TINY -DGN_SRGB=0"
+    $one -std=c99 '-DGN_USER_CONFIG="compact_config.h"' -c -o "compact/$1.o" lib/gnomon.c 2>/dev/null || { echo "not built" && return; }
+    $one $small -O2 -c -o "compact/$1.small.o" lib/gnomon.c 2>/dev/null || { echo "not built" && return; }
+    if [ "$1" = mutant ] && cmp -s compact/mutant.o compact/original.o && cmp -s compact/mutant.small.o compact/original.small.o; then echo "same code" && return; fi
+    $one -std=c99 '-DGN_USER_CONFIG="compact_config.h"' -o "compact/golden" "compact/$1.o" boards/apps/compact.c boards/host/startup.c boards/common/print.c
+    (ulimit -t "$seconds" && compact/golden 2>&1) | grep '^frame' | cmp -s - tests/oracle/compact_golden.txt || { echo "killed by compact_golden" && return; }
+    $one $small -DGN_ATLAS_SIZE=128 '-DLIBRARY="lib/gnomon.c"' -o compact/bounds tests/oracle/compact_bounds.c -lm
+    (ulimit -t "$seconds" && compact/bounds >/dev/null 2>&1) || { echo "killed by compact_bounds" && return; }
+    $one $small -DGN_MAX_TRIANGLES=64 -DGN_MAX_HEIGHT=64 -fsanitize=undefined -fno-sanitize-recover=all -o compact/range tests/oracle/compact_range.c lib/gnomon.c -lm
+    (ulimit -t "$seconds" && compact/range 5000 >/dev/null 2>&1) || { echo "killed by compact_range" && return; }
+    echo SURVIVED
+}
+
 # judge PASS: reads mutants, and writes what became of each.
 judge() {
     while IFS= read -r mutant; do
@@ -109,7 +127,8 @@ judge() {
         TEXT="$text" awk -v l="$line" -v c="$column" -v n="$length" \
             'NR == l { $0 = substr($0, 1, c - 1) ENVIRON["TEXT"] substr($0, c + n) } { print }' "$root/saved/$file" >"$file"
         by=SURVIVED
-        if ! library; then by="not built"
+        if [ "${file#lib/compact/}" != "$file" ]; then by=$([ "$1" = again ] && echo SURVIVED || compact mutant)
+        elif ! library; then by="not built"
         elif [ "$(signature)" = "$original" ]; then by="same code"
         else
             for name in $(tests_of "$1" "$file"); do
@@ -117,6 +136,7 @@ judge() {
                 run "$name" "$(cat "$root/saved/b/$name.seconds")" || { by="killed by $name" && break; }
             done
         fi
+        case $by-$file in SURVIVED-*.c) touch "$file" && mk WERROR=-Werror "b/obj/${file%.c}.o" || by="killed by a warning" ;; esac
         restore
         echo "$by: $mutant"
     done
@@ -130,6 +150,8 @@ if [ -n "$ONLY" ]; then echo "$ONLY"; else "$root/mutants" "$SEED" "$N" $FILES; 
 [ -z "$ONLY" ] || rm -f "$found/first"
 touch "$found/first" "$found/again"
 
+mkdir -p b compact
+case "$FILES" in *lib/compact/*) [ "$(compact original)" = SURVIVED ] || { echo "compact fails without a mutant: $(compact original)"; exit 1; } ;; esac
 prepare $(all_tests_of first)
 save
 new "$found/first" <"$root/chosen" >"$root/left" && judge first <"$root/left" >>"$found/first"

@@ -11,7 +11,7 @@
 #include "light_scene.h"
 #include "random_scene.h"
 
-enum { N_SUMS = 12, N_WILD = 60, N_ROOMS = 10, WIDTH = 40, HEIGHT = 32 };
+enum { N_SUMS = 12, N_WILD = 60, N_ROOMS = 14, WIDTH = 40, HEIGHT = 32 };
 
 static gn_renderer one;
 static random_scene wild;
@@ -47,7 +47,7 @@ static uint32_t wild_sum(void)
 static void random_surface(gn_object *o)
 {
     o->flags ^= one_in(3) ? 1U << rnd() % 7 : 0;
-    o->flags &= ~(uint32_t)(GN_OBJECT_HIDDEN | GN_OBJECT_UNLIT);
+    o->flags &= ~(uint32_t)(GN_OBJECT_HIDDEN | (one_in(4) ? 0 : GN_OBJECT_UNLIT));
     for (int k = 0; k < 3; k++) {
         o->specular_uq16[k] = one_in(3) ? rnd() % 65537 : 0;
         o->emissive_uq16[k] = one_in(4) ? rnd() % 20000 : 0;
@@ -70,6 +70,8 @@ static void random_room(rng *r)
         if (one_in(2)) random_biases(l);
         l->softness = one_in(3) ? (gn_softness)(rnd() % 3) : GN_SOFTNESS_DEFAULT;
         if (one_in(4)) l->shadow_strength_uq16 = rnd() % 65537;
+        if (one_in(4)) l->colour_exp += (int32_t)(rnd() % 8); /* so bright that cells are limited */
+        if (one_in(4)) l->position_q16[1] = ls_q16(r, 0.1, 1.5);
     }
     gn_camera *camera = &room.scene.camera;
     ls_look(&room, ls_q16(r, -6, 6), ls_q16(r, 0.2, 5), ls_q16(r, 3, 7));
@@ -86,9 +88,9 @@ static uint32_t room_sum(rng *r)
     uint32_t sum = 0;
     for (int i = 0; i < N_ROOMS; i++) {
         random_room(r);
-        const int raw = i % 6 == 5;
-        sum = add_frame(sum, &room.scene, raw ? GN_FORMAT_RAW32 : GN_FORMAT_RGB888,
-                        raw ? (gn_view)(1 + i / 6 % 5) : GN_VIEW_COLOUR);
+        const int raw = one_in(4);
+        const gn_view view = raw ? (gn_view)(GN_VIEW_SHADOW + (int)(rnd() % 5)) : GN_VIEW_COLOUR;
+        sum = add_frame(sum, &room.scene, raw ? GN_FORMAT_RAW32 : GN_FORMAT_RGB888, view);
     }
     return sum;
 }
