@@ -37,9 +37,9 @@ TESTS := $(basename $(notdir $(TEST_SRC)))
 ALONE := $(patsubst tests/%.c,$(BUILD)/%,$(subst unit/,,$(subst property/,,$(wildcard tests/unit/test_*.c tests/property/test_*.c))))
 ALONE := $(filter-out %/test_culling %/test_golden %/test_groups %/test_stages,$(ALONE))
 # And those that are built with constants for knobs, too. The others choose their knobs: casters
-# corner and radiance sweep what may be lost over all presets, arrival has the finest, refused what a knob refuses, runs and tiles
+# corner and radiance sweep what may be lost over all presets, arrival has the finest, golden_random chooses its own, refused what a knob refuses, runs and tiles
 # have sizes of their own.
-CONSTANT := $(filter-out %/test_arrival %/test_casters %/test_corner %/test_radiance %/test_refused %/test_runs %/test_tiles,$(ALONE))
+CONSTANT := $(filter-out %/test_arrival %/test_casters %/test_corner %/test_golden_random %/test_radiance %/test_refused %/test_runs %/test_tiles,$(ALONE))
 
 LIB_OBJ := $(LIB_SRC:%.c=$(BUILD)/obj/%.o)
 HOST_OBJ := $(HOST_SRC:%.c=$(BUILD)/obj/%.o)

@@ -804,6 +804,31 @@ static void test_tile_refs_full(void)
     canvas_end(&c);
 }
 
+/* Values that a knob's range does not exclude, one at a time. */
+static void odd_knobs(void)
+{
+    gn_picture p = picture_of(8, 8, GN_FORMAT_RGB565);
+    static const struct {
+        size_t offset;
+        int32_t value;
+    } odd[] = {
+#define ODD_(name, value) {offsetof(gn_knobs, name), value}
+        ODD_(persp_step, 2),   ODD_(persp_step, 5),        ODD_(persp_step, 15),       ODD_(atten_bits, 9),
+        ODD_(atten_bits, 15),  ODD_(atlas_size, 96),       ODD_(other_atlas_size, 96), ODD_(depth_bits, 24),
+        ODD_(depth_bits, 9),   ODD_(other_depth_bits, 24), ODD_(other_depth_bits, 31), ODD_(tile_width, 65),
+        ODD_(tile_width, 2044)};
+    for (size_t i = 0; i < sizeof odd / sizeof *odd; i++) {
+        gn_init(&one, &p);
+        memcpy((char *)&one.frame.knobs + odd[i].offset, &odd[i].value, sizeof odd[i].value);
+        fails(gn_begin(&one, &demo.scene), GN_ERR_KNOB, 0, 0, 0, "a knob's value that its range does not exclude");
+    }
+    gn_init(&one, &p);
+    one.frame.knobs.tile_width = 2048, one.frame.knobs.tile_height = 32;
+    CHECK_EQ_INT(gn_begin(&one, &demo.scene), GN_OK);
+    one.frame.knobs.tile_height = 33;
+    fails(gn_begin(&one, &demo.scene), GN_ERR_KNOB, 0, 0, 0, "a screen tile of more pixels than are built");
+}
+
 /* Each quality knob beyond both ends of its range, and values in it that are not allowed. */
 static void test_knobs(void)
 {
@@ -824,19 +849,7 @@ static void test_knobs(void)
             fails(gn_begin(&one, &demo.scene), GN_ERR_KNOB, 0, 0, 0, knobs[i].name);
         }
     }
-    static const struct {
-        int32_t persp_step, atten_bits, atlas_size, tile_width, tile_height;
-    } odd[] = {
-        {2, 8, 128, 64, 16}, {8, 9, 128, 64, 16}, {8, 8, 96, 64, 16}, {8, 8, 128, 65, 16}, {8, 8, 128, 2048, 33}};
-    for (size_t i = 0; i < sizeof odd / sizeof *odd; i++) {
-        gn_init(&one, &p);
-        one.frame.knobs.persp_step = odd[i].persp_step;
-        one.frame.knobs.atten_bits = odd[i].atten_bits;
-        one.frame.knobs.atlas_size = odd[i].atlas_size;
-        one.frame.knobs.tile_width = odd[i].tile_width;
-        one.frame.knobs.tile_height = odd[i].tile_height;
-        fails(gn_begin(&one, &demo.scene), GN_ERR_KNOB, 0, 0, 0, "a knob's value that its range does not exclude");
-    }
+    odd_knobs();
     static gn_light lights[2];
     lights[0] = lights[1] = demo.light[0];
     gn_init(&one, &p);
@@ -851,6 +864,18 @@ static void test_knobs(void)
     one.frame.knobs.tile_width = 8;
     one.frame.knobs.tile_height = 1;
     fails(gn_begin(&one, &demo.scene), GN_ERR_KNOB, 0, 0, 0, "more screen tiles than are built");
+    for (int along = 0; along < 2; along++) { /* groups of triangles count at most 128 x 128 screen tiles */
+        p = picture_of(along ? 8 : 1025, along ? 1025 : 8, GN_FORMAT_RGB565);
+        gn_init(&one, &p);
+        one.frame.knobs.tile_width = one.frame.knobs.tile_height = 8;
+        CHECK_EQ_INT(gn_begin(&one, &demo.scene), GN_OK);
+        one.frame.knobs.triangle_groups = 1;
+        fails(gn_begin(&one, &demo.scene), GN_ERR_KNOB, 0, 0, 0, "more screen tiles along a side than groups can have");
+        p = picture_of(along ? 8 : 1024, along ? 1024 : 8, GN_FORMAT_RGB565);
+        gn_init(&one, &p);
+        one.frame.knobs.tile_width = one.frame.knobs.tile_height = 8, one.frame.knobs.triangle_groups = 1;
+        CHECK_EQ_INT(gn_begin(&one, &demo.scene), GN_OK);
+    }
 }
 
 static void test_status_texts(void)
@@ -909,6 +934,9 @@ static void test_nulls(void)
     CHECK(gn_screen_tile(&one.frame, NULL, 0, flush, &c) == GN_ERR_NULL);
     CHECK(gn_screen_tile(&one.frame, &one.scratch, 0, NULL, &c) == GN_ERR_NULL);
     CHECK(gn_get_shadow_tile(&one, 0, 0, NULL) == 0);
+    CHECK(gn_get_light_shadow(NULL, 0, NULL, NULL) == GN_SHADOW_NOT_WANTED);
+    CHECK(gn_screen_tile_if_changed(&one.frame, &one.scratch, 0, NULL, flush, &c, NULL) == GN_ERR_NULL);
+    gn_forget_shadows(NULL);
     CHECK_EQ_INT(gn_get_shadow_tile(&one, 0, 0, &depth), GN_ATLAS_SIZE);
     CHECK(depth.depth != NULL && depth.texels == GN_ATLAS_SIZE && depth.depth_bits == 16);
     CHECK(gn_get_shadow_tile(&one, 1, 0, &depth) == 0 && gn_get_shadow_tile(&one, UINT32_MAX, 0, &depth) == 0);
