@@ -105,7 +105,8 @@ static int find_points(reduce_mesh *m)
     }
     qsort(at, n, sizeof *at, compare_placed);
     for (size_t i = 0; i < n; i++) {
-        const bool same = i > 0 && memcmp(at[i].pos, at[i - 1].pos, sizeof at[i].pos) == 0;
+        bool same = i > 0;
+        for (int k = 0; same && k < 3; k++) same = at[i].pos[k] == at[i - 1].pos[k]; /* -0 is 0 */
         m->point_of[at[i].vertex_idx] = same ? m->point_of[at[i - 1].vertex_idx] : at[i].vertex_idx;
     }
     free(at);
