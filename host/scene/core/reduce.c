@@ -276,7 +276,8 @@ static int compact_mesh(scene *s, reduce_mesh *m)
 
 static double diagonal(const double *pos, size_t n)
 {
-    double low[3] = {INFINITY, INFINITY, INFINITY}, high[3] = {-INFINITY, -INFINITY, -INFINITY}, sum = 0;
+    double low[3] = {(double)INFINITY, (double)INFINITY, (double)INFINITY},
+           high[3] = {-(double)INFINITY, -(double)INFINITY, -(double)INFINITY}, sum = 0;
     for (size_t i = 0; i < 3 * n; i++) {
         low[i % 3] = fmin(low[i % 3], pos[i]);
         high[i % 3] = fmax(high[i % 3], pos[i]);

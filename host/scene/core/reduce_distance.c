@@ -53,7 +53,7 @@ static bool box_within(const double *p, const double *a, const double *b, const 
 static double distance2(const double *p, const reduce_surface *to, double enough2, size_t *near)
 {
     const size_t first = *near;
-    double nearest2 = INFINITY;
+    double nearest2 = (double)INFINITY;
     for (size_t k = 0; k < to->n_triangles && nearest2 > enough2; k++) {
         const size_t t = first + k < to->n_triangles ? first + k : first + k - to->n_triangles;
         const uint32_t *i = to->idx + 3 * t;
@@ -71,7 +71,7 @@ double reduce_distance(const reduce_surface *from, const reduce_surface *to)
 {
     double farthest2 = 0;
     size_t near = 0;
-    if (to->n_triangles == 0) return from->n_triangles ? INFINITY : 0;
+    if (to->n_triangles == 0) return from->n_triangles ? (double)INFINITY : 0;
     for (size_t t = 0; t < from->n_triangles; t++) {
         double middle[3] = {0, 0, 0};
         for (int i = 0; i < 3; i++) {
