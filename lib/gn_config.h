@@ -276,14 +276,17 @@
 #define GN_RUNTIME_KNOBS 0
 #endif
 
-/* How the library is built. A program may be compiled with another size_first than the library: no type depends on it.
- */
+/* How the library is built. A program may be compiled with another size_first or error_fields than the library: no type
+ * depends on them. */
 #ifndef GN_SIZE_FIRST
 #ifdef __OPTIMIZE_SIZE__
 #define GN_SIZE_FIRST 1
 #else
 #define GN_SIZE_FIRST 0
 #endif
+#endif
+#ifndef GN_ERROR_FIELDS
+#define GN_ERROR_FIELDS 0
 #endif
 
 /* Whether the boxes of objects are needed. */

@@ -78,7 +78,9 @@
     X(size_first, SIZE_FIRST, 0, 1,                                                                                    \
       "less flash rather than fewer instructions: one code path where two give the same bits, calls in place of "      \
       "inline code; by default 1 where the compiler optimises for size (-Os)",                                         \
-      "instructions; the same picture")
+      "instructions; the same picture")                                                                                \
+    X(error_fields, ERROR_FIELDS, 0, 1, "errors name the field that is wrong: gn_detail.field",                        \
+      "flash; 3 KB more where gn_field_text is called")
 
 #define GN_FEATURE_KNOBS(X)                                                                                            \
     X(shadows, SHADOWS, 0, 1, "shadow maps", "atlas, rasteriser and filters")                                          \

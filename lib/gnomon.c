@@ -22,6 +22,9 @@
 #include "scene/gn_pose.c"
 #endif
 #include "scene/gn_scene.c"
+#if GN_ERROR_FIELDS
+#include "scene/gn_field.c"
+#endif
 #if GN_VERTEX_JOINTS
 #include "scene/gn_scene_skin.c"
 #endif

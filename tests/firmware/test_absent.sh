@@ -135,6 +135,11 @@ PICKING gn_pick
 CASTER_CLIPPING clip_side|clip_to_reach
 LIST
 
+# Errors name fields only where that is asked for.
+if symbols NOTHING | grep -q -x 'gn_fail_field'; then fail "names of fields without error_fields"; else pass; fi
+object all-FIELDS -Og -fno-inline $(but all 0 NOTHING) -DGN_ERROR_FIELDS=1
+symbols FIELDS | grep -q -x gn_fail_field && pass || fail "error_fields: there is no symbol gn_fail_field at all"
+
 # Neither way of keeping triangles knows the other's functions.
 if symbols NOTHING | grep -q -x -E 'gn_setup_tile|gn_raster_triangle|setup_.*groups|count_group|check_tiles'; then fail "groups of triangles without triangle_groups"; else pass; fi
 object all-GROUPS -Og -fno-inline $(but all 0 NOTHING) -DGN_TRIANGLE_GROUPS=64

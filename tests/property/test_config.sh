@@ -93,7 +93,7 @@ pairs() {
     echo "PUNCTUAL_LIGHTS=0 MAIN_LIGHT=0 DEPTH_BITS=32 STATIC_LAYER=1"
     echo "OTHER_ATLAS_SIZE=32 ATLAS_SIZE=64 TILE_WIDTH=32 TILE_HEIGHT=5"
     echo "TRIANGLE_GROUPS=64 MAX_TRIANGLES=400 MAX_TILE_REFS=1"
-    echo "none TRIANGLE_GROUPS=3 TILE_WIDTH=24 SIZE_FIRST=1"
+    echo "none TRIANGLE_GROUPS=3 TILE_WIDTH=24 SIZE_FIRST=1 ERROR_FIELDS=1"
     more "tiny all TRIANGLE_GROUPS=4096"
     more "-m32 accurate TRIANGLE_GROUPS=17"
     for preset in tiny fast accurate; do # balanced is the default
@@ -101,7 +101,7 @@ pairs() {
         more "$preset none"
         more "-m32 $preset"
     done
-    echo "tiny all SRGB=0"
+    echo "tiny all SRGB=0 ERROR_FIELDS=1"
     more "accurate all SRGB=0"
     more "-m32"
     more "-m32 none"
