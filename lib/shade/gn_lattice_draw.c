@@ -206,9 +206,9 @@ GN_HOT static void look_up_row(const drawing *d, const gn_lattice_edge *edge, in
     }
 }
 
-#if GN_PUNCTUAL_LIGHTS
-/* Attenuations along a row of pixels that two faces see. */
-GN_HOT static GN_NOINLINE void look_up_faces(const drawing *d, const gn_lattice_edge *edge, int32_t below,
+#if GN_PUNCTUAL_LIGHTS || GN_MANY_CASCADES
+/* Attenuations along a row of pixels that two faces or cascades see. */
+GN_HOT static GN_NOINLINE void look_up_two(const drawing *d, const gn_lattice_edge *edge, int32_t below,
                                              uint32_t *out)
 {
     gn_receiver_step at[2], step[2];
@@ -229,9 +229,14 @@ GN_HOT static GN_NOINLINE void find_attenuations(const drawing *d, const gn_latt
 {
     gn_receiver_step at, step;
 #if GN_PUNCTUAL_LIGHTS
-    if (edge->bent >= GN_PLACES_LONE) {
-        if (edge->bent == GN_PLACES_LONE) look_up_alone(d, edge, below, out);
-        else look_up_faces(d, edge, below, out);
+    if (edge->bent == GN_PLACES_LONE) {
+        look_up_alone(d, edge, below, out);
+        return;
+    }
+#endif
+#if GN_PUNCTUAL_LIGHTS || GN_MANY_CASCADES
+    if (edge->bent & GN_PLACES_OF_TWO) {
+        look_up_two(d, edge, below, out);
         return;
     }
 #endif
