@@ -59,8 +59,8 @@ GN_HOT static int find_shares(const gn_lattice_cell *cell, uint32_t slot, gn_con
 {
     const gn_light_state *light = cell->s->light[slot].state;
     int realtime = 0, masks = 0, ends = 0;
-    if (cell->near && !cell->s->masked) {
-        const gn_lattice_light *near = &cell->lattice->light[slot];
+    const gn_lattice_light *near = &cell->lattice->light[slot];
+    if (cell->near && !near->masked) {
         for (int i = 0; i < 4; i++) {
             out->dark_uq16[i] = near->dark_uq16;
             out->more_uq16[i] = near->lit_uq16 - near->dark_uq16;
@@ -209,8 +209,8 @@ GN_HOT static GN_NOINLINE int look_once(gn_lattice *lattice, const gn_frame *fra
 {
     gn_lattice_look *look = &lattice->look;
     gn_lattice_cell *cell = &lattice->by.look.cell;
-    *cell =
-        (gn_lattice_cell){lattice, frame, surface, corner, size_log2, {0, 0}, lattice->cascade >= 0, 0, 0, look, ask};
+    uint32_t g = corner[0]->g_uq16 & corner[1]->g_uq16 & corner[2]->g_uq16 & corner[3]->g_uq16; /* at most 65536 */
+    *cell = (gn_lattice_cell){lattice, frame, surface, corner, size_log2, {0, 0}, g == 65536, 0, 0, look, ask};
     int coarse = size_log2 > gn_cell_finest_log2(frame);
     if (!gn_cell_find_bend(cell) || !gn_cell_textures_hold(cell) || !gn_cell_masks_hold(cell)) return 0;
     look->n_edges = 0;
