@@ -123,15 +123,22 @@ GN_HOT static int asks_for_cascades(const gn_frame *frame)
     return frame->has_cascades || frame->scene->shadow.distance_mode == GN_DISTANCE_RADIUS;
 }
 
-/* The cascade of the surface point and its fade factor. [D4] [D6] [D11] */
-GN_HOT static void select_cascade(const gn_frame *frame, int32_t px, int32_t py, gn_sample *sample)
+/* Square of the distance from the view axis of the point at depth z on a pixel's ray. */
+GN_HOT static uint64_t across2_q32(const gn_frame *frame, int32_t px, int32_t py, int64_t z)
 {
     gn_bfloat per_px = frame->cam.inv_focal2;
     const int64_t most = 1 << 30; /* of a point of the triangle: pixels of a plane seen edge on may lie outside it */
-    int64_t z = sample->value[GN_VALUE_Z], at = GN_FLAT_Q16(frame) ? GN_FLAT_Q16(frame) : z,
+    int64_t at = GN_FLAT_Q16(frame) ? GN_FLAT_Q16(frame) : z,
             x = gn_clamp64(gn_bf_apply(at * px, per_px, 16), -most, most),
             y = gn_clamp64(gn_bf_apply(at * py, per_px, 16), -most, most);
-    uint64_t across = (uint64_t)(x * x) + (uint64_t)(y * y);
+    return (uint64_t)(x * x) + (uint64_t)(y * y);
+}
+
+/* The cascade of the surface point and its fade factor. [D4] [D6] [D11] */
+GN_HOT static void select_cascade(const gn_frame *frame, int32_t px, int32_t py, gn_sample *sample)
+{
+    int64_t z = sample->value[GN_VALUE_Z];
+    uint64_t across = across2_q32(frame, px, py, z);
     sample->cascade = GN_CASCADE_NONE;
     sample->value[GN_VALUE_FADE] = 0;
     int64_t m = frame->scene->shadow.max_distance_q16;
@@ -205,6 +212,14 @@ GN_HOT static void directional_coords(const gn_frame *frame, const gn_surface *s
     int same = view->filter != GN_FILTER_DISK && !(GN_AUTO_BIAS && light->auto_bias);
     if (!same) offset = own_offset(frame, s, slot, view, n_q30, moved);
     light_coords(frame, view, px, py, sample->value[GN_VALUE_Z], offset, out + 3);
+}
+
+GN_HOT int64_t gn_sample_inside_q32(const gn_frame *frame, int32_t x, int32_t y, int32_t z_q16, int32_t cascade_idx)
+{
+    const gn_cascade_state *cascade = &frame->cascade[cascade_idx];
+    int32_t px = 2 * x + 1 - frame->picture.width, py = frame->picture.height - 1 - 2 * y;
+    int64_t dz = (int64_t)z_q16 - cascade->centre_q16;
+    return (int64_t)(cascade->radius2_q32 - across2_q32(frame, px, py, z_q16) - (uint64_t)(dz * dz));
 }
 #else
 GN_HOT static int asks_for_cascades(const gn_frame *frame)

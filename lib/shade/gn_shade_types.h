@@ -274,7 +274,8 @@ typedef struct {
     gn_corner *const *corner;
     int32_t size_log2;
     uint32_t bend_q16[2]; /* by how much view depths differ along and across rows, as a share of the least */
-    int near;             /* no shadow fades */
+    int near;             /* no shadow fades at any corner */
+    uint32_t across_q16;  /* diagonal of its corners, 0: not known yet */
     uint64_t error_q24;   /* of interpolated light, at most */
     uint64_t kink_q24;    /* the part of it that comes from where a light ends */
     gn_lattice_look *out;
@@ -298,6 +299,7 @@ typedef struct {
 /* A light of the surface's list, once per surface. */
 typedef struct {
     uint8_t realtime; /* its shadow map counts, */
+    uint8_t masked;   /* and its mask where shadows do not fade, too */
     uint8_t lifts;    /* the receiver's offset is along the normal, in proportion to the light-plane distance */
     uint32_t lit_uq16, dark_uq16; /* what is left of it without a mask, where shadows do not fade */
 } gn_lattice_light;
