@@ -135,7 +135,7 @@ static gn_status check_material(gn_frame *frame, const gn_object *object, uint32
     const gn_mesh *mesh = object->mesh;
     if (any_above(object->albedo_uq16, 65536)) return gn_fail(frame, GN_ERR_COLOUR, idx);
     int visible = (int)object->visible_alpha, caster = (int)object->caster_alpha;
-    if (visible < GN_ALPHA_OPAQUE || visible > (GN_VISIBLE_ALPHA ? GN_ALPHA_DITHER : GN_ALPHA_OPAQUE) ||
+    if (visible < GN_ALPHA_OPAQUE || visible > (GN_VISIBLE_ALPHA ? GN_ALPHA_BLEND : GN_ALPHA_OPAQUE) ||
         caster < GN_ALPHA_OPAQUE || caster > (GN_CASTER_ALPHA ? GN_ALPHA_DITHER : GN_ALPHA_OPAQUE))
         return gn_fail(frame, GN_ERR_MATERIAL, idx);
     if (object->alpha_uq16 > 65536 || object->alpha_cutoff_uq16 > 65536 || object->shininess_log2 > 7 ||
