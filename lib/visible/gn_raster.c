@@ -209,6 +209,15 @@ GN_HOT static GN_NOINLINE void raster_span_slow(const raster_depth *depth, uint3
     GN_COUNT(covered, cut ? 0 : n);
 }
 
+/* The same, but transparent surfaces go into layers. */
+GN_HOT static inline void raster_span_checked(const raster_tile *tile, const raster_depth *depth, uint32_t *cell,
+                                              int32_t n, uint32_t iz, gn_alpha_cut *cut, int32_t x)
+{
+    if (GN_LAYERS_MAX && cut && cut->mode == GN_ALPHA_BLEND)
+        gn_layers_span(tile->scratch, GN_LAYERS(tile->frame), depth, cell, n, iz, cut, x);
+    else raster_span_slow(depth, cell, n, iz, cut, x);
+}
+
 /* A small triangle without alpha whose depth needs no bounds (gn_tri): its edges are stepped in fixed point, row by
  * row. */
 GN_HOT static GN_NOINLINE void raster_small(const raster_tile *tile, const gn_tri *tri, uint32_t id)
@@ -331,13 +340,8 @@ GN_HOT static void raster_triangle(const raster_tile *tile, const gn_tri *tri, u
                 continue;
             }
             if (GN_VISIBLE_ALPHA && cut) cut_row(tile, cut, (int32_t)(row - GN_CELLS(tile->scratch)) / stride, span);
-            if (GN_LAYERS_MAX && cut && cut->mode == GN_ALPHA_BLEND) {
-                gn_layers_span(tile->scratch, GN_LAYERS(tile->frame), &depth, row + xa, n, above + depth.lo, cut,
-                               tile->rect.x0 + xa);
-                continue;
-            }
             /* with the same results */
-            raster_span_slow(&depth, row + xa, n, above + depth.lo, cut, tile->rect.x0 + xa);
+            raster_span_checked(tile, &depth, row + xa, n, above + depth.lo, cut, tile->rect.x0 + xa);
         }
     }
 }
