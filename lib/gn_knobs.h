@@ -43,7 +43,11 @@
     X(triangle_groups, TRIANGLE_GROUPS, 0, 4096,                                                                       \
       "groups of neighbouring triangles in their meshes, in place of records of triangles: each screen tile sets up "  \
       "again the groups that it meets; 0: records; the same picture",                                                  \
-      "4 bytes each in place of 32 bytes per triangle, and of tile references; instructions")
+      "4 bytes each in place of 32 bytes per triangle, and of tile references; instructions")                          \
+    X(transparent_layers, TRANSPARENT_LAYERS, 0, 3,                                                                    \
+      "surfaces of alpha mode blend that are mixed, of each pixel the nearest ones, with what is behind them; 0: "     \
+      "they are dithered",                                                                                             \
+      "RAM: 4 bytes per tile pixel and layer; a transparent pixel is shaded again and mixed")
 
 #define GN_CAPACITY_KNOBS(X)                                                                                           \
     X(max_width, MAX_WIDTH, 1, 2048, "largest picture width in pixels", "2 bytes per screen tile")                     \

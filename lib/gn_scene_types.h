@@ -88,15 +88,16 @@ enum {
     GN_OBJECT_DEFAULT = GN_OBJECT_CASTS | GN_OBJECT_RECEIVES
 };
 
-typedef enum { GN_ALPHA_OPAQUE, GN_ALPHA_CLIP, GN_ALPHA_DITHER } gn_alpha;
+typedef enum { GN_ALPHA_OPAQUE, GN_ALPHA_CLIP, GN_ALPHA_DITHER, GN_ALPHA_BLEND } gn_alpha;
 
 typedef struct {
     const gn_mesh *mesh;
     gn_affine to_world;
     uint32_t albedo_uq16[3]; /* linear, 0..65536 */
     uint32_t flags;
-    gn_alpha visible_alpha; /* clip: no surface where alpha is below the cutoff; dither: where it is below the noise */
-    gn_alpha caster_alpha;  /* the same for its shadow */
+    gn_alpha visible_alpha; /* clip: no surface where alpha is below the cutoff; dither: where it is below the noise;
+                               blend: mixed with what is behind it, dithered without GN_TRANSPARENT_LAYERS */
+    gn_alpha caster_alpha;  /* the same for its shadow; not blend */
     uint32_t alpha_uq16;    /* 0..65536, times the texture's; matters where an alpha mode does */
     uint32_t alpha_cutoff_uq16; /* 0..65536 */
     uint32_t specular_uq16[3];  /* linear, 0..65536; 0: none */

@@ -151,7 +151,7 @@ static gn_status check_emissive_texture(gn_frame *frame, const gn_object *object
 /* Features that are not built must not be requested. */
 static gn_field wrong_material(const gn_object *object)
 {
-    if ((uint32_t)object->visible_alpha > (GN_VISIBLE_ALPHA ? GN_ALPHA_DITHER : GN_ALPHA_OPAQUE))
+    if ((uint32_t)object->visible_alpha > (GN_VISIBLE_ALPHA ? GN_ALPHA_BLEND : GN_ALPHA_OPAQUE))
         return GN_AT(GN_FIELD_OBJECT_VISIBLE_ALPHA);
     if ((uint32_t)object->caster_alpha > (GN_CASTER_ALPHA ? GN_ALPHA_DITHER : GN_ALPHA_OPAQUE))
         return GN_AT(GN_FIELD_OBJECT_CASTER_ALPHA);

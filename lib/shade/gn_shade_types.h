@@ -382,6 +382,11 @@ typedef struct gn_lattice {
 } gn_lattice;
 #endif
 
+/* Two pixels as stored, how much of the first, and their mixture: neighbours are often equal. */
+typedef struct {
+    uint32_t front, behind, alpha_uq16, packed;
+} gn_mixture;
+
 /* The tile, and the triangle at hand. */
 typedef struct {
     const struct gn_frame *frame;
@@ -395,6 +400,9 @@ typedef struct {
     uint32_t last_pixel;
     uint32_t radiance_q20[3];
     gn_sample sample; /* at the pixel or corner at hand */
+#if GN_LAYERS_MAX
+    gn_mixture mixture;
+#endif
 #if GN_INTERPOLATES
     gn_lattice lattice;
 #endif

@@ -146,6 +146,12 @@ object all-GROUPS -Og -fno-inline $(but all 0 NOTHING) -DGN_TRIANGLE_GROUPS=64
 if symbols GROUPS | grep -q -x -E 'raster_records|sort_triangles|bin_by_bounds|count_record|count_(few_)?tiles'; then fail "records of triangles with triangle_groups"; else pass; fi
 symbols GROUPS | grep -q -x gn_setup_tile && pass || fail "triangle_groups: there is no symbol gn_setup_tile at all"
 
+# Layers of transparent surfaces; "all" has none.
+layers='gn_layers_.*|gn_mix_.*|shade_layers|link_layer|alpha_at'
+if symbols NOTHING | grep -q -x -E "$layers"; then fail "layers without transparent_layers"; else pass; fi
+object all-LAYERS -Og -fno-inline $(but all 0 NOTHING) -DGN_TRANSPARENT_LAYERS=1
+[ "$(symbols LAYERS | grep -c -x -E "$layers")" -ge 8 ] && pass || fail "transparent_layers: its functions are not there at all"
+
 # ---- Divisions -------------------------------------------------------------------------------------------------------------
 
 # The library has its own 64-bit division (that no pixel reaches it is tests/firmware/test_size.sh's to say) and calls no other.

@@ -535,7 +535,7 @@ static const bounded bounds[] = {
     UNSIGNED(full.light[2].receiver_plane, 0, 1, GN_ERR_LIGHT_BIAS, 2),
     LIGHT_SIGNED(FULL_SPOT, auto_bias, 0, 3, GN_ERR_LIGHT_BIAS),
     LIGHT_SIGNED(FULL_DIRECTIONAL, near_offset_q16, 0, 8192 * UNIT, GN_ERR_LIGHT_BIAS),
-    SIGNED(demo.object[1].visible_alpha, 0, 2, GN_ERR_MATERIAL, 1),
+    SIGNED(demo.object[1].visible_alpha, 0, 3, GN_ERR_MATERIAL, 1),
     SIGNED(demo.object[2].caster_alpha, 0, 2, GN_ERR_MATERIAL, 2),
     UNSIGNED(demo.object[1].alpha_uq16, 0, UNIT, GN_ERR_MATERIAL, 1),
     UNSIGNED(demo.object[1].alpha_cutoff_uq16, 0, UNIT, GN_ERR_MATERIAL, 1),
