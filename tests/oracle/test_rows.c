@@ -141,8 +141,8 @@ static double tile_difference(const double *a, const double *b, int texels, int 
 {
     long differing = 0;
     const double step = 2.0 / (bits == 8 ? 255 : 65535);
-    for (int i = 0; i < texels * texels; i++) differing += (a[i] < 1) != (b[i] < 1) || fabs(a[i] - b[i]) > step;
-    return (double)differing / (texels * texels);
+    for (int i = 0; i < texels; i++) differing += (a[i] < 1) != (b[i] < 1) || fabs(a[i] - b[i]) > step;
+    return (double)differing / texels;
 }
 
 /* The share of such texels in the worst tile. [A6] */
@@ -153,8 +153,11 @@ static double atlas_difference(const pair *p, const settings *set)
         for (int i = 0; i < p->fixed.n_tiles[l]; i++) {
             const double *a = p->fixed.atlas[l][i], *b = p->reference.atlas[l][i];
             const int bits = p->fixed.perspective[l] ? set->quality.other_depth_bits : set->quality.depth_bits;
+            const int *size = p->fixed.tile_size[l][i], *other = p->reference.tile_size[l][i];
             CHECK(!a == !b);
-            if (a && b) worst = fmax(worst, tile_difference(a, b, p->fixed.atlas_texels[l], bits));
+            if (!a || !b) continue;
+            if (size[0] != other[0] || size[1] != other[1]) return 1;
+            worst = fmax(worst, tile_difference(a, b, size[0] * size[1], bits));
         }
     return worst;
 }
