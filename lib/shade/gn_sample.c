@@ -156,13 +156,8 @@ GN_HOT static void select_cascade(const gn_frame *frame, int32_t px, int32_t py,
 /* Whether a view's u and v are not those that flat_offset_q16 was found along: a tight fit turned them. */
 GN_HOT static int turned(const gn_frame *frame, const gn_light_view *view)
 {
-#if GN_TIGHT_FIT
     const gn_light_view *first = &frame->view[frame->light[view->light_idx].view_idx];
-    return view->turn != (first->border_lit ? first : first + GN_LAST_CASCADE(frame))->turn;
-#else
-    (void)frame, (void)view;
-    return 0;
-#endif
+    return GN_VIEW_TURN(view) != GN_VIEW_TURN(first->border_lit ? first : first + GN_LAST_CASCADE(frame));
 }
 
 /* The surface's offset in a view, if it differs between the views of a light: for smooth surfaces; for views that are
@@ -175,7 +170,7 @@ GN_HOT static const int32_t *own_offset(const gn_frame *frame, const gn_surface 
     int32_t lifted[3];
     if (GN_AUTO_BIAS && form && !GN_CURVED(s)) {
         if (turned(frame, view)) {
-            gn_bias_auto_face(view, form, s->face_q30, lifted);
+            gn_bias_auto_face(view, form, GN_FACE_Q30(s), lifted);
             flat = lifted;
         }
         gn_bias_auto_ortho(view, form, flat, moved_q16);
