@@ -152,6 +152,7 @@ static void run_kinds(const char *path, int preset)
         settings_init(&set);
         CHECK_EQ_INT(settings_apply_all(&set, &s, NULL, 0, error, sizeof error), 0);
         settings_preset(&set, preset);
+        settings_preset_scene(&s, preset);
         CHECK_EQ_INT(settings_apply_all(&set, &s, sets, 1, error, sizeof error), 0);
         if (CHECK_EQ_INT(compare_scene(&m, &s, &set), 0)) check_floors(&m, &any_light[preset], preset, path, word);
         scene_free(&s);
@@ -210,6 +211,7 @@ static void run(const char *path, int preset, int table)
     }
     settings_init(&set);
     settings_preset(&set, preset);
+    settings_preset_scene(&s, preset);
     CHECK_EQ_INT(settings_apply_all(&set, &s, NULL, 0, error, sizeof error), 0);
     scene_camera original = s.camera;
     for (int n = 0; n <= n_views; n++) {

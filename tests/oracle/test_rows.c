@@ -66,8 +66,11 @@ static int open_stage(stage *st, const row *r, const char *words, int preset)
     memset(st, 0, sizeof *st);
     settings_init(&st->set);
     settings_preset(&st->set, preset);
-    if (strstr(r->scene, ".gltf"))
-        return open_file(st, r->scene) || apply_to_file(st, r->words) || apply_to_file(st, words ? words : "") ? -1 : 0;
+    if (strstr(r->scene, ".gltf")) {
+        if (open_file(st, r->scene)) return -1;
+        settings_preset_scene(&st->file, preset);
+        return apply_to_file(st, r->words) || apply_to_file(st, words ? words : "") ? -1 : 0;
+    }
     for (size_t i = 0; i < sizeof row_scenes / sizeof *row_scenes; i++)
         if (strcmp(r->scene, row_scenes[i].name) == 0) row_scenes[i].build(&st->f);
     return apply_words(&st->f, &st->set, r->words) || apply_words(&st->f, &st->set, words ? words : "") ? -1 : 0;
