@@ -71,6 +71,9 @@ typedef struct {
 #endif
 #if GN_RECEIVER_PLANE || GN_AUTO_BIAS
     int32_t face_q30[3]; /* normal of the face in the world; only if some light of the list needs it */
+#define GN_FACE_Q30(surface) ((surface)->face_q30)
+#else
+#define GN_FACE_Q30(surface) ((surface)->normal_q30[0])
 #endif
 #if GN_AUTO_BIAS
     int32_t lift_q30[3]; /* curved: correction of the normal for automatic bias; likewise */
