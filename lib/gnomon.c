@@ -135,6 +135,7 @@
 /* Their colours. */
 #include "shade/gn_arrival.c"
 #include "shade/gn_exact.c"
+#include "shade/gn_facet.c"
 #if GN_INTERPOLATES
 #include "shade/gn_corner.c"
 #include "shade/gn_corner_cascade.c"

@@ -88,18 +88,23 @@ GN_HOT static int in_reach(const gn_light_state *light)
     return 1;
 }
 
-GN_HOT int gn_corner_begin(gn_lattice *l, const gn_frame *frame, const gn_surface *s, const gn_rect *rect)
+GN_HOT int gn_corner_begin_lights(gn_lattice *l, const gn_frame *frame, const gn_surface *s)
 {
-    if (!find_plane(&l->plane, frame, s, rect)) return 0;
-    l->cascade = -1;
     l->offset_view = NULL;
-#if GN_SHADOWS
-    gn_corner_begin_cascade(l, frame, s);
-#endif
     for (uint32_t i = 0; i < s->n_lights; i++) {
         begin_light(l, frame, s, i);
         if (!in_reach(s->light[i].state)) return 0;
     }
+    return 1;
+}
+
+GN_HOT int gn_corner_begin(gn_lattice *l, const gn_frame *frame, const gn_surface *s, const gn_rect *rect)
+{
+    if (!find_plane(&l->plane, frame, s, rect)) return 0;
+    l->cascade = -1;
+#if GN_SHADOWS
+    gn_corner_begin_cascade(l, frame, s);
+#endif
     return 1;
 }
 

@@ -11,7 +11,6 @@
 #include "shade/gn_exact.h"
 #include "shade/gn_lattice.h"
 #include "shade/gn_light.h"
-#include "shade/gn_levels.h"
 #include "shade/gn_mix.h"
 #include "shade/gn_pixel.h"
 #include "visible/gn_cell.h"
@@ -117,7 +116,7 @@ GN_HOT static void shade_triangle(gn_shading *s, const char *sources, uint32_t i
     else if (!is_exact(s)) {
         shade_spans(s, &taker, first, n_px);
         return;
-    }
+    } else gn_surface_use_bary(frame, &s->surface);
     do {
         int32_t x = s->rect.x0 + (int32_t)(first % stride), y = s->rect.y0 + (int32_t)(first / stride);
         GN_COUNT(runs, 1);
@@ -368,7 +367,7 @@ GN_HOT void gn_shade_tile(const gn_frame *frame, gn_scratch *scratch, uint32_t t
     if (!n_linked && !(layered && gn_layers_count(scratch))) return;
     s->cache.object = NULL;
 #if GN_INTERPOLATES
-    gn_levels_forget(&s->lattice);
+    gn_lattice_begin_tile(s);
 #endif
     s->cache.lights = GN_PUNCTUAL_LIGHTS && GN_TILE_LIGHTS ? gn_punctual_in_tile(frame, &s->rect) : UINT64_MAX;
     for (uint32_t i = 0; i < GN_VERTEX_CACHE; i++) gn_vertex_drop(&scratch->vertex[i]);

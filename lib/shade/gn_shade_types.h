@@ -52,6 +52,9 @@ typedef struct {
     gn_bfloat depth_scale; /* det * 2F: Z = depth_scale / (n . ray) */
     int32_t z_min_q16, z_max_q16;
     gn_bary bary;
+#if GN_INTERPOLATES
+    int32_t v_q16[3][3]; /* vertices in view space */
+#endif
     /* vertex 0, then differences of vertices 1 and 2 to it */
     int32_t normal_q30[3][3]; /* flat: the face normal and zeros */
     int32_t attribute_q16[3][GN_ATTRIBUTE_COUNT];
@@ -326,6 +329,12 @@ typedef struct {
 
 enum { GN_SPANS = 32, GN_PART_WIDTH = 64, GN_PART_ROWS = 16 };
 
+/* A directional view's coordinates of points in view space: texels, ray_shift fraction bits more than Q16. */
+typedef struct {
+    const gn_light_view *view; /* NULL: none */
+    int32_t m[3][3];
+} gn_view_matrix;
+
 /* A cell that is being split into four. */
 typedef struct {
     int16_t x, y;
@@ -342,6 +351,9 @@ typedef struct gn_lattice {
     gn_run_span span[GN_SPANS]; /* pixels of the surface, top down and left to right */
     int32_t n_spans;
     gn_screen_plane plane;
+#if GN_SHADOWS
+    gn_view_matrix matrix; /* of the view that was used last */
+#endif
     gn_lattice_light light[GN_SURFACE_LIGHTS];
     int32_t has_face, face_q30[3];    /* the face's normal, once something has asked for it */
     const gn_light_view *offset_view; /* flat surfaces: a directional view, NULL: none, */
