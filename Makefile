@@ -16,7 +16,7 @@ OWN_SCENES := $(foreach s,cube sundial avenue desk room fence mixed,host/scenes/
 WERROR ?=
 WARN := -Wall -Wextra -Wconversion -Wsign-conversion -Wdouble-promotion -Wshadow -Wundef $(WERROR)
 # Room for any scene.
-ROOM := -DGN_SEPARATE_FILES -DGN_RAW_VIEWS=1 -DGN_STATIC_LAYER=1 -DGN_MAX_WIDTH=2048 -DGN_MAX_HEIGHT=2048 -DGN_MAX_TRIANGLES=65534 \
+ROOM := -DGN_SEPARATE_FILES -DGN_RAW_VIEWS=1 -DGN_ERROR_FIELDS=1 -DGN_STATIC_LAYER=1 -DGN_MAX_WIDTH=2048 -DGN_MAX_HEIGHT=2048 -DGN_MAX_TRIANGLES=65534 \
   -DGN_MAX_TILE_REFS=1000000 -DGN_MAX_LIGHTS=64 -DGN_SURFACE_LIGHTS=64 -DGN_MAX_OBJECTS=65535 -DGN_MAX_SHADOW_TILES=16 \
   -DGN_MAX_OTHER_TILES=16 -DGN_VERTEX_CACHE=1024
 # The host build of the library: every knob at run time. The pixels are the target's, bit for bit. For the tests alone: CONSTANTS.
@@ -37,9 +37,9 @@ TESTS := $(basename $(notdir $(TEST_SRC)))
 ALONE := $(patsubst tests/%.c,$(BUILD)/%,$(subst unit/,,$(subst property/,,$(wildcard tests/unit/test_*.c tests/property/test_*.c))))
 ALONE := $(filter-out %/test_culling %/test_golden %/test_groups %/test_stages,$(ALONE))
 # And those that are built with constants for knobs, too. The others choose their knobs: casters
-# corner and radiance sweep what may be lost over all presets, arrival has the finest, refused what a knob refuses, runs and tiles
+# corner and radiance sweep what may be lost over all presets, arrival has the finest, golden_random chooses its own, refused what a knob refuses, runs and tiles
 # have sizes of their own.
-CONSTANT := $(filter-out %/test_arrival %/test_casters %/test_corner %/test_radiance %/test_refused %/test_runs %/test_tiles,$(ALONE))
+CONSTANT := $(filter-out %/test_arrival %/test_casters %/test_corner %/test_golden_random %/test_radiance %/test_refused %/test_runs %/test_tiles,$(ALONE))
 
 LIB_OBJ := $(LIB_SRC:%.c=$(BUILD)/obj/%.o)
 HOST_OBJ := $(HOST_SRC:%.c=$(BUILD)/obj/%.o)

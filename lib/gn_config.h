@@ -50,6 +50,7 @@
 #define GN_PRESETS_POSITION_BITS        32, 32, 32, 32
 #define GN_PRESETS_NORMAL_BITS          16, 16, 16, 16
 #define GN_PRESETS_TRIANGLE_GROUPS      0, 0, 0, 0
+#define GN_PRESETS_TRANSPARENT_LAYERS   0, 0, 0, 0
 
 #ifndef GN_SUBPIXEL_BITS
 #define GN_SUBPIXEL_BITS GN_PICK(GN_PRESETS_SUBPIXEL_BITS)
@@ -105,6 +106,9 @@
 #endif
 #ifndef GN_TRIANGLE_GROUPS
 #define GN_TRIANGLE_GROUPS GN_PICK(GN_PRESETS_TRIANGLE_GROUPS)
+#endif
+#ifndef GN_TRANSPARENT_LAYERS
+#define GN_TRANSPARENT_LAYERS GN_PICK(GN_PRESETS_TRANSPARENT_LAYERS)
 #endif
 
 /* Capacities. */
@@ -276,14 +280,17 @@
 #define GN_RUNTIME_KNOBS 0
 #endif
 
-/* How the library is built. A program may be compiled with another size_first than the library: no type depends on it.
- */
+/* How the library is built. A program may be compiled with another size_first or error_fields than the library: no type
+ * depends on them. */
 #ifndef GN_SIZE_FIRST
 #ifdef __OPTIMIZE_SIZE__
 #define GN_SIZE_FIRST 1
 #else
 #define GN_SIZE_FIRST 0
 #endif
+#endif
+#ifndef GN_ERROR_FIELDS
+#define GN_ERROR_FIELDS 0
 #endif
 
 /* Whether the boxes of objects are needed. */
@@ -299,6 +306,13 @@
  * can do both). */
 #define GN_RECORDS (GN_RUNTIME_KNOBS || !GN_TRIANGLE_GROUPS)
 #define GN_GROUPS  (GN_RUNTIME_KNOBS || GN_TRIANGLE_GROUPS)
+
+/* Layers of transparent surfaces that there is memory for. */
+#if GN_RUNTIME_KNOBS
+#define GN_LAYERS_MAX 3
+#else
+#define GN_LAYERS_MAX (GN_TRANSPARENT_LAYERS)
+#endif
 
 /* Whether textures may say where it is emitted. */
 #define GN_GLOW_TEXTURES (GN_EMISSIVE && GN_TEXTURES && GN_EMISSIVE_TEXTURES)

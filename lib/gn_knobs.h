@@ -43,7 +43,11 @@
     X(triangle_groups, TRIANGLE_GROUPS, 0, 4096,                                                                       \
       "groups of neighbouring triangles in their meshes, in place of records of triangles: each screen tile sets up "  \
       "again the groups that it meets; 0: records; the same picture",                                                  \
-      "4 bytes each in place of 32 bytes per triangle, and of tile references; instructions")
+      "4 bytes each in place of 32 bytes per triangle, and of tile references; instructions")                          \
+    X(transparent_layers, TRANSPARENT_LAYERS, 0, 3,                                                                    \
+      "surfaces of alpha mode blend that are mixed, of each pixel the nearest ones, with what is behind them; 0: "     \
+      "they are dithered",                                                                                             \
+      "RAM: 4 bytes per tile pixel and layer; a transparent pixel is shaded again and mixed")
 
 #define GN_CAPACITY_KNOBS(X)                                                                                           \
     X(max_width, MAX_WIDTH, 1, 2048, "largest picture width in pixels", "2 bytes per screen tile")                     \
@@ -78,7 +82,9 @@
     X(size_first, SIZE_FIRST, 0, 1,                                                                                    \
       "less flash rather than fewer instructions: one code path where two give the same bits, calls in place of "      \
       "inline code; by default 1 where the compiler optimises for size (-Os)",                                         \
-      "instructions; the same picture")
+      "instructions; the same picture")                                                                                \
+    X(error_fields, ERROR_FIELDS, 0, 1, "errors name the field that is wrong: gn_detail.field",                        \
+      "flash; 3 KB more where gn_field_text is called")
 
 #define GN_FEATURE_KNOBS(X)                                                                                            \
     X(shadows, SHADOWS, 0, 1, "shadow maps", "atlas, rasteriser and filters")                                          \

@@ -88,15 +88,16 @@ enum {
     GN_OBJECT_DEFAULT = GN_OBJECT_CASTS | GN_OBJECT_RECEIVES
 };
 
-typedef enum { GN_ALPHA_OPAQUE, GN_ALPHA_CLIP, GN_ALPHA_DITHER } gn_alpha;
+typedef enum { GN_ALPHA_OPAQUE, GN_ALPHA_CLIP, GN_ALPHA_DITHER, GN_ALPHA_BLEND } gn_alpha;
 
 typedef struct {
     const gn_mesh *mesh;
     gn_affine to_world;
     uint32_t albedo_uq16[3]; /* linear, 0..65536 */
     uint32_t flags;
-    gn_alpha visible_alpha; /* clip: no surface where alpha is below the cutoff; dither: where it is below the noise */
-    gn_alpha caster_alpha;  /* the same for its shadow */
+    gn_alpha visible_alpha; /* clip: no surface where alpha is below the cutoff; dither: where it is below the noise;
+                               blend: mixed with what is behind it, dithered without GN_TRANSPARENT_LAYERS */
+    gn_alpha caster_alpha;  /* the same for its shadow; not blend */
     uint32_t alpha_uq16;    /* 0..65536, times the texture's; matters where an alpha mode does */
     uint32_t alpha_cutoff_uq16; /* 0..65536 */
     uint32_t specular_uq16[3];  /* linear, 0..65536; 0: none */
@@ -182,8 +183,9 @@ typedef struct {
     uint32_t penumbra_uq16; /* disk radius: directional in 0.02 units, spot and point in 0.004 tiles; 0 .. 64.0 */
     uint32_t disk_samples;  /* disk filter: 1..64 */
     gn_mixing mixing;
-    gn_tile_sizes tile_sizes; /* worth: by pixels that are looked up; needs tight_fit */
-    gn_fit fit;               /* tight needs tight_fit */
+    gn_tile_sizes tile_sizes; /* worth: by pixels that are looked up; needs tight_fit. Default of all presets but
+                                 accurate */
+    gn_fit fit;               /* tight needs tight_fit. Default of all presets but accurate */
     uint32_t main_light;      /* 1: only the brightest directional light has cascades; others take one tile of the
                                  local-light atlas */
     uint32_t caster_culling;  /* 1: the same pixels, fewer casters */

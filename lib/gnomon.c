@@ -22,6 +22,9 @@
 #include "scene/gn_pose.c"
 #endif
 #include "scene/gn_scene.c"
+#if GN_ERROR_FIELDS
+#include "scene/gn_field.c"
+#endif
 #if GN_VERTEX_JOINTS
 #include "scene/gn_scene_skin.c"
 #endif
@@ -132,6 +135,7 @@
 /* Their colours. */
 #include "shade/gn_arrival.c"
 #include "shade/gn_exact.c"
+#include "shade/gn_facet.c"
 #if GN_INTERPOLATES
 #include "shade/gn_corner.c"
 #include "shade/gn_corner_cascade.c"
@@ -152,6 +156,10 @@
 #include "shade/gn_shadow.c"
 #include "shade/gn_surface.c"
 #include "shade/gn_surface_lights.c"
+#if GN_LAYERS_MAX
+#include "visible/gn_layers.c"
+#include "shade/gn_mix.c"
+#endif
 #endif
 
 #if GN_PICKING

@@ -12,11 +12,11 @@
 # files     10^6 damaged files of each of six kinds, scenes and pictures (tests/tool/test_fuzz.c), an hour; KINDS="png glb": of these
 # models    the accuracy of meshes that MODELS names (tests/oracle/test_accuracy.c), a minute each
 # machines  the golden frames and the panel tests on big-endian hosts and as WebAssembly (tests/firmware/machines.sh), ten minutes
-# accuracy, rows, seams    hundreds of pictures against floors, which make test draws without sanitizers: a quarter of an hour
+# accuracy, rows, seams, views    hundreds of pictures against floors, which make test draws without sanitizers: a quarter of an hour
 # suite     make test with THOROUGH=1: also the combinations whose parts it tests each, half an hour
 cd "$(dirname "$0")/.." || exit 1
 build=build/soak
-: "${SEED:=$(date +%Y%m%d)}" "${CAMPAIGNS:=random shipped files panels math culling census accuracy rows seams machines suite ${MODELS:+models }extremes}"
+: "${SEED:=$(date +%Y%m%d)}" "${CAMPAIGNS:=random shipped files panels math culling census accuracy rows seams views machines suite ${MODELS:+models }extremes}"
 asked=$SCENES
 passed=0 failed=0
 
@@ -84,7 +84,7 @@ for name in $CAMPAIGNS; do
     shipped) shipped ;;
     suite) suite ;;
     machines) machines ;;
-    census | culling | math | models | accuracy | rows | seams) campaign $name 0 ;;
+    census | culling | math | models | accuracy | rows | seams | views) campaign $name 0 ;;
     *) echo "no such campaign: $name" && failed=$((failed + 1)) ;;
     esac
 done

@@ -57,6 +57,10 @@ static void cut(void)
 {
     demo.object[0].visible_alpha = demo.object[1].visible_alpha = GN_ALPHA_DITHER;
 }
+static void layers(void)
+{
+    demo.object[0].visible_alpha = demo.object[1].visible_alpha = GN_ALPHA_BLEND;
+}
 static void baked_light(void)
 {
     demo.object[1].baked_uq12 = baked;
@@ -178,6 +182,7 @@ static const struct {
     {"textures", "plain", texture},
     {"textures_bilinear", "plain", smooth_texture},
     {"visible_alpha", "plain", cut},
+    {"transparent_layers", "plain", layers},
     {"baked_light", "plain", baked_light},
     {"spot_light", "plain", spot},
     {"spot_shadow", "spot_light", lamp_shadow},

@@ -62,31 +62,48 @@ void display_pack(uint8_t *out, const uint8_t *in, gn_format format, panel_pixel
     else exchange_bytes(out, in, row_bytes * (size_t)n_rows);
 }
 
-static void put_grey(uint8_t *shadow, int width, int x, int y, int w, const uint8_t *in)
+/* A pixel of the turned tile: its two bytes, the first one low; grey; light or dark. */
+static unsigned tile_at(const display_tile *t, int x, int y)
 {
-    uint8_t *row = shadow + (size_t)y * display_row_bytes(GN_FORMAT_GREY4, width);
-    for (int i = 0; i < w; i++, x++) {
-        unsigned grey = (unsigned)in[i / 2] >> (i % 2 ? 0 : 4) & 15U, high = x % 2 ? 0 : 4;
-        row[x / 2] = (uint8_t)((row[x / 2] & (0xF0U >> high)) | grey << high);
+    const int turns = DISPLAY_TURNS ? t->quarter_turns : 0;
+    const int column = turns == 0 ? x : turns == 1 ? y : turns == 2 ? t->w - 1 - x : t->w - 1 - y;
+    const int row = turns == 0 ? y : turns == 1 ? t->h - 1 - x : turns == 2 ? t->h - 1 - y : x;
+    const uint8_t *in = t->in + (size_t)row * display_row_bytes(t->format, t->w);
+    if (t->format == GN_FORMAT_GREY4) return (unsigned)in[column / 2] >> (column % 2 ? 0 : 4) & 15U;
+    if (t->format == GN_FORMAT_MONO1) return (unsigned)in[column / 8] >> (7 - column % 8) & 1U;
+    return (unsigned)in[2 * column] | (unsigned)in[2 * column + 1] << 8;
+}
+
+static void put_pixel(uint8_t *out, panel_pixels pixels, int stride, int x, int y, unsigned v)
+{
+    if (pixels == PANEL_PIXELS_GREY4) {
+        uint8_t *at = out + (size_t)y * display_row_bytes(GN_FORMAT_GREY4, stride) + x / 2;
+        *at = (uint8_t)(x % 2 ? (*at & 0xF0U) | v : (*at & 15U) | v << 4);
+    } else {
+        uint8_t *at = out + (size_t)(y / 8) * (size_t)stride + x;
+        *at = (uint8_t)((*at & ~(1U << y % 8)) | v << y % 8);
     }
 }
 
-static void put_mono(uint8_t *shadow, int width, int x, int y, int w, const uint8_t *in)
+void display_pack_turned(uint8_t *out, const display_tile *tile, panel_pixels pixels, int y, int n_rows)
 {
-    uint8_t *page = shadow + (size_t)(y / 8) * (size_t)width;
-    unsigned row = (unsigned)y % 8;
-    for (int i = 0; i < w; i++) {
-        unsigned light = (unsigned)in[i / 8] >> (7 - i % 8) & 1U;
-        page[x + i] = (uint8_t)((page[x + i] & ~(1U << row)) | light << row);
+    const int w = tile->quarter_turns & 1 ? tile->h : tile->w, native = display_is_native(tile->format, pixels);
+    const int several = tile->format == GN_FORMAT_GREY4 || tile->format == GN_FORMAT_MONO1;
+    for (int row = 0; row < n_rows; row++) {
+        if (pixels == PANEL_PIXELS_PAGE1 && row % 8 == 0) memset(out + (size_t)(row / 8) * (size_t)w, 0, (size_t)w);
+        for (int x = 0; x < w; x++) {
+            const unsigned v = tile_at(tile, x, y + row);
+            uint8_t *at = out + 2 * ((size_t)row * (size_t)w + (size_t)x);
+            if (several) put_pixel(out, pixels, w, x, row, v);
+            else at[!native] = (uint8_t)v, at[native] = (uint8_t)(v >> 8);
+        }
     }
 }
 
-void display_put(uint8_t *shadow, int width, panel_pixels pixels, int x, int y, int w, int h, const uint8_t *in)
+void display_put(uint8_t *shadow, int width, const display_tile *tile, int x, int y)
 {
-    int grey = pixels == PANEL_PIXELS_GREY4;
-    size_t row_bytes = display_row_bytes(grey ? GN_FORMAT_GREY4 : GN_FORMAT_MONO1, w);
-    for (int i = 0; i < h; i++, in += row_bytes) {
-        if (grey) put_grey(shadow, width, x, y + i, w, in);
-        else put_mono(shadow, width, x, y + i, w, in);
-    }
+    const int turned = tile->quarter_turns & 1, w = turned ? tile->h : tile->w, h = turned ? tile->w : tile->h;
+    const panel_pixels pixels = tile->format == GN_FORMAT_GREY4 ? PANEL_PIXELS_GREY4 : PANEL_PIXELS_PAGE1;
+    for (int j = 0; j < h; j++)
+        for (int i = 0; i < w; i++) put_pixel(shadow, pixels, width, x + i, y + j, tile_at(tile, i, j));
 }

@@ -8,7 +8,7 @@ rm -rf "${out:?}/$name" "$out/$name.tar.gz"
 mkdir -p "$out/$name" || exit 1
 
 keywords() { # functions KEYWORD2, types KEYWORD1, constants LITERAL1: a tab between
-    cat lib/gnomon.h lib/gn_scene_types.h lib/gn_rig.h | awk '
+    cat lib/gnomon.h lib/gn_scene_types.h lib/gn_field.h lib/gn_rig.h | awk '
         { sub(/\/\*.*/, "") }
         /^} gn_[a-z_]*;/ { gsub(/[};]/, ""); print $1 "\tKEYWORD1" }
         match($0, /^[a-z].*[ *]gn_[a-z_0-9]+\(/) { sub(/\(.*/, ""); sub(/.*[ *]/, ""); print $0 "\tKEYWORD2" }
@@ -22,6 +22,7 @@ grep -v '^#' boards/packages/list | while read -r how from to; do
     copy) cp -r "$from" "$out/$name/$to" ;;
     fill) sed "s/@VERSION@/$version/g" "$from" >"$out/$name/$to" ;;
     one) awk -f boards/packages/one_file.awk -v root=lib "$from" >"$out/$name/$to" ;;
+    options | header) sh boards/packages/kconfig.sh "$how" >"$out/$name/$to" ;;
     keywords) keywords >"$out/$name/$to" ;;
     *) false ;;
     esac || { echo "list: $how $from $to" >&2; exit 1; }

@@ -18,7 +18,7 @@ package=$(echo "$tmp"/unpacked/gnomon-*)
 for file in $(awk '!/^#/ { print $3 }' boards/packages/list); do
     [ -e "$package/$file" ] && pass || fail "$file is not in the archive"
 done
-for example in boards/packages/arduino/*.ino boards/packages/cmake/*.c; do
+for example in boards/packages/arduino/*.ino boards/packages/cmake/*.c boards/packages/zephyr/sample/main.c; do
     [ "$(wc -l <"$example")" -le 60 ] && pass || fail "$example has more than 60 lines"
 done
 
@@ -56,6 +56,71 @@ if command -v cmake >/dev/null 2>&1; then
     fi
 else fail "cmake is missing: apt-get install cmake"
 fi
+
+# ---- ESP-IDF and Zephyr: their build files, on stand-ins of what an SDK gives them, with the defaults of Kconfig ------------------
+
+# A header of what menuconfig would write. Each option: a kind with a text, a range unless it is a switch, a default in it.
+defaults() {
+    awk '
+        $1 == "config" { name = $2; n++ }
+        $1 == "bool" || $1 == "int" { kind = $1; kinds++ }
+        $1 == "range" { lo = $2; hi = $3 }
+        $1 == "default" && kind == "bool" { if ($2 == "y") print "#define CONFIG_" name " 1"; good += $2 == "y" || $2 == "n" }
+        $1 == "default" && kind == "int" { print "#define CONFIG_" name " " $2; good += $2 >= lo && $2 <= hi }
+        END { if (n < 50 || kinds != n || good != n) exit 1 }' "$1"
+}
+mkdir -p "$tmp/sdk"
+for options in esp-idf/gnomon/Kconfig.knobs zephyr/gnomon/zephyr/Kconfig.knobs; do
+    defaults "$package/$options" >"$tmp/sdk/sdkconfig.h" && pass || fail "$options: an option without a kind, or with a default out of range"
+done
+sed 's/MAX_TRIANGLES 500/MAX_TRIANGLES 501/' "$tmp/sdk/sdkconfig.h" >"$tmp/sdk/other.h"
+if command -v cmake >/dev/null 2>&1; then
+    cat >"$tmp/sdk/CMakeLists.txt" <<'CMAKE'
+cmake_minimum_required(VERSION 3.13)
+project(sdk C)
+set(COMPONENT_LIB gnomon)
+set(CONFIG_GNOMON y)
+macro(idf_component_register)
+  cmake_parse_arguments(C "" "" "SRCS;INCLUDE_DIRS" ${ARGN})
+  add_library(gnomon STATIC ${C_SRCS})
+  target_include_directories(gnomon PUBLIC ${C_INCLUDE_DIRS} ${SDK})
+  target_compile_definitions(gnomon PUBLIC ESP_PLATFORM)
+endmacro()
+macro(zephyr_library_named name)
+  add_library(${name} STATIC)
+  target_compile_options(${name} PUBLIC -include ${SDK}/sdkconfig.h)
+endmacro()
+macro(zephyr_library_sources)
+  target_sources(gnomon PRIVATE ${ARGN})
+endmacro()
+macro(zephyr_include_directories)
+  target_include_directories(gnomon PUBLIC ${ARGN})
+endmacro()
+macro(zephyr_compile_definitions)
+  target_compile_definitions(gnomon PUBLIC ${ARGN})
+endmacro()
+add_subdirectory(${MODULE} module)
+add_executable(spin ${SPIN})
+target_link_libraries(spin gnomon)
+CMAKE
+    for module in esp-idf/gnomon zephyr/gnomon/zephyr; do
+        at=$tmp/sdk-$(dirname "$module" | tr / -)
+        ok cmake -S "$tmp/sdk" -B "$at" "-DMODULE=$package/$module" "-DSPIN=$spin" "-DSDK=$tmp/sdk"
+        ok cmake --build "$at"
+        same "$at/spin"
+    done
+fi
+# Kconfig reaches the library: a library of other options refuses the program.
+kconfig="-DGN_USER_CONFIG=\"gnomon_kconfig.h\" -I$package/zephyr/gnomon/src"
+ok gcc -std=c99 -w -include "$tmp/sdk/other.h" $kconfig -c -o "$tmp/other.o" "$package/zephyr/gnomon/src/gnomon.c"
+ok gcc -std=c99 -w -include "$tmp/sdk/sdkconfig.h" $kconfig -o "$tmp/mixed" "$spin" "$tmp/other.o"
+"$tmp/mixed" 2>&1 | grep -q "different configurations" && pass || fail "an option of Kconfig does not reach the library"
+for key in version description license dependencies; do
+    grep -q "^$key: *" "$package/esp-idf/gnomon/idf_component.yml" && pass || fail "idf_component.yml has no $key"
+done
+for file in $(sed -n 's/^  \(cmake\|kconfig\): //p' "$package/zephyr/gnomon/zephyr/module.yml") samples/spin/prj.conf samples/spin/src/main.c; do
+    [ -e "$package/zephyr/gnomon/$file" ] && pass || fail "zephyr: there is no $file"
+done
 
 # ---- Arduino: the examples by its own builder, on a host platform --------------------------------------------------------------
 

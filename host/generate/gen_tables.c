@@ -152,9 +152,9 @@ int main(void)
     print_disk_table();
     for (int i = 0; i <= 255; i++) v[i] = 65535.0 * linear(i / 255.0);
     print_tent_sums();
-    printf("\n#if GN_TEXTURES");
+    printf("\n#if GN_TEXTURES || GN_LAYERS_MAX");
     print_u16("gn_srgb_decode_table", v, 256);
-    printf("\n#if GN_TEXTURE_FORMATS & 6");
+    printf("\n#if (GN_TEXTURE_FORMATS & 6) || GN_LAYERS_MAX");
     print_linear("gn_linear_31_table", 31);
     print_linear("gn_linear_63_table", 63);
     printf("#endif\n#endif\n");

@@ -36,6 +36,11 @@ static bool allocate(ref_frame *frame)
     p->cascade = calloc(n, sizeof *p->cascade);
     frame->hits = calloc(n, sizeof *frame->hits);
     bool ok = p->rgb && p->depth && p->normal && p->triangle && p->cascade && frame->hits;
+    if (p->n_layers) {
+        p->layer = calloc(n * (size_t)p->n_layers, sizeof *p->layer);
+        p->solid = calloc(3 * n, sizeof *p->solid);
+        ok = ok && p->layer && p->solid;
+    }
     for (size_t l = 0; l < p->n_lights; l++) {
         p->shadow[l] = calloc(n, sizeof *p->shadow[l]);
         p->ndotl[l] = calloc(n, sizeof *p->ndotl[l]);
@@ -63,6 +68,7 @@ const char *ref_begin(ref_frame *frame, ref_picture *out, const scene *s, const 
     out->width = options->width;
     out->height = options->height;
     out->n_lights = s->n_lights;
+    out->n_layers = options->transparent_layers;
     frame->camera = ref_make_camera(&s->camera, options->width, options->height);
     return prepare(frame);
 }
@@ -99,6 +105,8 @@ void ref_free(ref_picture *p)
     free(p->normal);
     free(p->triangle);
     free(p->cascade);
+    free(p->layer);
+    free(p->solid);
     for (size_t l = 0; l < REF_MAX_LIGHTS; l++) {
         free(p->shadow[l]);
         free(p->ndotl[l]);

@@ -25,8 +25,19 @@ typedef struct {
     /* Of the engine whose automatic bias this is: what it rounds decides how much bias is enough. 0: it does not.
      */
     int shadow_subpixel_bits, weight_bits, depth_bits, other_depth_bits, shadow_depth_frac, newton_steps;
-    double unit; /* its smallest step of length */
+    double unit;            /* its smallest step of length */
+    int transparent_layers; /* surfaces of alpha mode blend that are mixed; 0: they are dithered */
 } ref_options;
+
+/* A surface that is mixed with what is behind it. */
+typedef struct {
+    double depth;
+    int64_t triangle;
+    double bary[3];
+    bool behind; /* seen from its back */
+    double alpha;
+    double rgb[3]; /* linear */
+} ref_layer;
 
 /* One light view: a cascade, a single directional tile, a spot's cone or a face of a point light's cube. */
 typedef struct {
@@ -64,6 +75,9 @@ typedef struct {
 typedef struct {
     int width, height;
     double *rgb;       /* 3 per pixel, after clamp and encode, 0..1 */
+    int n_layers;      /* transparent_layers */
+    ref_layer *layer;  /* n_layers per pixel, the nearest first; alpha 0: none */
+    double *solid;     /* with layers: 3 per pixel, linear, of what is behind them */
     double *depth;     /* view depth; INFINITY where there is no surface */
     double *normal;    /* 3 per pixel, unit */
     int64_t *triangle; /* object << 32 | triangle, -1 where there is no surface */
@@ -79,6 +93,10 @@ typedef struct {
 /* Renders the scene. Returns 0; -1 with one line in error if memory or a limit runs out. */
 int ref_render(ref_picture *out, const scene *s, const ref_options *options, char *error, size_t error_bytes);
 void ref_free(ref_picture *p);
+
+/* A pixel as shown in an output of so many levels above 0 per channel, encoded and not rounded itself: transparent
+ * surfaces are mixed with what is behind them when both have been rounded. */
+void ref_shown(const ref_picture *p, size_t pixel, const double levels[3], bool srgb, double rgb[3]);
 
 /* ---- stages, exposed for tests ---- */
 

@@ -99,6 +99,7 @@ typedef struct ref_surface {
     bool curved;       /* N changes over the triangle */
     vec3 normal;       /* n */
     bool behind;       /* seen from behind: the normals of vertices count with the other sign */
+    bool layer;        /* a transparent surface: views do not show it */
     vec3 albedo;
     double view_depth;
     ref_selection selected;
@@ -182,9 +183,13 @@ void ref_find_surfaces(ref_frame *frame);
 /* ref_surface.c */
 vec3 ref_mix_vertices(const double *attribute, const uint32_t idx[3], const double bary[3]); /* 3 per vertex */
 ref_surface ref_surface_at(const ref_frame *frame, size_t pixel);
+ref_surface ref_surface_of(const ref_frame *frame, size_t pixel, int64_t triangle, const ref_hit *hit, double depth);
 
 /* ref_shadow.c */
 double ref_shadow(const ref_frame *frame, const ref_surface *at, size_t l, vec3 to_light); /* shadow_l */
+
+/* ref_pixel.c: used by textures, too */
+double ref_srgb_decode(double encoded);
 
 /* ref_light.c */
 void ref_light_pixels(ref_frame *frame); /* picture->rgb: linear radiance */

@@ -44,12 +44,12 @@ static vec3 add_light(ref_frame *frame, const ref_surface *at, size_t l, size_t 
 {
     const vec3 none = {0.0, 0.0, 0.0}, specular = vec3_load(at->triangle.object->specular);
     ref_picture *picture = frame->picture;
-    picture->ndotl[l][pixel] = -1.0;
+    if (!at->layer) picture->ndotl[l][pixel] = -1.0;
     if (!at->triangle.instance->lit[l]) return none;
     const ref_incidence incidence = ref_light_at(&frame->s->lights[l], at->world);
     if (!(incidence.attenuation > 0.0)) return none;
     const double ndotl = cosine(frame, at, l, incidence.to_light);
-    const bool shown = !at_rim(&frame->s->lights[l], at, incidence.attenuation);
+    const bool shown = !at->layer && !at_rim(&frame->s->lights[l], at, incidence.attenuation);
     if (shown) picture->ndotl[l][pixel] = ndotl;
     if (!(ndotl > 0.0)) return none;
     const double shadow = ref_shadow(frame, at, l, incidence.to_light);
@@ -81,6 +81,24 @@ static vec3 background_at(const ref_frame *frame, int row)
     return frame->s->gradient ? vec3_add(vec3_scale(top, 1.0 - t), vec3_scale(bottom, t)) : top;
 }
 
+/* Transparent surfaces over what is behind them. What has no alpha is hidden or none. [M8] */
+static vec3 add_layers(ref_frame *frame, size_t pixel, vec3 radiance)
+{
+    ref_picture *p = frame->picture;
+    vec3_store(p->solid + 3 * pixel, radiance);
+    for (int k = p->n_layers - 1; k >= 0; k--) {
+        ref_layer *layer = &p->layer[pixel * (size_t)p->n_layers + (size_t)k];
+        if (!(layer->alpha > 0.0)) continue;
+        const ref_hit hit = {.bary = {layer->bary[0], layer->bary[1], layer->bary[2]}, .behind = layer->behind};
+        ref_surface at = ref_surface_of(frame, pixel, layer->triangle, &hit, layer->depth);
+        at.layer = true;
+        const vec3 front = light_surface(frame, &at, pixel);
+        vec3_store(layer->rgb, front);
+        radiance = vec3_add(vec3_scale(front, layer->alpha), vec3_scale(radiance, 1.0 - layer->alpha));
+    }
+    return radiance;
+}
+
 /* Also what the views of cascades and normals show. [A6] */
 void ref_light_pixels(ref_frame *frame)
 {
@@ -94,6 +112,7 @@ void ref_light_pixels(ref_frame *frame)
             frame->picture->cascade[i] = (int8_t)at.selected.here;
             vec3_store(frame->picture->normal + 3 * i, at.normal);
         }
+        if (frame->picture->n_layers) radiance = add_layers(frame, i, radiance);
         vec3_store(frame->picture->rgb + 3 * i, radiance);
     }
 }

@@ -66,6 +66,25 @@ static int pixel_coverage(const view_triangle *triangle, double s, double t, dou
     return sides == 3 ? 1 : sides == -3 ? -1 : 0;
 }
 
+/* Puts a transparent surface between those that are kept, behind others of its depth, which were drawn before. [M8] */
+static void add_layer(ref_frame *frame, const view_triangle *triangle, const ref_hit *hit, double depth, size_t pixel)
+{
+    ref_picture *p = frame->picture;
+    ref_layer *layer = p->layer + pixel * (size_t)p->n_layers;
+    ref_layer next = {.depth = depth,
+                      .triangle = triangle->id,
+                      .bary = {hit->bary[0], hit->bary[1], hit->bary[2]},
+                      .behind = hit->behind,
+                      .alpha = ref_alpha(frame->s, &triangle->source, hit->bary)};
+    if (!(next.alpha > 0.0)) return;
+    for (int k = 0; k < p->n_layers; k++) {
+        const ref_layer was = layer[k];
+        if (was.alpha > 0.0 && was.depth <= next.depth) continue;
+        layer[k] = next;
+        next = was;
+    }
+}
+
 /* The nearest depth wins, the first drawn at equal depths. Where alpha cuts [M8] there is no surface, and what is
  * behind is seen. [R2] */
 static void draw_on_pixel(ref_frame *frame, const view_triangle *triangle, int i, int j)
@@ -84,6 +103,10 @@ static void draw_on_pixel(ref_frame *frame, const view_triangle *triangle, int i
         hit.bary[0] * triangle->depth[0] + hit.bary[1] * triangle->depth[1] + hit.bary[2] * triangle->depth[2];
     const size_t pixel = (size_t)j * (size_t)frame->picture->width + (size_t)i;
     if (!(depth >= camera->near) || !(depth < frame->picture->depth[pixel])) return;
+    if (object->visible_alpha == SCENE_ALPHA_BLEND && frame->picture->n_layers) {
+        add_layer(frame, triangle, &hit, depth, pixel);
+        return;
+    }
     if (object->visible_alpha != SCENE_ALPHA_OPAQUE &&
         ref_alpha_cuts(object->visible_alpha, ref_alpha(frame->s, &triangle->source, hit.bary), object->alpha_cutoff, i,
                        j))
@@ -111,9 +134,21 @@ static void draw_triangle(ref_frame *frame, view_triangle *triangle)
         for (int i = box.x0; i <= box.x1; i++) draw_on_pixel(frame, triangle, i, j);
 }
 
+/* Of the layers those that nothing opaque hides: of the same depth, only what was drawn before it. */
+static void drop_hidden(ref_picture *p, size_t pixel)
+{
+    ref_layer *layer = p->layer + pixel * (size_t)p->n_layers;
+    for (int k = 0; k < p->n_layers; k++)
+        if (layer[k].depth > p->depth[pixel] ||
+            (layer[k].depth == p->depth[pixel] && layer[k].triangle > p->triangle[pixel]))
+            layer[k].alpha = 0.0;
+}
+
 void ref_find_surfaces(ref_frame *frame)
 {
     const size_t n_pixels = (size_t)frame->picture->width * (size_t)frame->picture->height;
+    for (size_t i = 0; i < n_pixels * (size_t)frame->picture->n_layers; i++)
+        frame->picture->layer[i] = (ref_layer){.depth = HUGE_VAL};
     for (size_t i = 0; i < n_pixels; i++) {
         frame->picture->depth[i] = HUGE_VAL;
         frame->picture->triangle[i] = -1;
@@ -130,4 +165,5 @@ void ref_find_surfaces(ref_frame *frame)
             draw_triangle(frame, &triangle);
         }
     }
+    for (size_t i = 0; frame->picture->n_layers && i < n_pixels; i++) drop_hidden(frame->picture, i);
 }

@@ -173,7 +173,7 @@ static ref_seen rectangle(const ref_frame *frame, const ref_light_view *axes, co
     return seen;
 }
 
-/* The smallest rectangle of all turns; of those within a 64th of it the first. None if that saves less than a quarter.
+/* The smallest rectangle of all turns; of those within a 64th of it the first. None if that saves less than 5/16.
  */
 static void see_directional(const ref_frame *frame, ref_seen *seen, const scene_light *light, double first, double last)
 {
@@ -186,7 +186,7 @@ static void see_directional(const ref_frame *frame, ref_seen *seen, const scene_
         ref_seen one = rectangle(frame, &axes, &f);
         const double area = (one.hi[0] - one.lo[0]) * (one.hi[1] - one.lo[1]);
         if (!one.any || area >= limit) continue;
-        limit = area * (turn ? 63.0 / 64.0 : 3.0 / 4.0);
+        limit = area * (turn ? 63.0 / 64.0 : 11.0 / 16.0);
         one.turn = turn;
         *seen = one;
     }

@@ -35,11 +35,9 @@ vec3 ref_mix_vertices(const double *attribute, const uint32_t idx[3], const doub
 }
 
 /* Everything at the pixel's centre: nothing is interpolated between pixels. [R4] */
-ref_surface ref_surface_at(const ref_frame *frame, size_t pixel)
+ref_surface ref_surface_of(const ref_frame *frame, size_t pixel, int64_t id, const ref_hit *hit, double view_depth)
 {
-    const int64_t id = frame->picture->triangle[pixel];
     const ref_triangle t = ref_triangle_of(frame, (size_t)(id >> 32), (size_t)(id & 0xffffffff));
-    const ref_hit *hit = &frame->hits[pixel];
     const vec3 *vertex = t.instance->world;
     const vec3 face = ref_face_normal(&t), n = interpolated_normal(&t, hit, face);
     const vec3 world = vec3_mix(hit->bary, vertex[t.idx[0]], vertex[t.idx[1]], vertex[t.idx[2]]);
@@ -53,11 +51,17 @@ ref_surface ref_surface_at(const ref_frame *frame, size_t pixel)
         .curved = is_curved(&t),
         .normal = vec3_unit(n),
         .behind = hit->behind,
-        .albedo = surface_albedo(frame, &t, hit->bary, frame->picture->depth[pixel]),
-        .view_depth = frame->picture->depth[pixel],
+        .albedo = surface_albedo(frame, &t, hit->bary, view_depth),
+        .view_depth = view_depth,
         .selected = ref_select_cascade(frame, world),
         .x = x,
         .y = y,
         .noise = ref_dither_noise(x, y),
     };
+}
+
+ref_surface ref_surface_at(const ref_frame *frame, size_t pixel)
+{
+    const ref_picture *p = frame->picture;
+    return ref_surface_of(frame, pixel, p->triangle[pixel], &frame->hits[pixel], p->depth[pixel]);
 }

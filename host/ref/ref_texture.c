@@ -83,17 +83,11 @@ static double mix_channel(const scene_texture *t, const footprint *f, int channe
     return sum;
 }
 
-/* IEC 61966-2-1 */
-static double srgb_decode(double encoded)
-{
-    return encoded <= 0.04045 ? encoded / 12.92 : pow((encoded + 0.055) / 1.055, 2.4);
-}
-
 static double mix_decoded(const scene_texture *t, const footprint *f, int channel)
 {
     double sum = 0.0;
     for (int k = 0; k < 4; k++)
-        if (f->weight[k] > 0.0) sum += f->weight[k] * srgb_decode(stored_channel(t, f->texel[k], channel));
+        if (f->weight[k] > 0.0) sum += f->weight[k] * ref_srgb_decode(stored_channel(t, f->texel[k], channel));
     return sum;
 }
 
@@ -192,6 +186,7 @@ bool ref_alpha_cuts(scene_alpha mode, double alpha, double cutoff, int x, int y)
     case SCENE_ALPHA_CLIP:
         return alpha < cutoff;
     case SCENE_ALPHA_DITHER:
+    case SCENE_ALPHA_BLEND: /* without layers */
         return alpha < ref_dither_noise(x, y);
     case SCENE_ALPHA_OPAQUE:
         break;

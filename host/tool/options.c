@@ -38,6 +38,8 @@ const option options[] = {
     {"--outside", BY_ALL, NULL, NULL, "the scene may name files outside its folder"},
     {"--budget", BY_ALL, "N", "a number from 1 to 64",
      "load scenes N times as large as usual, in textures, vertices, triangles, materials and memory (1)"},
+    {"--triangles", BY_RENDER | BY_COMPARE | BY_INFO | BY_COMPILE | BY_ASSET, "N", "triangles from 1 to 100000000",
+     "reduce the meshes to N triangles in all, where that keeps borders, seams and skins; says how far surfaces moved"},
     {"--csv", BY_SWEEP, "FILE", "a path", "every configuration as a table"},
     {"--svg", BY_SWEEP, "FILE", "a path", "every configuration as a plot"},
     {"--all", BY_SWEEP, NULL, NULL, "print every configuration, not only the front"},
@@ -181,6 +183,7 @@ static int take_value(tool_options *o, const char *name, char *value)
     else if (strcmp(name, "--target") == 0) failed = !*(o->target = value);
     else if (strcmp(name, "--orbit") == 0) failed = parse_orbit(value, o);
     else if (strcmp(name, "--budget") == 0) failed = parse_int(value, 1, 64, &o->budget);
+    else if (strcmp(name, "--triangles") == 0) failed = parse_int(value, 1, 100000000, &o->triangles);
     else if (strcmp(name, "--flash") == 0) failed = parse_int(value, 1, BUDGET_MAX, &o->flash);
     else if (strcmp(name, "--optimise") == 0) failed = strncmp(o->optimise = value, "-O", 2) != 0;
     else if (strcmp(name, "--margin") == 0) failed = parse_int(value, 0, 1000, &o->margin);

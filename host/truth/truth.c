@@ -126,6 +126,7 @@ int truth_render(ref_picture *out, const scene *s, const ref_options *options, i
     frame.visibility_user = &tracer;
     if (!fault) fault = draw(&frame, samples);
     if (!fault) ref_encode_pixels(&frame);
+    out->n_layers = 0; /* they are mixed, in the mean of all samples */
     truth_end(&tracer);
     ref_end(&frame);
     forget_views(out);

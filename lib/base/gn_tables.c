@@ -249,7 +249,7 @@ const uint16_t gn_tent_sums[32][16] = {
 };
 #endif
 
-#if GN_TEXTURES
+#if GN_TEXTURES || GN_LAYERS_MAX
 const uint16_t gn_srgb_decode_table[256] = {
     0U, 20U, 40U, 60U, 80U, 99U, 119U, 139U, 159U, 179U, 199U, 219U,
     241U, 264U, 288U, 313U, 340U, 367U, 396U, 427U, 458U, 491U, 526U, 562U,
@@ -275,7 +275,7 @@ const uint16_t gn_srgb_decode_table[256] = {
     63795U, 64372U, 64952U, 65535U,
 };
 
-#if GN_TEXTURE_FORMATS & 6
+#if (GN_TEXTURE_FORMATS & 6) || GN_LAYERS_MAX
 const uint16_t gn_linear_31_table[32] = {
     0U, 164U, 352U, 625U, 992U, 1461U, 2040U, 2734U, 3550U, 4492U, 5565U, 6775U,
     8127U, 9623U, 11269U, 13069U, 15026U, 17143U, 19426U, 21877U, 24499U, 27295U, 30270U, 33426U,

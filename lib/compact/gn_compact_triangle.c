@@ -179,10 +179,10 @@ static gn_status objects(gn_frame *frame, gn_compact_job *job, const gn_compact_
         if ((object->flags ^ view->flags) & view->mask) continue;
         if (!gn_compact_affine_ok(&object->to_world) ||
             !gn_compact_compose(&job->xform, view, &object->to_world, object->mesh->pos_frac_bits))
-            return gn_fail(frame, GN_ERR_OBJECT_TRANSFORM, i);
+            return GN_FAIL_AT(frame, GN_ERR_OBJECT_TRANSFORM, i, GN_FIELD_OBJECT_TO_WORLD);
         for (uint32_t t = 0; t < object->mesh->n_triangles; t++) {
             gn_status status = triangle(frame, job, view, raster, i, object->mesh->idx + 3 * t);
-            if (status) return gn_fail(frame, status, i);
+            if (status) return GN_FAIL_AT(frame, status, i, GN_MESH_FIELD(status));
         }
     }
     return GN_OK;

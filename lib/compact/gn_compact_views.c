@@ -57,6 +57,13 @@ void gn_cam_setup(gn_frame *frame)
     cam->two_sided = GN_OBJECT_TWO_SIDED;
 }
 
+/* Which field a status is about, where errors name fields; gn_views_setup records both. */
+static gn_status about(gn_frame *frame, gn_field field, gn_status status)
+{
+    if (GN_ERROR_FIELDS) frame->detail.field = field;
+    return status;
+}
+
 /* 1 / 2F and near. */
 static gn_status lens(gn_frame *frame)
 {
@@ -64,8 +71,10 @@ static gn_status lens(gn_frame *frame)
     gn_compact_view *cam = &frame->cam;
     uint32_t focal2_q16 = (uint32_t)(((uint64_t)camera->focal_q24 * frame->picture.height + 128U) >> 8);
     int32_t clz;
-    if (camera->half_height_q16) return GN_ERR_CAMERA_FOCAL; /* orthographic */
-    if (!gn_compact_affine_ok(&camera->to_world) || camera->to_world.exp) return GN_ERR_CAMERA_TRANSFORM;
+    if (camera->half_height_q16) return about(frame, GN_FIELD_CAMERA_HALF_HEIGHT, GN_ERR_CAMERA_FOCAL);
+    if (!gn_compact_affine_ok(&camera->to_world) || camera->to_world.exp)
+        return about(frame, GN_FIELD_CAMERA_TO_WORLD, GN_ERR_CAMERA_TRANSFORM);
+    about(frame, GN_FIELD_CAMERA_FOCAL, GN_OK);
     if (camera->focal_q24 >> 29 || focal2_q16 < 1U << 16)
         return GN_ERR_CAMERA_FOCAL; /* 1 <= 2F, and at most 2800 pixels */
     cam->guard = (int32_t)((2U * GUARD_PX << 16) / focal2_q16);
@@ -76,7 +85,8 @@ static gn_status lens(gn_frame *frame)
     /* the half angles' tangents, together below 2: squares fit Q28 */
     if ((uint64_t)(uint32_t)frame->per_px_q29 * (uint32_t)(cam->size[0] + cam->size[1]) >= 1U << 30)
         return GN_ERR_CAMERA_FOCAL;
-    if (camera->near_q16 < 1 << 8 || camera->near_q16 > GN_COMPACT_LENGTH_Q16 / 4) return GN_ERR_CAMERA_DEPTH;
+    if (camera->near_q16 < 1 << 8 || camera->near_q16 > GN_COMPACT_LENGTH_Q16 / 4)
+        return about(frame, GN_FIELD_CAMERA_NEAR, GN_ERR_CAMERA_DEPTH);
     cam->near_q16 = camera->near_q16;
     cam->near_clz = gn_clz32((uint32_t)camera->near_q16);
     cam->near_norm = (uint32_t)camera->near_q16 << cam->near_clz;
@@ -93,30 +103,52 @@ static int bias_ok(const gn_light *light)
     return light->auto_bias == GN_AUTO_BIAS_OFF || (!light->auto_bias && light->bias_normal_q16);
 }
 
+/* The first of the settings that compact_check_light refuses together. */
+static gn_field refused_bias(const gn_light *light)
+{
+    const int32_t *b = light->bias_receiver_q16;
+    if (b[0] | b[1] | b[2] | b[3]) return GN_FIELD_LIGHT_BIAS_RECEIVER;
+    if (light->bias_caster_q16) return GN_FIELD_LIGHT_BIAS_CASTER;
+    if (light->receiver_plane) return GN_FIELD_LIGHT_RECEIVER_PLANE;
+    if (light->near_offset_q16) return GN_FIELD_LIGHT_NEAR_OFFSET;
+    if (light->colour_exp) return GN_FIELD_LIGHT_COLOUR_EXP;
+    if ((uint32_t)light->bias_constant_q16 >> 22) return GN_FIELD_LIGHT_BIAS_CONSTANT;
+    if ((uint32_t)light->bias_slope_q16 >> 22) return GN_FIELD_LIGHT_BIAS_SLOPE;
+    return (uint32_t)light->bias_normal_q16 >> 19 ? GN_FIELD_LIGHT_BIAS_NORMAL : GN_FIELD_LIGHT_AUTO_BIAS;
+}
+
 /* Refuses settings that are not built: biases other than those of casters and along the normal, a near plane that is
  * pulled back, colours out of range. */
-static gn_status compact_check_light(const gn_frame *frame, const gn_light *light)
+static gn_status compact_check_light(gn_frame *frame, const gn_light *light)
 {
     const int32_t *b = light->bias_receiver_q16;
     int32_t none = b[0] | b[1] | b[2] | b[3] | light->bias_caster_q16 | (int32_t)light->receiver_plane |
                    light->near_offset_q16 | light->colour_exp;
     uint32_t bias =
         (uint32_t)(light->bias_constant_q16 | light->bias_slope_q16) >> 6 | (uint32_t)light->bias_normal_q16 >> 3;
-    if (frame->scene->n_lights > 1) return GN_ERR_TOO_MANY_LIGHTS;
-    if (light->kind || light->mode || light->softness == GN_SOFTNESS_SOFT) return GN_ERR_LIGHT_KIND;
-    if (none || bias >> 16 || !bias_ok(light)) return GN_ERR_LIGHT_BIAS;
+    if (frame->scene->n_lights > 1) return about(frame, GN_FIELD_NONE, GN_ERR_TOO_MANY_LIGHTS);
+    if (light->kind || light->mode || light->softness == GN_SOFTNESS_SOFT)
+        return about(frame,
+                     light->kind   ? GN_FIELD_LIGHT_KIND
+                     : light->mode ? GN_FIELD_LIGHT_MODE
+                                   : GN_FIELD_LIGHT_SOFTNESS,
+                     GN_ERR_LIGHT_KIND);
+    if (none || bias >> 16 || !bias_ok(light)) return about(frame, refused_bias(light), GN_ERR_LIGHT_BIAS);
     return GN_OK;
 }
 
-static gn_status compact_check_shadow(const gn_frame *frame, const gn_shadow_settings *shadow)
+static gn_status compact_check_shadow(gn_frame *frame, const gn_shadow_settings *shadow)
 {
     int32_t near_q16 = frame->cam.near_q16;
+    if (shadow->distance_mode) return about(frame, GN_FIELD_SHADOW_DISTANCE_MODE, GN_ERR_SHADOW_DISTANCE);
     if (shadow->max_distance_q16 <= near_q16 || shadow->max_distance_q16 >> 10 > near_q16 ||
-        shadow->max_distance_q16 > GN_COMPACT_LENGTH_Q16 / 2 || shadow->distance_mode)
-        return GN_ERR_SHADOW_DISTANCE;
-    if (shadow->cascade_fade_uq16 > 1U << 15 || shadow->distance_fade_uq16 > 1U << 16) return GN_ERR_SHADOW_FADE;
-    if (shadow->filter) return GN_ERR_SHADOW_FILTER;
-    return shadow->n_cascades > 1 ? GN_ERR_SHADOW_CASCADES : GN_OK;
+        shadow->max_distance_q16 > GN_COMPACT_LENGTH_Q16 / 2)
+        return about(frame, GN_FIELD_SHADOW_MAX_DISTANCE, GN_ERR_SHADOW_DISTANCE);
+    if (shadow->cascade_fade_uq16 > 1U << 15) return about(frame, GN_FIELD_SHADOW_CASCADE_FADE, GN_ERR_SHADOW_FADE);
+    if (shadow->distance_fade_uq16 > 1U << 16) return about(frame, GN_FIELD_SHADOW_DISTANCE_FADE, GN_ERR_SHADOW_FADE);
+    if (shadow->filter) return about(frame, GN_FIELD_SHADOW_FILTER, GN_ERR_SHADOW_FILTER);
+    if (shadow->n_cascades > 1) return about(frame, GN_FIELD_SHADOW_N_CASCADES, GN_ERR_SHADOW_CASCADES);
+    return about(frame, GN_FIELD_SHADOW_MAX_DISTANCE, GN_OK); /* what fit_light finds */
 }
 
 /* Centre and radius of the slice's sphere as fractions of the max distance (MODEL 4), Q28. Returns 0 if near is
@@ -268,9 +300,14 @@ static gn_status fit_light(gn_frame *frame, const gn_light *light)
     return GN_OK;
 }
 
-static gn_status compact_check_background(const gn_scene *scene)
+static gn_status compact_check_background(gn_frame *frame, const gn_scene *scene)
 {
-    return scene->background_gradient || scene->draw_behind || scene->draw_over ? GN_ERR_BACKGROUND : GN_OK;
+    const gn_field field = scene->background_gradient ? GN_FIELD_SCENE_BACKGROUND_GRADIENT
+                           : scene->draw_behind       ? GN_FIELD_SCENE_DRAW_BEHIND
+                                                      : GN_FIELD_SCENE_DRAW_OVER;
+    if (scene->background_gradient || scene->draw_behind || scene->draw_over)
+        return about(frame, field, GN_ERR_BACKGROUND);
+    return GN_OK;
 }
 
 gn_status gn_views_setup(gn_frame *frame, gn_scratch *scratch)
@@ -280,10 +317,11 @@ gn_status gn_views_setup(gn_frame *frame, gn_scratch *scratch)
     const gn_light *light = scene->lights;
     gn_status status = lens(frame);
     frame->n_views = 0;
-    if (!status) status = compact_check_background(scene);
+    if (!status) status = compact_check_background(frame, scene);
     if (!status && scene->n_lights) {
         status = compact_check_light(frame, light);
-        if (!status && !compact_view_axes(&frame->view[0].project, light->direction)) status = GN_ERR_LIGHT_DIRECTION;
+        if (!status && !compact_view_axes(&frame->view[0].project, light->direction))
+            status = about(frame, GN_FIELD_LIGHT_DIRECTION, GN_ERR_LIGHT_DIRECTION);
         if (!status && light->shadow_strength_uq16) {
             frame->n_views = 1;
             status = compact_check_shadow(frame, &scene->shadow);
@@ -294,5 +332,6 @@ gn_status gn_views_setup(gn_frame *frame, gn_scratch *scratch)
     frame->stats.n_shadow_tiles = frame->n_views;
     frame->light[0].n_views = frame->light[0].shadow_state =
         (uint8_t)frame->n_views; /* GN_SHADOW_NOT_WANTED or _REALTIME; the first view */
-    return status ? gn_fail(frame, status, 0) : GN_OK;
+    if (!status && GN_ERROR_FIELDS) frame->detail.field = GN_FIELD_NONE;
+    return status ? GN_FAIL_AT(frame, status, 0, frame->detail.field) : GN_OK;
 }

@@ -36,6 +36,7 @@ GN_STATIC_ASSERT(triangle_groups_have_up_to_128_columns_and_rows_of_tiles, /* gn
                      ((GN_MAX_WIDTH) <= 128 * (GN_TILE_WIDTH) && (GN_MAX_HEIGHT) <= 128 * (GN_TILE_HEIGHT)));
 GN_STATIC_ASSERT(triangle_groups_have_tiles_from_16_pixels, /* gn_setup.c has a vertex in them */
                  !(GN_TRIANGLE_GROUPS) || (GN_TILE_WIDTH) * (GN_TILE_HEIGHT) >= 16);
+GN_STATIC_ASSERT(transparent_layers_need_visible_alpha, !(GN_TRANSPARENT_LAYERS) || (GN_VISIBLE_ALPHA));
 
 /* Compact arithmetic: its features are shadows, optionally automatic bias and validation. Clipping is always built. */
 #define GN_COMPACT_IS_(condition) (!GN_COMPACT || (condition))

@@ -72,12 +72,15 @@ static int knobs_ok(const gn_frame *frame)
 }
 #endif
 
-static int picture_format_ok(const gn_picture *picture)
+static gn_field wrong_format(const gn_picture *picture)
 {
-    if (picture->format == GN_FORMAT_RAW32) return GN_RAW_VIEWS && (uint32_t)picture->view - 1U < GN_VIEW_TRIANGLE;
-    if (!GN_OTHER_FORMATS && picture->format != GN_FORMAT_RGB565 && picture->format != GN_FORMAT_RGB565_SWAPPED)
-        return 0;
-    return picture->view == GN_VIEW_COLOUR && (uint32_t)picture->format <= GN_FORMAT_MONO1;
+    const uint32_t format = (uint32_t)picture->format;
+    const int raw = GN_RAW_VIEWS && format == GN_FORMAT_RAW32;
+    if (!raw && (format > GN_FORMAT_MONO1 ||
+                 (!GN_OTHER_FORMATS && format != GN_FORMAT_RGB565 && format != GN_FORMAT_RGB565_SWAPPED)))
+        return GN_AT(GN_FIELD_PICTURE_FORMAT);
+    const int view_ok = raw ? (uint32_t)picture->view - 1U < GN_VIEW_TRIANGLE : picture->view == GN_VIEW_COLOUR;
+    return view_ok ? GN_FIELD_NONE : GN_AT(GN_FIELD_PICTURE_VIEW);
 }
 
 gn_status gn_init_as(gn_renderer *r, const gn_picture *picture, size_t renderer_bytes, uint64_t config_signature)
@@ -86,13 +89,16 @@ gn_status gn_init_as(gn_renderer *r, const gn_picture *picture, size_t renderer_
     if (renderer_bytes != sizeof *r || config_signature != GN_CONFIG_SIGNATURE) return GN_ERR_CONFIG;
     memset(r, 0, sizeof *r);
     gn_frame *frame = &r->frame;
-    if (!picture) return gn_fail(frame, GN_ERR_NULL, 0);
+    if (!picture) return GN_FAIL_AT(frame, GN_ERR_NULL, 0, GN_FIELD_PICTURE);
 #if GN_RUNTIME_KNOBS
     GN_QUALITY_KNOBS(GN_KNOB_DEFAULT_)
 #endif
-    if (!picture->width || !picture->height || picture->width > GN_MAX_WIDTH || picture->height > GN_MAX_HEIGHT)
-        return gn_fail(frame, GN_ERR_PICTURE_SIZE, 0);
-    if (!picture_format_ok(picture)) return gn_fail(frame, GN_ERR_FORMAT, 0);
+    if (!picture->width || picture->width > GN_MAX_WIDTH)
+        return GN_FAIL_AT(frame, GN_ERR_PICTURE_SIZE, 0, GN_FIELD_PICTURE_WIDTH);
+    if (!picture->height || picture->height > GN_MAX_HEIGHT)
+        return GN_FAIL_AT(frame, GN_ERR_PICTURE_SIZE, 0, GN_FIELD_PICTURE_HEIGHT);
+    gn_field wrong = wrong_format(picture);
+    if (wrong) return GN_FAIL_AT(frame, GN_ERR_FORMAT, 0, wrong);
     frame->picture = *picture;
     frame->stage = GN_STAGE_INIT;
     return GN_OK;
@@ -105,7 +111,7 @@ gn_status gn_begin(gn_renderer *r, const gn_scene *scene)
     if (frame->stage == GN_STAGE_NONE || frame->stage == GN_STAGE_DRAWING) return gn_fail(frame, wrong_stage(frame), 0);
     frame->stage = GN_STAGE_INIT;
     frame->n_views = 0;
-    if (!scene) return gn_fail(frame, GN_ERR_NULL, 0);
+    if (!scene) return GN_FAIL_AT(frame, GN_ERR_NULL, 0, GN_FIELD_SCENE);
 #if GN_RUNTIME_KNOBS
     if (!knobs_ok(frame)) return gn_fail(frame, GN_ERR_KNOB, 0);
 #endif
@@ -289,7 +295,8 @@ gn_status gn_render_changes(gn_renderer *r, const gn_scene *scene, gn_panel *pan
     uint32_t n = 0, one;
     if (n_flushed) *n_flushed = 0;
     if (!r) return GN_ERR_NULL;
-    if (!flush || !panel) return gn_fail(&r->frame, GN_ERR_NULL, 0);
+    if (!flush) return GN_FAIL_AT(&r->frame, GN_ERR_NULL, 0, GN_FIELD_FLUSH);
+    if (!panel) return GN_FAIL_AT(&r->frame, GN_ERR_NULL, 0, GN_FIELD_PANEL);
     gn_status status = prepare_frame(r, scene);
     if (status) return status;
     for (uint32_t i = 0; !status && i < gn_screen_tile_count(r); i++) {
@@ -303,7 +310,7 @@ gn_status gn_render_changes(gn_renderer *r, const gn_scene *scene, gn_panel *pan
 gn_status gn_render(gn_renderer *r, const gn_scene *scene, gn_flush_fn flush, void *user)
 {
     if (!r) return GN_ERR_NULL;
-    if (!flush) return gn_fail(&r->frame, GN_ERR_NULL, 0);
+    if (!flush) return GN_FAIL_AT(&r->frame, GN_ERR_NULL, 0, GN_FIELD_FLUSH);
     gn_status status = prepare_frame(r, scene);
     if (status) return status;
     for (uint32_t i = 0; !status && i < gn_screen_tile_count(r); i++)
@@ -384,4 +391,18 @@ const char *gn_status_text(gn_status status)
         break;
     }
     return "unknown status";
+}
+
+const char *gn_field_text(gn_field field)
+{
+    if (!GN_ERROR_FIELDS) return "";
+    switch (field) {
+#define GN_FIELD_CASE_(name, text)                                                                                     \
+    case name:                                                                                                         \
+        return text;
+        GN_FIELD_LIST(GN_FIELD_CASE_)
+    case GN_FIELD_COUNT:
+        break;
+    }
+    return "unknown field";
 }

@@ -124,6 +124,9 @@ typedef struct gn_scratch {
 #if GN_GROUPS
     gn_tri_source drawn[1 + GN_MAX_TRIANGLES]; /* the tile's triangles by their identities: none is 0 */
 #endif
+#if GN_LAYERS_MAX
+    gn_layers layers;
+#endif
     gn_work work;
 } gn_scratch;
 

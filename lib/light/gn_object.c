@@ -37,7 +37,7 @@ gn_status gn_object_boxes(gn_frame *frame)
         gn_object_state *state = &frame->object[i];
         int32_t centre[3], half[3];
         gn_xform xform;
-        if (!mesh_box(object, centre, half)) return gn_fail(frame, GN_ERR_VERTEX_RANGE, i);
+        if (!mesh_box(object, centre, half)) return GN_FAIL_AT(frame, GN_ERR_VERTEX_RANGE, i, GN_FIELD_MESH_POS);
         uint64_t farthest = 0;
         gn_xform_compose(&xform, world, origin, object);
         for (int r = 0; r < 3; r++) {

@@ -102,6 +102,9 @@ gn_scene gn_scene_default(const gn_camera *camera, const gn_object *objects, uin
     shadow->disk_samples = 16;
     shadow->caster_culling = GN_CASTER_CULLING;
     shadow->object_lights = GN_PUNCTUAL_LIGHTS ? GN_OBJECT_LIGHTS_MAX : 0;
+    int exact = !GN_TIGHT_FIT || GN_PRESET == GN_PRESET_ACCURATE;
+    shadow->fit = exact ? GN_FIT_STABLE : GN_FIT_TIGHT;
+    shadow->tile_sizes = exact ? GN_TILES_EQUAL : GN_TILES_WORTH;
     shadow->n_cascades = four_cascades_fit(lights, n_lights) ? 4 : 1;
     set3(shadow->cascade_ratio_uq16, TENTH_UQ16, ONE_UQ16 / 4, ONE_UQ16 / 2);
     return scene;

@@ -28,18 +28,29 @@ static gn_status check_vertex(const gn_skin *skin, const uint8_t *joint_idx, con
     return sum == 255 ? GN_OK : GN_ERR_SKIN_WEIGHTS;
 }
 
+static gn_field wrong_skin(const gn_skin *skin)
+{
+    if (!skin->joint) return GN_AT(GN_FIELD_SKIN_JOINT);
+    if (!skin->joint_idx) return GN_AT(GN_FIELD_SKIN_JOINT_IDX);
+    if (!skin->weight_u8) return GN_AT(GN_FIELD_SKIN_WEIGHT);
+    if (!skin->n_joints) return GN_AT(GN_FIELD_SKIN_N_JOINTS);
+    if (!skin->per_vertex || skin->per_vertex > GN_VERTEX_JOINTS) return GN_AT(GN_FIELD_SKIN_PER_VERTEX);
+    for (uint32_t i = 0; i < skin->n_joints; i++)
+        if (!joint_ok(&skin->joint[i])) return GN_AT(GN_FIELD_SKIN_JOINT);
+    return GN_FIELD_NONE;
+}
+
 gn_status gn_scene_skin_check(gn_frame *frame, const gn_object *object, uint32_t object_idx)
 {
     const gn_skin *skin = object->skin;
-    if (!skin->joint || !skin->joint_idx || !skin->weight_u8 || !skin->n_joints || !skin->per_vertex ||
-        skin->per_vertex > GN_VERTEX_JOINTS)
-        return gn_fail(frame, GN_ERR_SKIN, object_idx);
-    for (uint32_t i = 0; i < skin->n_joints; i++)
-        if (!joint_ok(&skin->joint[i])) return gn_fail(frame, GN_ERR_SKIN, object_idx);
+    gn_field wrong = wrong_skin(skin);
+    if (wrong) return GN_FAIL_AT(frame, GN_ERR_SKIN, object_idx, wrong);
     for (uint32_t i = 0; i < object->mesh->n_vertices; i++) {
         const size_t at = (size_t)skin->per_vertex * i;
         gn_status status = check_vertex(skin, skin->joint_idx + at, skin->weight_u8 + at);
-        if (status) return gn_fail(frame, status, object_idx);
+        if (status)
+            return GN_FAIL_AT(frame, status, object_idx,
+                              status == GN_ERR_SKIN_JOINT ? GN_FIELD_SKIN_JOINT_IDX : GN_FIELD_SKIN_WEIGHT);
     }
     return GN_OK;
 }

@@ -62,6 +62,8 @@ GN_HOT static void begin_light(gn_lattice *l, const gn_frame *frame, const gn_su
     gn_lattice_light *out = &l->light[slot];
     out->lifts = 0;
     out->realtime = s->shadowed && gn_shadow_is_realtime(light, 65536);
+    out->masked = s->masked && light->mask_channel >= 0 &&
+                  !(out->realtime && frame->scene->shadow.mixing == GN_MIXING_DISTANCE);
     out->lit_uq16 = out->dark_uq16 = 65536;
     if (out->realtime) out->dark_uq16 = gn_shadow_mixed(frame, light, 65536, 65536, 0);
 #if GN_SHADOWS
@@ -86,18 +88,23 @@ GN_HOT static int in_reach(const gn_light_state *light)
     return 1;
 }
 
-GN_HOT int gn_corner_begin(gn_lattice *l, const gn_frame *frame, const gn_surface *s, const gn_rect *rect)
+GN_HOT int gn_corner_begin_lights(gn_lattice *l, const gn_frame *frame, const gn_surface *s)
 {
-    if (!find_plane(&l->plane, frame, s, rect)) return 0;
-    l->cascade = -1;
     l->offset_view = NULL;
-#if GN_SHADOWS
-    gn_corner_begin_cascade(l, frame, s);
-#endif
     for (uint32_t i = 0; i < s->n_lights; i++) {
         begin_light(l, frame, s, i);
         if (!in_reach(s->light[i].state)) return 0;
     }
+    return 1;
+}
+
+GN_HOT int gn_corner_begin(gn_lattice *l, const gn_frame *frame, const gn_surface *s, const gn_rect *rect)
+{
+    if (!find_plane(&l->plane, frame, s, rect)) return 0;
+    l->cascade = -1;
+#if GN_SHADOWS
+    gn_corner_begin_cascade(l, frame, s);
+#endif
     return 1;
 }
 
@@ -304,8 +311,8 @@ GN_HOT static uint8_t own_view(const gn_frame *frame, const gn_surface *s, const
 }
 #endif
 
-GN_HOT static void light_at(const gn_frame *frame, const gn_surface *s, uint32_t slot, const corner_point *p,
-                            gn_corner *c)
+GN_HOT static void light_at(const gn_lattice *l, const gn_frame *frame, const gn_surface *s, uint32_t slot,
+                            const corner_point *p, gn_corner *c)
 {
     const gn_surface_light *light = &s->light[slot];
     gn_corner_light *at = &c->light[slot];
@@ -329,7 +336,8 @@ GN_HOT static void light_at(const gn_frame *frame, const gn_surface *s, uint32_t
 #endif
     if (GN_RAW_VIEWS && frame->picture.format == GN_FORMAT_RAW32) at->irradiance_q24 = at->arrives > 0 ? 1 << 24 : 0;
 #if GN_MASKS
-    at->mask_uq16 = mask_at(s, p, c, light->state->mask_channel);
+    at->mask_uq16 =
+        l->light[slot].masked || c->g_uq16 != 65536 ? mask_at(s, p, c, light->state->mask_channel) : 65536;
 #endif
 #if GN_SHADOWS
     at->placed = GN_VIEW_NONE;
@@ -367,7 +375,7 @@ GN_HOT void gn_corner_find(const gn_lattice *l, const gn_frame *frame, const gn_
 #if GN_PUNCTUAL_LIGHTS
     if (s->n_punctual) find_ray(s->light[s->n_lights - 1].state, c, &p);
 #endif
-    for (uint32_t i = 0; i < s->n_lights; i++) light_at(frame, s, i, &p, c);
+    for (uint32_t i = 0; i < s->n_lights; i++) light_at(l, frame, s, i, &p, c);
 #if GN_SPECULAR
     if (!s->specular || !gn_sample_on_plane(frame, s, x, y, sample)) return;
     for (uint32_t i = 0; i < s->n_lights; i++) {

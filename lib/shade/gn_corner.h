@@ -7,7 +7,10 @@
 
 #if GN_INTERPOLATES
 
-/* Once per surface, for pixels of `rect`. Returns 0 if its plane does not fit 32 bits there. */
+/* Once per surface. Returns 0 if a light is out of reach of 32 bits. */
+int gn_corner_begin_lights(gn_lattice *lattice, const gn_frame *frame, const gn_surface *surface);
+
+/* Then, for pixels of `rect`. Returns 0 if its plane does not fit 32 bits there. */
 int gn_corner_begin(gn_lattice *lattice, const gn_frame *frame, const gn_surface *surface, const gn_rect *rect);
 
 /* Makes a corner known, at the centre of pixel (x, y), or unseen where the plane cannot be sampled there. `sample` is
@@ -21,6 +24,9 @@ int32_t gn_corner_depth(const gn_lattice *lattice, const gn_frame *frame, const 
 
 /* gn_corner_begin()'s: whether one cascade is that of all of the surface. */
 void gn_corner_begin_cascade(gn_lattice *lattice, const gn_frame *frame, const gn_surface *surface);
+
+/* The same of the pixels of `box`. */
+void gn_corner_begin_box(gn_lattice *lattice, const gn_frame *frame, const gn_surface *surface, const gn_rect *box);
 
 /* Once per part: whether one cascade is that of all of its points. */
 void gn_corner_begin_part(gn_lattice *lattice, const gn_frame *frame, const gn_surface *surface);

@@ -57,10 +57,28 @@ GN_HOT static void squares_of(int32_t lo, int32_t hi, uint32_t *least, uint32_t 
     *largest += far * far;
 }
 
+/* Squared tangents of pixels x0 .. x1, y0 .. y1. */
+GN_HOT static void find_tangents(const gn_frame *frame, int32_t x0, int32_t x1, int32_t y0, int32_t y1, extent *e)
+{
+    uint32_t least = 0, largest = 0;
+    squares_of(2 * x0 + 1 - frame->picture.width, 2 * x1 + 1 - frame->picture.width, &least, &largest);
+    squares_of(frame->picture.height - 1 - 2 * y1, frame->picture.height - 1 - 2 * y0, &least, &largest);
+    e->tan2_lo_q24 = least * (uint64_t)frame->tan2_per_px2_q44 >> 20;
+    e->tan2_hi_q24 = (largest * (uint64_t)(frame->tan2_per_px2_q44 + 1) >> 20) + 1;
+}
+
+GN_HOT void gn_corner_begin_box(gn_lattice *l, const gn_frame *frame, const gn_surface *s, const gn_rect *box)
+{
+    extent e = {s->z_min_q16, s->z_max_q16, 0, 0};
+    l->cascade = -1;
+    if (!s->shadowed) return;
+    find_tangents(frame, box->x0, box->x1 - 1, box->y0, box->y1 - 1, &e);
+    l->cascade = certain_cascade(frame, &e);
+}
+
 GN_HOT void gn_corner_begin_part(gn_lattice *l, const gn_frame *frame, const gn_surface *s)
 {
     extent e = {INT32_MAX, 0, 0, 0};
-    uint32_t least = 0, largest = 0;
     int32_t x[2] = {l->x, gn_min32(l->x + GN_PART_WIDTH, l->x_end) - 1},
             y[2] = {l->y, gn_min32(l->y + l->n_rows, l->y_end) - 1};
     l->cascade = l->surface_cascade;
@@ -72,10 +90,7 @@ GN_HOT void gn_corner_begin_part(gn_lattice *l, const gn_frame *frame, const gn_
     }
     e.z_lo_q16 = gn_max32(e.z_lo_q16 - 1, s->z_min_q16);
     e.z_hi_q16 = gn_min32(e.z_hi_q16 + 1, s->z_max_q16);
-    squares_of(2 * x[0] + 1 - frame->picture.width, 2 * x[1] + 1 - frame->picture.width, &least, &largest);
-    squares_of(frame->picture.height - 1 - 2 * y[1], frame->picture.height - 1 - 2 * y[0], &least, &largest);
-    e.tan2_lo_q24 = least * (uint64_t)frame->tan2_per_px2_q44 >> 20;
-    e.tan2_hi_q24 = (largest * (uint64_t)(frame->tan2_per_px2_q44 + 1) >> 20) + 1;
+    find_tangents(frame, x[0], x[1], y[0], y[1], &e);
     l->cascade = certain_cascade(frame, &e);
 }
 

@@ -6,8 +6,10 @@
 #include "base/gn_count.h"
 #include "base/gn_q.h"
 #include "shade/gn_exact.h"
+#include "shade/gn_facet.h"
 #include "shade/gn_lattice.h"
 #include "shade/gn_lattice_window.h"
+#include "shade/gn_levels.h"
 #include "shade/gn_part.h"
 
 #if GN_INTERPOLATES
@@ -191,14 +193,22 @@ GN_HOT static int32_t cell_log2(const gn_frame *frame, const gn_surface *s, cons
     return log2;
 }
 
-/* Cells, or a window, cost as much as these pixels do by themselves. */
-enum { FEW_OF_ONE_COLOUR = 3, FEW = 16 };
+/* What a small triangle, or cells, or a window cost as much as these pixels do by themselves. */
+enum { FEW_OF_A_FACET = 3, FEW_OF_ONE_COLOUR = 3, FEW = 16 };
 
-GN_HOT static int has_few_pixels(const gn_lattice *l)
+GN_HOT static int32_t count_pixels(const gn_lattice *l)
 {
     int32_t n = 0;
     for (int32_t i = 0; i < l->n_spans; i++) n += l->span[i].n_px;
-    return n <= (l->uniform ? FEW_OF_ONE_COLOUR : FEW);
+    return n;
+}
+
+GN_HOT void gn_lattice_begin_tile(gn_shading *s)
+{
+    gn_levels_forget(&s->lattice);
+#if GN_SHADOWS
+    s->lattice.matrix.view = NULL;
+#endif
 }
 
 GN_HOT void gn_lattice_shade(gn_shading *s)
@@ -206,7 +216,12 @@ GN_HOT void gn_lattice_shade(gn_shading *s)
     gn_lattice *l = &s->lattice;
     gn_rect box = box_of(l);
     gn_part_begin(s);
-    if (has_few_pixels(l) || !gn_corner_begin(l, s->frame, &s->surface, &box)) {
+    int reached = gn_corner_begin_lights(l, s->frame, &s->surface);
+    int32_t n_px = count_pixels(l);
+    if (reached && n_px > FEW_OF_A_FACET && gn_facet_shade(s, &box, n_px)) return;
+    gn_surface_use_bary(s->frame, &s->surface);
+    if (n_px <= (l->uniform ? FEW_OF_ONE_COLOUR : FEW) || !reached ||
+        !gn_corner_begin(l, s->frame, &s->surface, &box)) {
         for (int32_t i = 0; i < l->n_spans; i++)
             for (int32_t k = 0; k < l->span[i].n_px; k++) gn_exact_pixel(s, l->span[i].x + k, l->span[i].y);
         return;

@@ -117,11 +117,11 @@ int gn_cell_masks_hold(const gn_lattice_cell *cell);
 
 /* Whether nothing of a light arrives anywhere in the cell if nothing arrives at its corners. The squares of a point's
  * distance, and of its distance along the axis, are those of the corners in the mean, less what they scatter by. */
-int gn_cell_stays_dark(const gn_lattice_cell *cell, uint32_t slot);
+int gn_cell_stays_dark(gn_lattice_cell *cell, uint32_t slot);
 
 /* How far interpolation between the corners is off, of a light's irradiance: NUMERICS 4.12. *kink: because it ends in
  * the cell, or its cone does. */
-uint32_t gn_cell_unevenness_q24(const gn_lattice_cell *cell, uint32_t slot, int32_t least_q24, int32_t most_q24,
+uint32_t gn_cell_unevenness_q24(gn_lattice_cell *cell, uint32_t slot, int32_t least_q24, int32_t most_q24,
                                 uint32_t *kink_q24);
 
 /* The shadow of a light: GN_CELL_LIT, GN_CELL_DARK, or GN_CELL_EDGE, which is added. */

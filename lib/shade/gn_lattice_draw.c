@@ -206,10 +206,9 @@ GN_HOT static void look_up_row(const drawing *d, const gn_lattice_edge *edge, in
     }
 }
 
-#if GN_PUNCTUAL_LIGHTS
-/* Attenuations along a row of pixels that two faces see. */
-GN_HOT static GN_NOINLINE void look_up_faces(const drawing *d, const gn_lattice_edge *edge, int32_t below,
-                                             uint32_t *out)
+#if GN_PUNCTUAL_LIGHTS || GN_MANY_CASCADES
+/* Attenuations along a row of pixels that two faces or cascades see. */
+GN_HOT static GN_NOINLINE void look_up_two(const drawing *d, const gn_lattice_edge *edge, int32_t below, uint32_t *out)
 {
     gn_receiver_step at[2], step[2];
     for (int k = 0; k < 2; k++) find_row(d, edge + k, below, &at[k], &step[k]);
@@ -229,9 +228,14 @@ GN_HOT static GN_NOINLINE void find_attenuations(const drawing *d, const gn_latt
 {
     gn_receiver_step at, step;
 #if GN_PUNCTUAL_LIGHTS
-    if (edge->bent >= GN_PLACES_LONE) {
-        if (edge->bent == GN_PLACES_LONE) look_up_alone(d, edge, below, out);
-        else look_up_faces(d, edge, below, out);
+    if (edge->bent == GN_PLACES_LONE) {
+        look_up_alone(d, edge, below, out);
+        return;
+    }
+#endif
+#if GN_PUNCTUAL_LIGHTS || GN_MANY_CASCADES
+    if (edge->bent & GN_PLACES_OF_TWO) {
+        look_up_two(d, edge, below, out);
         return;
     }
 #endif
@@ -253,9 +257,10 @@ GN_HOT static void add_edge_light(const drawing *d, const gn_lattice_edge *edge,
     }
     for (int32_t i = 0; i < d->n; i++, at[0] += step[0], at[1] += step[1], at[2] += step[2]) {
         uint32_t share = attenuation[i];
-        if (!share) continue;
-        for (int c = 0; c < 3; c++)
-            node[i][c] += share == 65536 ? at[c] : (int32_t)((int64_t)at[c] * (int32_t)share >> 16);
+        int32_t *out = node[i];
+        if (share == 65536) out[0] += at[0], out[1] += at[1], out[2] += at[2];
+        else if (share)
+            for (int c = 0; c < 3; c++) out[c] += (int32_t)((int64_t)at[c] * (int32_t)share >> 16);
     }
 }
 #else

@@ -174,14 +174,16 @@ GN_HOT static uint32_t turn_q12(const gn_lattice_cell *cell)
 }
 
 #if GN_PUNCTUAL_LIGHTS
-GN_HOT static uint32_t ray_diagonal(const gn_lattice_cell *cell)
+/* Once per cell: of its corners, the same for all lights. */
+GN_HOT static uint32_t ray_diagonal(gn_lattice_cell *cell)
 {
     gn_corner *const *c = cell->corner;
-    return diagonal(c[0]->ray_q16, c[1]->ray_q16, c[2]->ray_q16, c[3]->ray_q16);
+    if (!cell->across_q16) cell->across_q16 = diagonal(c[0]->ray_q16, c[1]->ray_q16, c[2]->ray_q16, c[3]->ray_q16);
+    return cell->across_q16;
 }
 
 /* The cell's size over its distance from a light, Q12, saturated at 4. */
-GN_HOT static uint32_t size_over_distance_q12(const gn_lattice_cell *cell, uint32_t slot)
+GN_HOT static uint32_t size_over_distance_q12(gn_lattice_cell *cell, uint32_t slot)
 {
     uint32_t nearest = UINT32_MAX, across = ray_diagonal(cell);
     for (int i = 0; i < 4; i++) {
@@ -215,7 +217,7 @@ GN_HOT static uint64_t share_q30_of(uint64_t v, uint32_t share_q30)
 
 /* Whether all of the cell faces away from a light: n . p is that of the corners in the mean, less what both scatter by.
  */
-GN_HOT static int faces_away(const gn_lattice_cell *cell, int32_t p[4][3])
+GN_HOT static int faces_away(gn_lattice_cell *cell, int32_t p[4][3])
 {
     const int32_t *n = cell->s->normal_q30[0];
     if (!GN_SMOOTH(cell->s)) return gn_dot_q30(n, p[0]) >= 0; /* all of it, or nothing */
@@ -234,7 +236,7 @@ GN_HOT static int faces_away(const gn_lattice_cell *cell, int32_t p[4][3])
 
 /* Whether nothing of a light arrives anywhere in the cell if nothing arrives at its corners. The squares of a point's
  * distance, and of its distance along the axis, are those of the corners in the mean, less what they scatter by. */
-GN_HOT GN_NOINLINE int gn_cell_stays_dark(const gn_lattice_cell *cell, uint32_t slot)
+GN_HOT GN_NOINLINE int gn_cell_stays_dark(gn_lattice_cell *cell, uint32_t slot)
 {
     const gn_light_state *light = cell->s->light[slot].state;
     int32_t p[4][3];
@@ -285,7 +287,7 @@ GN_HOT static uint32_t terminator_error_q24(int32_t lo, uint32_t most_q24)
 
 /* How far interpolation between the corners is off, of a light's irradiance: NUMERICS 4.12. *kink: because it ends in
  * the cell, or its cone does. */
-GN_HOT uint32_t gn_cell_unevenness_q24(const gn_lattice_cell *cell, uint32_t slot, int32_t least_q24, int32_t most_q24,
+GN_HOT uint32_t gn_cell_unevenness_q24(gn_lattice_cell *cell, uint32_t slot, int32_t least_q24, int32_t most_q24,
                                        uint32_t *kink_q24)
 {
     const gn_light_state *light = cell->s->light[slot].state;

@@ -59,8 +59,8 @@ GN_HOT static int find_shares(const gn_lattice_cell *cell, uint32_t slot, gn_con
 {
     const gn_light_state *light = cell->s->light[slot].state;
     int realtime = 0, masks = 0, ends = 0;
-    if (cell->near && !cell->s->masked) {
-        const gn_lattice_light *near = &cell->lattice->light[slot];
+    const gn_lattice_light *near = &cell->lattice->light[slot];
+    if (cell->near && !near->masked) {
         for (int i = 0; i < 4; i++) {
             out->dark_uq16[i] = near->dark_uq16;
             out->more_uq16[i] = near->lit_uq16 - near->dark_uq16;
@@ -88,26 +88,45 @@ GN_HOT static int find_shares(const gn_lattice_cell *cell, uint32_t slot, gn_con
     return GN_MASKS && realtime && masks && cell->frame->scene->shadow.mixing == GN_MIXING_ALWAYS ? -1 : realtime;
 }
 
-/* Adds up to 2^27 to what stays below 2^30. */
-GN_HOT static inline void add_limited(int32_t *sum_q24, int32_t more_q24)
+/* Adds a colour times irradiance, up to 2^27, to what stays below 2^30. */
+GN_HOT static inline void add_limited(int32_t sum_q24[3], const uint32_t colour_uq16[3], int32_t irradiance_q24)
 {
-    *sum_q24 = gn_min32(*sum_q24 + more_q24, 1 << 30);
+    for (int j = 0; j < 3; j++)
+        sum_q24[j] = gn_min32(sum_q24[j] + gn_corner_times(colour_uq16[j], irradiance_q24), 1 << 30);
+}
+
+/* The same of what needs no limits. */
+GN_HOT static inline void add_within(int32_t sum_q24[3], const uint32_t colour_uq16[3], int32_t irradiance_q24)
+{
+    for (int j = 0; j < 3; j++) sum_q24[j] += (int32_t)((uint64_t)colour_uq16[j] * (uint32_t)irradiance_q24 >> 16);
 }
 
 /* Adds a light that is in shadow all over the cell, or nowhere. */
 GN_HOT static void add_colour(const gn_lattice_cell *cell, uint32_t slot, const gn_contribution *light, int lit)
 {
     const uint32_t *colour = cell->s->light[slot].radiance_uq16;
+    int within = cell->s->n_lights < 8 && !((colour[0] | colour[1] | colour[2]) >> 16); /* 8 * 2^27, of 2^27 * 2^16 */
     for (int i = 0; i < 4; i++) {
         uint32_t share = light->dark_uq16[i] + (lit ? light->more_uq16[i] : 0);
         if (!share) continue;
         int32_t e = gn_cell_share(light->irradiance_q24[i], share);
-        for (int j = 0; j < 3; j++) add_limited(&cell->out->colour_q24[i][j], gn_corner_times(colour[j], e));
+        if (within) add_within(cell->out->colour_q24[i], colour, e);
+        else add_limited(cell->out->colour_q24[i], colour, e);
         if (!GN_SPECULAR || !light->highlight_q24[i]) continue;
-        e = gn_cell_share(light->highlight_q24[i], share);
-        for (int j = 0; j < 3; j++)
-            add_limited(&cell->out->highlight_q24[i][j], gn_corner_times(light->shine_uq16[j], e));
+        add_limited(cell->out->highlight_q24[i], light->shine_uq16, gn_cell_share(light->highlight_q24[i], share));
     }
+}
+
+/* Whether all that a light adds is less than half a step of the picture: what shadows it, and how uneven it is, cannot
+ * be seen. Of a channel of 6 bits half a step is 1/32 or more of what is there, up to 1/2, and of black 2^-11. */
+GN_HOT static int is_faint(const gn_lattice_cell *cell, uint32_t strongest_uq16, int32_t most_q24)
+{
+    const gn_lattice_look *look = cell->out;
+    const int32_t(*c)[3] = look->colour_q24;
+    int32_t least = INT32_MAX;
+    if (cell->s->specular || (GN_RAW_VIEWS && cell->frame->picture.format == GN_FORMAT_RAW32)) return 0;
+    for (int i = 0; i < 4; i++) least = gn_min32(least, gn_min32(c[i][0], gn_min32(c[i][1], c[i][2])));
+    return gn_corner_times(strongest_uq16, most_q24) < gn_max32(1 << 13, gn_min32(least, 1 << 23) >> 5);
 }
 
 /* Adds a light. Returns 0 if the cell is to be split. */
@@ -130,12 +149,13 @@ GN_HOT static int add_light(gn_lattice_cell *cell, uint32_t slot)
     if (!most) return 1;
     if (GN_RAW_VIEWS && least != most && cell->frame->picture.format == GN_FORMAT_RAW32) return 0;
     if (!find_highlight(cell, slot, light)) return 0;
-    int realtime = find_shares(cell, slot, light),
-        shadow = realtime > 0 ? gn_cell_shadow(cell, slot, light) : GN_CELL_LIT;
-    if (realtime < 0 || shadow == GN_CELL_SPLIT) return 0;
     uint32_t strongest = colour[0] > colour[1] ? colour[0] : colour[1];
     if (colour[2] > strongest) strongest = colour[2];
-    if (shadow != GN_CELL_DARK) {
+    int faint = is_faint(cell, strongest, most);
+    int realtime = find_shares(cell, slot, light),
+        shadow = realtime > 0 && !faint ? gn_cell_shadow(cell, slot, light) : GN_CELL_LIT;
+    if (realtime < 0 || shadow == GN_CELL_SPLIT) return 0;
+    if (shadow != GN_CELL_DARK && !faint) {
         uint32_t kink;
         uint32_t error = gn_cell_unevenness_q24(cell, slot, least, most, &kink);
         int32_t log2 = gn_cell_light_log2(cell->frame); /* where it arrives it is part of the light itself */
@@ -195,13 +215,13 @@ GN_HOT static int finish_colours(const gn_lattice_cell *cell)
 /* Whether the interpolated light is close enough, as a share of the least that there is. */
 GN_HOT static int is_even(const gn_lattice_cell *cell)
 {
-    int32_t least = INT32_MAX;
+    int32_t least = INT32_MAX, twice = GN_K(cell->frame, persp_step) == 16;
     for (int i = 0; i < 4; i++) {
         const int32_t *c = cell->out->colour_q24[i];
         least = gn_min32(least, gn_max32(c[0], gn_max32(c[1], c[2])));
     }
     uint64_t error = cell->size_log2 > gn_cell_finest_log2(cell->frame) ? cell->error_q24 : cell->kink_q24;
-    return error << gn_cell_light_log2(cell->frame) <= (uint64_t)(gn_max32(least, 0) + (1 << 19));
+    return error << gn_cell_light_log2(cell->frame) <= (uint64_t)(gn_max32(least, 0) + (1 << 19)) << twice;
 }
 
 GN_HOT static GN_NOINLINE int look_once(gn_lattice *lattice, const gn_frame *frame, const gn_surface *surface,
@@ -209,8 +229,8 @@ GN_HOT static GN_NOINLINE int look_once(gn_lattice *lattice, const gn_frame *fra
 {
     gn_lattice_look *look = &lattice->look;
     gn_lattice_cell *cell = &lattice->by.look.cell;
-    *cell =
-        (gn_lattice_cell){lattice, frame, surface, corner, size_log2, {0, 0}, lattice->cascade >= 0, 0, 0, look, ask};
+    uint32_t g = corner[0]->g_uq16 & corner[1]->g_uq16 & corner[2]->g_uq16 & corner[3]->g_uq16; /* at most 65536 */
+    *cell = (gn_lattice_cell){lattice, frame, surface, corner, size_log2, {0, 0}, g == 65536, 0, 0, 0, look, ask};
     int coarse = size_log2 > gn_cell_finest_log2(frame);
     if (!gn_cell_find_bend(cell) || !gn_cell_textures_hold(cell) || !gn_cell_masks_hold(cell)) return 0;
     look->n_edges = 0;

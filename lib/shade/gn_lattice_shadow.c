@@ -247,43 +247,60 @@ GN_HOT static GN_NOINLINE uint32_t hidden_faces(const gn_lattice_cell *cell, uin
     }
     return shorter ? 0 : found;
 }
+#endif
 
-/* How far inside the first of two faces the points between the corners lie, if positive: |from| along its axis less
- * that along the other's. As a share of the depth that is linear on the screen. [P5] */
-GN_HOT static GN_NOINLINE void find_border(const gn_lattice_cell *cell, uint32_t slot, uint32_t views, gn_patch *out)
+#if GN_PUNCTUAL_LIGHTS || GN_MANY_CASCADES
+/* How far inside the first of two faces the corner lies, if positive: |from| along its axis less that along the
+ * other's. [P5] */
+GN_HOT static int64_t inside_face(const gn_lattice_cell *cell, uint32_t slot, int32_t one, int32_t other,
+                                  const gn_corner *c)
 {
-    int32_t one = first_bit(views), other = first_bit(views & (views - 1)), inside[4], nearest = INT32_MAX;
+    int32_t from[3] = {0, 0, 0};
+#if GN_PUNCTUAL_LIGHTS
+    gn_corner_from(c, cell->s->light[slot].state, from);
+#endif
+    int64_t ahead = one & 1 ? -(int64_t)from[one >> 1] : from[one >> 1];
+    (void)cell, (void)slot, (void)c;
+    return ahead - (other & 1 ? -(int64_t)from[other >> 1] : from[other >> 1]);
+}
+
+/* Where the border of two views lies between the corners: what is 0 there, positive in the first view. As a share of
+ * the depth, what is linear on the surface is so on the screen. */
+GN_HOT static GN_NOINLINE void find_border(const gn_lattice_cell *cell, uint32_t slot, int32_t one, int32_t other,
+                                           gn_patch *out)
+{
+    int32_t inside[4], nearest = INT32_MAX;
     int64_t exact[4];
     uint64_t all = 1;
-    for (int i = 0; i < 4; i++) nearest = gn_min32(nearest, cell->corner[i]->z_q16);
     for (int i = 0; i < 4; i++) {
-        int32_t from[3];
-        gn_corner_from(cell->corner[i], cell->s->light[slot].state, from);
-        int64_t ahead = one & 1 ? -(int64_t)from[one >> 1] : from[one >> 1];
-        ahead -= other & 1 ? -(int64_t)from[other >> 1] : from[other >> 1];
-        exact[i] = ahead * gn_quotient_q30((uint32_t)nearest, (uint32_t)cell->corner[i]->z_q16); /* 2^32 * 1.01 2^30 */
+        const gn_corner *c = cell->corner[i];
+        int cascaded = cell->s->light[slot].state->kind == GN_LIGHT_DIRECTIONAL;
+        nearest = gn_min32(nearest, c->z_q16);
+        exact[i] = cascaded ? gn_sample_inside_q32(cell->frame, c->x, c->y, c->z_q16, one)
+                            : inside_face(cell, slot, one, other, c);
         all |= gn_abs64(exact[i]);
     }
-    int32_t down = 36 - gn_clz64(all); /* to less than 2^28 */
-    for (int i = 0; i < 4; i++) inside[i] = (int32_t)(down > 0 ? exact[i] >> down : exact[i]);
+    for (int32_t down = gn_max32(36 - gn_clz64(all), 0), i = 0; i < 4; i++) { /* to less than 2^28 */
+        uint32_t share_q30 = gn_quotient_q30((uint32_t)nearest, (uint32_t)cell->corner[i]->z_q16);
+        inside[i] = (int32_t)((exact[i] >> down) * (int64_t)share_q30 >> 30);
+    }
     gn_patch_make(out, inside, cell->size_log2);
 }
 
-/* Adds an edge in the shadow of a point light, two faces of which see the cell. Returns 0 if there is no room, or it is
- * to be split. */
-GN_HOT static GN_NOINLINE int add_faces(const gn_lattice_cell *cell, uint32_t slot, const gn_contribution *light,
-                                        uint32_t views, const int32_t from_q16[3], places *p)
+/* Adds an edge in the shadow of a light, two faces or cascades of which see the cell. Returns 0 if there is no room, or
+ * it is to be split. */
+GN_HOT static GN_NOINLINE int add_two(const gn_lattice_cell *cell, uint32_t slot, const gn_contribution *light,
+                                      uint32_t views, const int32_t from_q16[3], places *p)
 {
     gn_lattice_look *out = cell->out;
-    const int32_t n_edges = out->n_edges;
-    const uint32_t both = views;
-    if (n_edges + 2 > GN_LATTICE_EDGES || views & (views - 1) & ((views & (views - 1)) - 1)) return 0;
+    const int32_t n_edges = out->n_edges, one = first_bit(views), other = first_bit(views & (views - 1));
+    if (n_edges + 2 > GN_LATTICE_EDGES || views & ~(1U << one | 1U << other)) return 0;
     for (; views; views &= views - 1) {
-        uint32_t face = (uint32_t)first_bit(views);
+        uint32_t view_idx = (uint32_t)first_bit(views);
         int32_t slope[2];
-        if (find_places(cell, slot, face, p) != PLACED) break;
+        if (find_places(cell, slot, view_idx, p) != PLACED) break;
         gn_shadow_slopes(cell->frame, cell->s, p->view, from_q16, slope);
-        if (verdict(cell, slot, face, p, slope) == GN_CELL_SPLIT || places_hold(cell, p) != HOLD) break;
+        if (verdict(cell, slot, view_idx, p, slope) == GN_CELL_SPLIT || places_hold(cell, p) != HOLD) break;
         add_edge(cell, slot, p, slope, light, light->more_uq16);
     }
     if (views) {
@@ -292,7 +309,7 @@ GN_HOT static GN_NOINLINE int add_faces(const gn_lattice_cell *cell, uint32_t sl
     }
     out->edge[n_edges].bent |= GN_PLACES_OF_TWO;
     out->spacing_log2 = 0;
-    find_border(cell, slot, both, &out->edge[n_edges + 1].more_q24[0]);
+    find_border(cell, slot, one, other, &out->edge[n_edges + 1].more_q24[0]);
     return 1;
 }
 #endif
@@ -324,10 +341,10 @@ GN_HOT static int add_of_several(const gn_lattice_cell *cell, uint32_t slot, con
     int cascaded = !p->view->perspective;
     gn_blend blend = GN_BLENDED_CASCADES && cascaded ? cell->frame->scene->shadow.blend : GN_BLEND_HARD;
     if (blend == GN_BLEND_SOFT) return add_blend(cell, slot, light, views, p);
-    if (cascaded) return 0; /* each pixel has its own */
-#if GN_PUNCTUAL_LIGHTS
-    if (add_faces(cell, slot, light, views, from_q16, p)) return 1;
-    if (cell->size_log2 > 2) return 0;
+    if (blend != GN_BLEND_HARD) return 0; /* each pixel has its own */
+#if GN_PUNCTUAL_LIGHTS || GN_MANY_CASCADES
+    if (add_two(cell, slot, light, views, from_q16, p)) return 1;
+    if (cascaded || cell->size_log2 > 2) return 0;
     p->bent = GN_PLACES_LONE;
     return add_edge(cell, slot, p, slope_q28, light, light->more_uq16);
 #else

@@ -142,7 +142,6 @@ GN_HOT gn_window *gn_lattice_window(gn_lattice *l, const gn_frame *frame, const 
     int32_t log2 = l->size_log2, size = 1 << log2;
     if (window->view != view) begin_window(l, frame, s, slot, view, at, window);
     if (!window->planar) return NULL;
-    if (x < window->until_x) return window;
     window->w = 0;
     int32_t rows = (gn_min32(l->n_rows, l->y_end - l->y) + size - 1) >> log2;
     int32_t columns = (gn_min32(GN_PART_WIDTH - (x - l->x), l->x_end - x) + size - 1) >> log2;

@@ -342,6 +342,22 @@ GN_HOT void gn_pixel_store_line(const gn_frame *frame, const gn_pixel_rows *rows
     }
 }
 
+GN_HOT void gn_pixel_store_run(const gn_frame *frame, const gn_pixel_rows *rows, int32_t x, int32_t y, int32_t n,
+                               const int32_t from_q24[3], const int32_t step_q24[3])
+{
+    int32_t c[3] = {from_q24[0], from_q24[1], from_q24[2]};
+    if (GN_LEVEL_TABLES && has_levels(frame)) {
+        int32_t r = c[0], g = c[1], b = c[2];
+        for (uint16_t *out = pixel_565(rows, x, y); n > 0; n--, r += step_q24[0], g += step_q24[1], b += step_q24[2])
+            *out++ = (uint16_t)limit_and_pack_565(r, g, b);
+        return;
+    }
+    for (; n > 0; n--, x++) {
+        store_colour(frame, rows, x, y, c);
+        for (int i = 0; i < 3; i++) c[i] += step_q24[i];
+    }
+}
+
 GN_HOT void gn_pixel_store_bits(const gn_frame *frame, const gn_pixel_rows *rows, int32_t x, int32_t y, uint32_t bits,
                                 uint32_t packed)
 {

@@ -37,7 +37,12 @@ typedef struct {
 void gn_pixel_store_line(const gn_frame *frame, const gn_pixel_rows *rows, int32_t x, int32_t y, uint32_t bits,
                          const gn_pixel_line *line);
 
-/* The same of a packed colour. */
+/* Stores n pixels from (x, y) of the picture on, the first of that colour, Q24; |.| < 2^30 from the first to one beyond
+ * the last. */
+void gn_pixel_store_run(const gn_frame *frame, const gn_pixel_rows *rows, int32_t x, int32_t y, int32_t n,
+                        const int32_t from_q24[3], const int32_t step_q24[3]);
+
+/* Stores the pixels of `bits`, of a packed colour. */
 void gn_pixel_store_bits(const gn_frame *frame, const gn_pixel_rows *rows, int32_t x, int32_t y, uint32_t bits,
                          uint32_t packed);
 

@@ -123,15 +123,22 @@ GN_HOT static int asks_for_cascades(const gn_frame *frame)
     return frame->has_cascades || frame->scene->shadow.distance_mode == GN_DISTANCE_RADIUS;
 }
 
-/* The cascade of the surface point and its fade factor. [D4] [D6] [D11] */
-GN_HOT static void select_cascade(const gn_frame *frame, int32_t px, int32_t py, gn_sample *sample)
+/* Square of the distance from the view axis of the point at depth z on a pixel's ray. */
+GN_HOT static uint64_t across2_q32(const gn_frame *frame, int32_t px, int32_t py, int64_t z)
 {
     gn_bfloat per_px = frame->cam.inv_focal2;
     const int64_t most = 1 << 30; /* of a point of the triangle: pixels of a plane seen edge on may lie outside it */
-    int64_t z = sample->value[GN_VALUE_Z], at = GN_FLAT_Q16(frame) ? GN_FLAT_Q16(frame) : z,
+    int64_t at = GN_FLAT_Q16(frame) ? GN_FLAT_Q16(frame) : z,
             x = gn_clamp64(gn_bf_apply(at * px, per_px, 16), -most, most),
             y = gn_clamp64(gn_bf_apply(at * py, per_px, 16), -most, most);
-    uint64_t across = (uint64_t)(x * x) + (uint64_t)(y * y);
+    return (uint64_t)(x * x) + (uint64_t)(y * y);
+}
+
+/* The cascade of the surface point and its fade factor. [D4] [D6] [D11] */
+GN_HOT static void select_cascade(const gn_frame *frame, int32_t px, int32_t py, gn_sample *sample)
+{
+    int64_t z = sample->value[GN_VALUE_Z];
+    uint64_t across = across2_q32(frame, px, py, z);
     sample->cascade = GN_CASCADE_NONE;
     sample->value[GN_VALUE_FADE] = 0;
     int64_t m = frame->scene->shadow.max_distance_q16;
@@ -153,19 +160,30 @@ GN_HOT static void select_cascade(const gn_frame *frame, int32_t px, int32_t py,
     }
 }
 
-/* The surface's offset in a view, if it differs between the views of a light: for smooth surfaces; for the disk, whose
- * index and radius depend on the cascade; and for automatic bias, whose depth steps do. */
+/* Whether a view's u and v are not those that flat_offset_q16 was found along: a tight fit turned them. */
+GN_HOT static int turned(const gn_frame *frame, const gn_light_view *view)
+{
+    const gn_light_view *first = &frame->view[frame->light[view->light_idx].view_idx];
+    return GN_VIEW_TURN(view) != GN_VIEW_TURN(first->border_lit ? first : first + GN_LAST_CASCADE(frame));
+}
+
+/* The surface's offset in a view, if it differs between the views of a light: for smooth surfaces; for views that are
+ * turned; for the disk, whose index and radius depend on the cascade; and for automatic bias, whose depth steps do. */
 GN_HOT static const int32_t *own_offset(const gn_frame *frame, const gn_surface *s, uint32_t slot,
                                         const gn_light_view *view, const int32_t n_q30[3], int32_t moved_q16[3])
 {
     const int32_t *flat = s->light[slot].flat_offset_q16;
     gn_auto_bias form = (gn_auto_bias)s->light[slot].state->auto_bias;
+    int32_t lifted[3];
     if (GN_AUTO_BIAS && form && !GN_CURVED(s)) {
+        if (turned(frame, view)) {
+            gn_bias_auto_face(view, form, GN_FACE_Q30(s), lifted);
+            flat = lifted;
+        }
         gn_bias_auto_ortho(view, form, flat, moved_q16);
         return moved_q16;
     }
-    if (!GN_SMOOTH(s) && !(GN_DISK_FILTER && view->filter == GN_FILTER_DISK)) return flat;
-    int32_t lifted[3];
+    if (!GN_SMOOTH(s) && !(GN_DISK_FILTER && view->filter == GN_FILTER_DISK) && !turned(frame, view)) return flat;
     gn_bias_directional(frame, view, gn_sample_lifted(s, s->light[slot].state, n_q30, lifted), moved_q16);
     return moved_q16;
 }
@@ -205,6 +223,14 @@ GN_HOT static void directional_coords(const gn_frame *frame, const gn_surface *s
     int same = view->filter != GN_FILTER_DISK && !(GN_AUTO_BIAS && light->auto_bias);
     if (!same) offset = own_offset(frame, s, slot, view, n_q30, moved);
     light_coords(frame, view, px, py, sample->value[GN_VALUE_Z], offset, out + 3);
+}
+
+GN_HOT int64_t gn_sample_inside_q32(const gn_frame *frame, int32_t x, int32_t y, int32_t z_q16, int32_t cascade_idx)
+{
+    const gn_cascade_state *cascade = &frame->cascade[cascade_idx];
+    int32_t px = 2 * x + 1 - frame->picture.width, py = frame->picture.height - 1 - 2 * y;
+    int64_t dz = (int64_t)z_q16 - cascade->centre_q16;
+    return (int64_t)(cascade->radius2_q32 - across2_q32(frame, px, py, z_q16) - (uint64_t)(dz * dz));
 }
 #else
 GN_HOT static int asks_for_cascades(const gn_frame *frame)

@@ -27,6 +27,9 @@ void gn_sample_normal(const gn_frame *frame, const gn_surface *surface, int32_t 
 void gn_sample_offset(const gn_frame *frame, const gn_surface *surface, uint32_t slot, const gn_light_view *view,
                       const int32_t n_q30[3], int32_t offset_q16[3]);
 
+/* By how much the square of a cascade's radius exceeds that of the distance from its centre, of such a point. */
+int64_t gn_sample_inside_q32(const gn_frame *frame, int32_t x, int32_t y, int32_t z_q16, int32_t cascade_idx);
+
 /* The cascade, its fade factor and the reach of shadows, of a point at view depth z on a pixel's ray. */
 void gn_sample_find_cascade(const gn_frame *frame, int32_t px, int32_t py, int32_t z_q16, gn_sample *sample);
 

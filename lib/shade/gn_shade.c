@@ -11,9 +11,10 @@
 #include "shade/gn_exact.h"
 #include "shade/gn_lattice.h"
 #include "shade/gn_light.h"
-#include "shade/gn_levels.h"
+#include "shade/gn_mix.h"
 #include "shade/gn_pixel.h"
 #include "visible/gn_cell.h"
+#include "visible/gn_layers.h"
 #include "visible/gn_runs.h"
 #include "visible/gn_screen_rect.h"
 
@@ -65,6 +66,13 @@ GN_HOT static void show_one_light(gn_surface *surface, uint32_t light_idx)
     for (int c = 0; c < 3; c++) surface->light[0].radiance_uq16[c] = 65536;
 }
 
+GN_HOT static inline void shade_those(gn_shading *s)
+{
+    const gn_lattice *l = &s->lattice;
+    gn_lattice_shade(s);
+    for (int32_t i = 0; GN_MIXES(s) && i < l->n_spans; i++) gn_mix_run(s, l->span[i].x, l->span[i].y, l->span[i].n_px);
+}
+
 /* Takes the triangle's runs as spans, so many at a time, and shades them. */
 GN_HOT static void shade_spans(gn_shading *s, gn_run_taker *taker, uint32_t first, int32_t n_px)
 {
@@ -80,10 +88,10 @@ GN_HOT static void shade_spans(gn_shading *s, gn_run_taker *taker, uint32_t firs
         span->y = (int16_t)(s->rect.y0 + (int32_t)(first / stride));
         span->n_px = (int16_t)n_px;
         if (l->n_spans < GN_SPANS) continue;
-        gn_lattice_shade(s);
+        shade_those(s);
         l->n_spans = 0;
     } while (gn_runs_take(taker, stride, &first, &n_px));
-    if (l->n_spans) gn_lattice_shade(s);
+    if (l->n_spans) shade_those(s);
 }
 #else
 GN_HOT static void shade_spans(gn_shading *s, gn_run_taker *taker, uint32_t first, int32_t n_px)
@@ -108,7 +116,7 @@ GN_HOT static void shade_triangle(gn_shading *s, const char *sources, uint32_t i
     else if (!is_exact(s)) {
         shade_spans(s, &taker, first, n_px);
         return;
-    }
+    } else gn_surface_use_bary(frame, &s->surface);
     do {
         int32_t x = s->rect.x0 + (int32_t)(first % stride), y = s->rect.y0 + (int32_t)(first / stride);
         GN_COUNT(runs, 1);
@@ -116,6 +124,7 @@ GN_HOT static void shade_triangle(gn_shading *s, const char *sources, uint32_t i
             GN_COUNT(filled, n_px);
             gn_pixel_fill(frame, &s->rows, x, y, n_px, packed);
         } else shade_run_exactly(s, x, y, n_px);
+        if (GN_MIXES(s)) gn_mix_run(s, x, y, n_px);
     } while (gn_runs_take(&taker, stride, &first, &n_px));
 }
 
@@ -256,6 +265,41 @@ GN_HOT static GN_NOINLINE uint32_t sort_runs(gn_shading *s, int32_t n_rows)
     return sorter.n_linked + n_linked;
 }
 
+/* ---- Layers ------------------------------------------------------------------------------------------------------ */
+
+/* Links the runs of a layer. */
+GN_HOT static inline void link_layer(gn_shading *s, int32_t n_rows)
+{
+    uint32_t id_mask = (1U << s->frame->id_bits) - 1, width = (uint32_t)s->rows.width;
+    uint32_t *cells = GN_CELLS(s->scratch), *row = cells + n_rows * GN_K(s->frame, tile_width);
+    gn_runs_clear(s->scratch);
+    while (row > cells) {
+        row -= GN_K(s->frame, tile_width);
+        uint32_t before = row[-1], *last = row + width;
+        row[-1] = UINT32_MAX;
+        while ((last = gn_runs_last(last)) >= row) {
+            uint32_t id = *last & id_mask, *first = gn_runs_first(last, id_mask);
+            gn_runs_link(s->scratch, id, (uint32_t)(first - cells), (uint32_t)(last - first) + 1);
+            last = first;
+        }
+        row[-1] = before;
+    }
+}
+
+/* Transparent surfaces over what is opaque, the farthest layer first. Raw views do not show them. [M8] */
+GN_HOT static inline void shade_layers(gn_shading *s, uint32_t tile_idx)
+{
+    const int32_t n_rows = s->rect.y1 - s->rect.y0;
+    gn_mix_begin(s);
+    for (int32_t i = gn_layers_count(s->scratch) - 1; i >= 0; i--) {
+        s->rows.pixels = gn_layers_take(s->frame, s->scratch, i, n_rows);
+        link_layer(s, n_rows);
+        shade_triangles(s, tile_idx);
+    }
+}
+
+/* ---- Background -------------------------------------------------------------------------------------------------- */
+
 #if GN_TILE_DRAWING
 /* The colour of row y: top + (bottom - top) (y + 1/2) / H, in Q20 with one rounding: |difference| 2^16, 2 y + 1 < 2^12,
  * and 2^3 keep within 31 bits. [R11] */
@@ -318,12 +362,15 @@ GN_HOT void gn_shade_tile(const gn_frame *frame, gn_scratch *scratch, uint32_t t
     s->rows.x0 = s->rect.x0;
     s->rows.y0 = s->rect.y0;
     clear_background(s);
-    if (!sort_runs(s, s->rect.y1 - s->rect.y0)) return;
+    const int layered = GN_LAYERS(frame) && !(GN_RAW_VIEWS && frame->picture.format == GN_FORMAT_RAW32);
+    const uint32_t n_linked = sort_runs(s, s->rect.y1 - s->rect.y0);
+    if (!n_linked && !(layered && gn_layers_count(scratch))) return;
     s->cache.object = NULL;
 #if GN_INTERPOLATES
-    gn_levels_forget(&s->lattice);
+    gn_lattice_begin_tile(s);
 #endif
     s->cache.lights = GN_PUNCTUAL_LIGHTS && GN_TILE_LIGHTS ? gn_punctual_in_tile(frame, &s->rect) : UINT64_MAX;
     for (uint32_t i = 0; i < GN_VERTEX_CACHE; i++) gn_vertex_drop(&scratch->vertex[i]);
-    shade_triangles(s, tile_idx);
+    if (n_linked) shade_triangles(s, tile_idx);
+    if (layered) shade_layers(s, tile_idx);
 }

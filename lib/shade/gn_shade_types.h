@@ -52,6 +52,9 @@ typedef struct {
     gn_bfloat depth_scale; /* det * 2F: Z = depth_scale / (n . ray) */
     int32_t z_min_q16, z_max_q16;
     gn_bary bary;
+#if GN_INTERPOLATES
+    int32_t v_q16[3][3]; /* vertices in view space */
+#endif
     /* vertex 0, then differences of vertices 1 and 2 to it */
     int32_t normal_q30[3][3]; /* flat: the face normal and zeros */
     int32_t attribute_q16[3][GN_ATTRIBUTE_COUNT];
@@ -71,6 +74,9 @@ typedef struct {
 #endif
 #if GN_RECEIVER_PLANE || GN_AUTO_BIAS
     int32_t face_q30[3]; /* normal of the face in the world; only if some light of the list needs it */
+#define GN_FACE_Q30(surface) ((surface)->face_q30)
+#else
+#define GN_FACE_Q30(surface) ((surface)->normal_q30[0])
 #endif
 #if GN_AUTO_BIAS
     int32_t lift_q30[3]; /* curved: correction of the normal for automatic bias; likewise */
@@ -274,7 +280,8 @@ typedef struct {
     gn_corner *const *corner;
     int32_t size_log2;
     uint32_t bend_q16[2]; /* by how much view depths differ along and across rows, as a share of the least */
-    int near;             /* no shadow fades */
+    int near;             /* no shadow fades at any corner */
+    uint32_t across_q16;  /* diagonal of its corners, 0: not known yet */
     uint64_t error_q24;   /* of interpolated light, at most */
     uint64_t kink_q24;    /* the part of it that comes from where a light ends */
     gn_lattice_look *out;
@@ -298,6 +305,7 @@ typedef struct {
 /* A light of the surface's list, once per surface. */
 typedef struct {
     uint8_t realtime; /* its shadow map counts, */
+    uint8_t masked;   /* and its mask where shadows do not fade, too */
     uint8_t lifts;    /* the receiver's offset is along the normal, in proportion to the light-plane distance */
     uint32_t lit_uq16, dark_uq16; /* what is left of it without a mask, where shadows do not fade */
 } gn_lattice_light;
@@ -321,6 +329,12 @@ typedef struct {
 
 enum { GN_SPANS = 32, GN_PART_WIDTH = 64, GN_PART_ROWS = 16 };
 
+/* A directional view's coordinates of points in view space: texels, ray_shift fraction bits more than Q16. */
+typedef struct {
+    const gn_light_view *view; /* NULL: none */
+    int32_t m[3][3];
+} gn_view_matrix;
+
 /* A cell that is being split into four. */
 typedef struct {
     int16_t x, y;
@@ -337,6 +351,9 @@ typedef struct gn_lattice {
     gn_run_span span[GN_SPANS]; /* pixels of the surface, top down and left to right */
     int32_t n_spans;
     gn_screen_plane plane;
+#if GN_SHADOWS
+    gn_view_matrix matrix; /* of the view that was used last */
+#endif
     gn_lattice_light light[GN_SURFACE_LIGHTS];
     int32_t has_face, face_q30[3];    /* the face's normal, once something has asked for it */
     const gn_light_view *offset_view; /* flat surfaces: a directional view, NULL: none, */
@@ -380,6 +397,11 @@ typedef struct gn_lattice {
 } gn_lattice;
 #endif
 
+/* Two pixels as stored, how much of the first, and their mixture: neighbours are often equal. */
+typedef struct {
+    uint32_t front, behind, alpha_uq16, packed;
+} gn_mixture;
+
 /* The tile, and the triangle at hand. */
 typedef struct {
     const struct gn_frame *frame;
@@ -393,6 +415,9 @@ typedef struct {
     uint32_t last_pixel;
     uint32_t radiance_q20[3];
     gn_sample sample; /* at the pixel or corner at hand */
+#if GN_LAYERS_MAX
+    gn_mixture mixture;
+#endif
 #if GN_INTERPOLATES
     gn_lattice lattice;
 #endif

@@ -1,6 +1,8 @@
 /* A visible triangle as a surface. */
 #include "gn_internal.h"
 
+#include <string.h>
+
 #include "base/gn_count.h"
 #include "base/gn_hint.h"
 #include "base/gn_q.h"
@@ -348,6 +350,19 @@ GN_HOT void gn_surface_begin(const gn_frame *frame, gn_scratch *scratch, gn_surf
         if (s->plane.det > 0)
         s->depth_scale = gn_bf_mul(gn_bf_from_u64((uint64_t)s->plane.det), gn_bf_from_u64(frame->cam.focal2_px_q16));
     attributes(frame, cache, s, idx);
+#if GN_INTERPOLATES
+    memcpy(s->v_q16, v, sizeof s->v_q16);
+#else
     if (GN_HAS_BARY(s) && !GN_FLAT_Q16(frame)) gn_bary_setup(&s->bary, &s->plane, v[0], v[1], v[2]);
+#endif
     begin_lighting(frame, cache, s, v);
 }
+
+#if GN_INTERPOLATES
+GN_HOT void gn_surface_use_bary(const gn_frame *frame, gn_surface *s)
+{
+    if (GN_HAS_BARY(s) && !GN_FLAT_Q16(frame))
+        gn_bary_setup(&s->bary, &s->plane, s->v_q16[0], s->v_q16[1], s->v_q16[2]);
+    (void)frame;
+}
+#endif

@@ -11,6 +11,16 @@
 void gn_surface_begin(const gn_frame *frame, gn_scratch *scratch, gn_surface_cache *cache, gn_surface *surface,
                       const gn_tri_source *tri);
 
+#if GN_INTERPOLATES
+/* Sets up barycentrics, for all but small triangles. */
+void gn_surface_use_bary(const gn_frame *frame, gn_surface *surface);
+#else
+GN_HOT static inline void gn_surface_use_bary(const gn_frame *frame, gn_surface *surface)
+{
+    (void)frame, (void)surface;
+}
+#endif
+
 /* The face's normal in the world, towards the viewer. */
 void gn_surface_face(const gn_frame *frame, const gn_surface *surface, int32_t out_q30[3]);
 

@@ -91,7 +91,8 @@ static gn_status transform(const caster_job *job, const uint16_t idx[3], int64_t
 {
     const gn_mesh *mesh = job->object->mesh;
     for (int i = 0; i < 3; i++) {
-        if (idx[i] >= mesh->n_vertices) return gn_fail(job->frame, GN_ERR_MESH_INDEX, job->object_idx);
+        if (idx[i] >= mesh->n_vertices)
+            return GN_FAIL_AT(job->frame, GN_ERR_MESH_INDEX, job->object_idx, GN_FIELD_MESH_IDX);
         light_position(corner[i], job, idx[i]);
     }
     if (GN_CASTER_BIAS && job->shrink_q16) shrink(job, idx, corner);
@@ -105,7 +106,7 @@ static inline int32_t draw_perspective(gn_casting *casting, gn_alpha_cut *alpha,
     for (int i = 0; i < 3; i++) {
         for (int k = 0; k < 3; k++) {
             if (corner[i][k] <= -GN_VIEW_LIMIT_Q16 || corner[i][k] >= GN_VIEW_LIMIT_Q16) {
-                *status = gn_fail(job->frame, GN_ERR_VERTEX_RANGE, job->object_idx);
+                *status = GN_FAIL_AT(job->frame, GN_ERR_VERTEX_RANGE, job->object_idx, GN_FIELD_MESH_POS);
                 return -1;
             }
             casting->with.clipping.polygon.v_q16[i][k] = (int32_t)corner[i][k];
@@ -208,8 +209,9 @@ static gn_status refuse_large(gn_casting *casting, const uint16_t idx[3], int32_
     const caster_job *job = &casting->job;
     *n_texels = -1;
     for (int i = 0; i < 3; i++)
-        if (idx[i] >= job->object->mesh->n_vertices) return gn_fail(job->frame, GN_ERR_MESH_INDEX, job->object_idx);
-    return gn_fail(job->frame, GN_ERR_VERTEX_RANGE, job->object_idx);
+        if (idx[i] >= job->object->mesh->n_vertices)
+            return GN_FAIL_AT(job->frame, GN_ERR_MESH_INDEX, job->object_idx, GN_FIELD_MESH_IDX);
+    return GN_FAIL_AT(job->frame, GN_ERR_VERTEX_RANGE, job->object_idx, GN_FIELD_MESH_POS);
 }
 
 static gn_status draw_triangle(gn_casting *casting, const uint16_t idx[3])
@@ -222,7 +224,7 @@ static gn_status draw_triangle(gn_casting *casting, const uint16_t idx[3])
     if (SMALL_CASTERS && draw_small(casting, idx, &n_texels)) status = GN_OK;
     else status = GN_LARGE_CASTERS ? draw_large(casting, idx, &n_texels) : refuse_large(casting, idx, &n_texels);
     if (!GN_CASTER_CLIPPING && n_texels == GN_ORTHO_TOO_FAR)
-        return gn_fail(job->frame, GN_ERR_VERTEX_RANGE, job->object_idx);
+        return GN_FAIL_AT(job->frame, GN_ERR_VERTEX_RANGE, job->object_idx, GN_FIELD_MESH_POS);
     if (n_texels < 0) return status;
     job->frame->stats.n_caster_triangles++;
     job->frame->stats.n_texels_drawn += (uint32_t)n_texels;

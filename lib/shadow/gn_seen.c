@@ -299,7 +299,7 @@ static uint64_t pixels_q16(const gn_frame *frame, int64_t x_q16, int64_t y_q16, 
            (uint64_t)gn_clamp64(gn_bf_apply(y_q16, per_z, -17 + 8), 1, most);
 }
 
-/* The turn with the smallest rectangle, of those within a 64th of it the first. None if that saves less than a quarter:
+/* The turn with the smallest rectangle, of those within a 64th of it the first. None if that saves less than 5/16:
  * windows of texels are smallest where u is level. */
 static void pick_turn(const gn_seen_job *job, gn_view_seen *seen)
 {
@@ -309,7 +309,7 @@ static void pick_turn(const gn_seen_job *job, gn_view_seen *seen)
         uint32_t u = 2 * turn, v = u + 1;
         uint64_t area = (uint64_t)((int64_t)hi[u] - lo[u]) * (uint64_t)((int64_t)hi[v] - lo[v]); /* 2^62 */
         if (area >= limit) continue;
-        limit = area - (area >> (turn ? 6 : 2));
+        limit = area - (turn ? area >> 6 : 5 * (area >> 4));
         seen->turn = (uint8_t)turn;
         for (uint32_t k = 0; k < 3; k++) {
             uint32_t d = k < 2 ? u + k : GN_SEEN_DIRECTIONS - 1;

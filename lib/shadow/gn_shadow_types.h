@@ -10,10 +10,12 @@
 #define GN_TILE_ROWS(view) ((view)->tile_rows)
 #define GN_TILE_SIDE(view) ((view)->tile_rows > (view)->tile_texels ? (view)->tile_rows : (view)->tile_texels)
 #define GN_UNSEEN(view)    ((view)->unseen)
+#define GN_VIEW_TURN(view) ((view)->turn)
 #else
 #define GN_TILE_ROWS(view) ((view)->tile_texels)
 #define GN_TILE_SIDE(view) ((view)->tile_texels)
 #define GN_UNSEEN(view)    ((void)(view), 0)
+#define GN_VIEW_TURN(view) ((void)(view), 0)
 #endif
 
 #if GN_TIGHT_FIT

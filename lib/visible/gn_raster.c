@@ -12,26 +12,12 @@
 #include "geometry/gn_walk.h"
 #include "geometry/gn_xform.h"
 #include "visible/gn_cell.h"
+#include "visible/gn_layers.h"
 #include "visible/gn_raster.h"
 #include "visible/gn_screen_rect.h"
 #include "visible/gn_setup.h"
 
-/* Constants of a triangle's rows. A candidate cell is depth in the high bits, identity in the low ones. */
-typedef struct {
-    uint32_t minus_dx;  /* from a cell to the one before it */
-    uint32_t lo, range; /* depth inside the triangle: lo .. lo + range */
-    uint32_t id_mask;
-    uint32_t below; /* id_mask - id: from a cell with all identity bits set to the triangle's cell */
-} raster_depth;
-
-/* Depth is linear over a row; inside the triangle it stays within its range. A snapped edge can extend past the
- * unsnapped triangle by a fraction of a pixel, so values outside are clamped to the nearer end (modulo 2^32). */
-GN_HOT static uint32_t clamp_depth(uint32_t v, const raster_depth *depth)
-{
-    uint32_t above = v - depth->lo;
-    if (above <= depth->range) return v;
-    return 0U - above < above - depth->range ? depth->lo : depth->lo + depth->range;
-}
+typedef gn_raster_depth raster_depth;
 
 /* Identities ascend in the order of drawing, so a candidate wins where its depth is at least the cell's. Compared is
  * its depth with all identity bits set. */
@@ -191,7 +177,8 @@ GN_HOT static inline void cut_begin(const gn_frame *frame, gn_scratch *scratch, 
     const gn_object *object = &frame->scene->objects[tri->source.object_idx];
     GN_ELEMENT(object);
     const uint16_t *idx = object->mesh->idx + 3 * (size_t)tri->source.triangle_idx;
-    gn_alpha_begin(cut, object, object->visible_alpha, idx);
+    const int dithers = GN_LAYERS_MAX && object->visible_alpha == GN_ALPHA_BLEND && !GN_LAYERS(frame);
+    gn_alpha_begin(cut, object, dithers ? GN_ALPHA_DITHER : object->visible_alpha, idx);
     if (GN_TEXTURES && cut->textured) cut_plane(frame, scratch, cut, object, tri->source.object_idx, idx);
 }
 
@@ -213,13 +200,22 @@ GN_HOT static GN_NOINLINE void raster_span_slow(const raster_depth *depth, uint3
                                                 gn_alpha_cut *cut, int32_t x)
 {
     for (int32_t i = 0; i < n; i++, cell++, iz -= depth->minus_dx) {
-        uint32_t candidate = clamp_depth(iz, depth) | depth->id_mask;
+        uint32_t candidate = gn_raster_clamp(iz, depth) | depth->id_mask;
         if (candidate < *cell) continue;
         if (GN_VISIBLE_ALPHA && cut && gn_alpha_cuts(cut, x + i)) continue;
         *cell = candidate - depth->below;
     }
     GN_COUNT(covered_cut, cut ? n : 0);
     GN_COUNT(covered, cut ? 0 : n);
+}
+
+/* The same, but transparent surfaces go into layers. */
+GN_HOT static inline void raster_span_checked(const raster_tile *tile, const raster_depth *depth, uint32_t *cell,
+                                              int32_t n, uint32_t iz, gn_alpha_cut *cut, int32_t x)
+{
+    if (GN_LAYERS_MAX && cut && cut->mode == GN_ALPHA_BLEND)
+        gn_layers_span(tile->scratch, GN_LAYERS(tile->frame), depth, cell, n, iz, cut, x);
+    else raster_span_slow(depth, cell, n, iz, cut, x);
 }
 
 /* A small triangle without alpha whose depth needs no bounds (gn_tri): its edges are stepped in fixed point, row by
@@ -345,7 +341,7 @@ GN_HOT static void raster_triangle(const raster_tile *tile, const gn_tri *tri, u
             }
             if (GN_VISIBLE_ALPHA && cut) cut_row(tile, cut, (int32_t)(row - GN_CELLS(tile->scratch)) / stride, span);
             /* with the same results */
-            raster_span_slow(&depth, row + xa, n, above + depth.lo, cut, tile->rect.x0 + xa);
+            raster_span_checked(tile, &depth, row + xa, n, above + depth.lo, cut, tile->rect.x0 + xa);
         }
     }
 }
@@ -355,6 +351,7 @@ GN_HOT static GN_NOINLINE void raster_cut_triangle(const raster_tile *tile, cons
 #if GN_VISIBLE_ALPHA
     gn_alpha_cut *cut = &tile->scratch->work.cut;
     cut_begin(tile->frame, tile->scratch, cut, tri);
+    if (GN_LAYERS_MAX && cut->mode == GN_ALPHA_BLEND) gn_layers_use(tile->frame, tile->scratch);
     raster_triangle(tile, tri, id, cut);
 #else
     (void)tile, (void)tri, (void)id;
@@ -419,11 +416,11 @@ GN_HOT void gn_raster_tile(const gn_frame *frame, gn_scratch *scratch, uint32_t 
     GN_COUNT(pixels, tile.width * tile.height);
     memset(GN_CELLS(scratch), 0, sizeof *scratch->cell * (uint32_t)(GN_K(frame, tile_width) * tile.height));
     for (uint32_t i = 0; GN_VISIBLE_ALPHA && i < GN_VERTEX_CACHE; i++) gn_vertex_drop(&scratch->vertex[i]);
+    if (GN_LAYERS_MAX) gn_layers_clear(scratch);
 #if GN_GROUPS
-    if (GN_K(frame, triangle_groups)) {
-        gn_setup_tile(frame, scratch, tile_idx, &tile);
-        return;
-    }
+    if (GN_K(frame, triangle_groups)) gn_setup_tile(frame, scratch, tile_idx, &tile);
+    else
 #endif
-    raster_records(&tile, tile_idx);
+        raster_records(&tile, tile_idx);
+    if (GN_LAYERS(frame)) gn_layers_drop_hidden(frame, scratch, tile.height);
 }

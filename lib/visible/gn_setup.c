@@ -400,7 +400,7 @@ gn_status gn_setup_triangles(gn_frame *frame, gn_scratch *scratch)
         job.screen.object = &frame->scene->objects[i];
         if (job.screen.object->flags & GN_OBJECT_HIDDEN) continue;
         gn_status status = setup_object(&job, frame, first);
-        if (status) return gn_fail(frame, status, i);
+        if (status) return GN_FAIL_AT(frame, status, i, GN_MESH_FIELD(status));
         first += job.screen.object->mesh->n_triangles;
     }
     if (!GN_K(frame, triangle_groups) && frame->stats.n_triangles > GN_MAX_TRIANGLES)

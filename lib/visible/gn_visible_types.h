@@ -68,6 +68,17 @@ typedef uint32_t gn_ref_offset;
 typedef uint16_t gn_ref_offset;
 #endif
 
+#if GN_LAYERS_MAX
+/* Cells of a screen tile's transparent surfaces: of each pixel the nearest ones, the nearest first. */
+typedef struct {
+    int32_t n; /* layers with pixels; 0: the memory is not in use */
+    union {
+        uint32_t cell[GN_TILE_PIXELS_MAX];
+        gn_tile_pixels pixels; /* of the layer, while it is mixed with what is behind */
+    } layer[GN_LAYERS_MAX];
+} gn_layers;
+#endif
+
 #define GN_RUN_LISTS 64
 #if GN_TILE_PIXELS_MAX > 65535
 typedef uint32_t gn_run_idx;

@@ -158,7 +158,7 @@ static const change gltf_errors[] = {
     {"\"doubleSided\":true", "\"alphaMode\":\"GLASS\"", "/materials/0: alphaMode 'GLASS'"},
     {"\"receives\":false", "\"caster\":\"never\"",
      "/materials/0/extras/gnomon/caster: 'never' is not off, on, clip or dither"},
-    {"\"receives\":false", "\"visible_alpha\":\"on\"", "visible_alpha: 'on' is not opaque, clip or dither"},
+    {"\"receives\":false", "\"visible_alpha\":\"on\"", "visible_alpha: 'on' is not opaque, clip, dither or blend"},
     {"\"receives\":false", "\"alpha_cutoff\":2", "alpha_cutoff: 2 is not in 0..1"},
     {"\"receives\":false", "\"emissive\":256", "emissive: 256 is not in 0..255"},
     {"\"receives\":false", "\"specular\":-1", "specular: -1 is not in 0..1"},

@@ -159,6 +159,29 @@ static inline void store(const rig *r, uint8_t *tile, int w, int x, int y, unsig
     }
 }
 
+/* Size of the picture, which the display turns. */
+static inline int picture_width(const rig *r)
+{
+    return r->display.quarter_turns & 1 ? r->panel.height - r->display.y : r->panel.width - r->display.x;
+}
+static inline int picture_height(const rig *r)
+{
+    return r->display.quarter_turns & 1 ? r->panel.width - r->display.x : r->panel.height - r->display.y;
+}
+
+/* Pixel (x, y) of the picture is to be seen where its turned place is: by turning a quarter at a time. */
+static inline void rig_expect(rig *r, int x, int y, unsigned v)
+{
+    int height = picture_height(r), width = picture_width(r);
+    for (int i = 0; i < r->display.quarter_turns; i++) {
+        const int left = height - 1 - y, across = height;
+        y = x, x = left;
+        height = width, width = across;
+    }
+    x += r->display.x, y += r->display.y;
+    if (x < r->panel.width && y < r->panel.height) r->picture[y * r->panel.width + x] = (uint16_t)v;
+}
+
 /* Flushes a tile of random pixels, as the library would. */
 static inline void flush_random(rig *r, int x, int y, int w, int h)
 {
@@ -173,8 +196,7 @@ static inline void flush_random(rig *r, int x, int y, int w, int h)
         for (int i = 0; i < w; i++) {
             unsigned v = rng_below(&r->random, most_value(r) + 1);
             store(r, tile, w, i, j, v);
-            if (x + i < r->panel.width && y + j < r->panel.height)
-                r->picture[(y + j) * r->panel.width + x + i] = (uint16_t)v;
+            rig_expect(r, x + i, y + j, v);
         }
     }
     display_flush(&r->display, x, y, w, h, tile);
@@ -184,10 +206,10 @@ static inline void flush_random(rig *r, int x, int y, int w, int h)
 
 static inline panel_status draw(rig *r, int tile_w, int tile_h)
 {
-    for (int y = 0; y < r->panel.height; y += tile_h) {
-        for (int x = 0; x < r->panel.width; x += tile_w) {
-            int w = r->panel.width - x < tile_w ? r->panel.width - x : tile_w,
-                h = r->panel.height - y < tile_h ? r->panel.height - y : tile_h;
+    for (int y = 0; y < picture_height(r); y += tile_h) {
+        for (int x = 0; x < picture_width(r); x += tile_w) {
+            int w = picture_width(r) - x < tile_w ? picture_width(r) - x : tile_w,
+                h = picture_height(r) - y < tile_h ? picture_height(r) - y : tile_h;
             flush_random(r, x, y, w, h);
             r->bus.n_overlaps += (unsigned)r->bus.under_way; /* the caller is back, and the bus at work */
             r->n_tiles++;

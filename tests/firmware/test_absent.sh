@@ -135,11 +135,22 @@ PICKING gn_pick
 CASTER_CLIPPING clip_side|clip_to_reach
 LIST
 
+# Errors name fields only where that is asked for.
+if symbols NOTHING | grep -q -x 'gn_fail_field'; then fail "names of fields without error_fields"; else pass; fi
+object all-FIELDS -Og -fno-inline $(but all 0 NOTHING) -DGN_ERROR_FIELDS=1
+symbols FIELDS | grep -q -x gn_fail_field && pass || fail "error_fields: there is no symbol gn_fail_field at all"
+
 # Neither way of keeping triangles knows the other's functions.
 if symbols NOTHING | grep -q -x -E 'gn_setup_tile|gn_raster_triangle|setup_.*groups|count_group|check_tiles'; then fail "groups of triangles without triangle_groups"; else pass; fi
 object all-GROUPS -Og -fno-inline $(but all 0 NOTHING) -DGN_TRIANGLE_GROUPS=64
 if symbols GROUPS | grep -q -x -E 'raster_records|sort_triangles|bin_by_bounds|count_record|count_(few_)?tiles'; then fail "records of triangles with triangle_groups"; else pass; fi
 symbols GROUPS | grep -q -x gn_setup_tile && pass || fail "triangle_groups: there is no symbol gn_setup_tile at all"
+
+# Layers of transparent surfaces; "all" has none.
+layers='gn_layers_.*|gn_mix_.*|shade_layers|link_layer|alpha_at'
+if symbols NOTHING | grep -q -x -E "$layers"; then fail "layers without transparent_layers"; else pass; fi
+object all-LAYERS -Og -fno-inline $(but all 0 NOTHING) -DGN_TRANSPARENT_LAYERS=1
+[ "$(symbols LAYERS | grep -c -x -E "$layers")" -ge 8 ] && pass || fail "transparent_layers: its functions are not there at all"
 
 # ---- Divisions -------------------------------------------------------------------------------------------------------------
 

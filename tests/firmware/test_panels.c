@@ -59,6 +59,54 @@ static void test_any_window(const specimen *s)
     check_picture(r, "anywhere");
 }
 
+/* A picture that the display turns, of the whole panel and of a rectangle of it: whole tiles, and with a copy any. The
+ * controller may turn too. */
+static void test_turned(const specimen *s)
+{
+    for (uint8_t turns = 0; turns < 4; turns++)
+        for (int rectangle = 0; rectangle < 2; rectangle++) {
+            rig *r = rig_make(s, 1);
+            r->display.quarter_turns = turns;
+            CHECK_EQ_INT(rig_init(r, can_turn(s, 2) ? (uint8_t)(2 * rectangle) : 0), PANEL_OK);
+            if (s->format > GN_FORMAT_RGB565_SWAPPED) r->display.shadow = r->shadow;
+            CHECK_EQ_INT(draw(r, 40, 16), PANEL_OK);
+            CHECK_EQ_INT(panel_show(&r->panel, 1), PANEL_OK);
+            check_picture(r, "turned by the display");
+            r->display.x = (uint16_t)(rectangle * 13);
+            r->display.y = (uint16_t)(rectangle * 7);
+            CHECK_EQ_INT(draw(r, 23, 9), PANEL_OK);
+            check_picture(r, "turned, in a rectangle");
+            r->display.width = (uint16_t)(picture_width(r) - 2);
+            display_flush(&r->display, r->display.width - 8, 0, 9, 8, r->buffer);
+            CHECK_EQ_INT(display_finish(&r->display), PANEL_ERR_WINDOW); /* beyond the picture, though on the panel */
+            r->display.width = (uint16_t)(picture_width(r) + 9);
+            display_flush(&r->display, turns < 2 ? r->display.width - 8 : 0, 0, 8, 8, r->buffer); /* beyond the panel */
+            CHECK_EQ_INT(display_finish(&r->display), PANEL_ERR_WINDOW);
+            check_picture(r, "after tiles that were refused");
+        }
+}
+
+/* Where tiles are of whole bytes as they are turned, no copy is needed. */
+static void test_turned_alone(const specimen *s)
+{
+    specimen even = *s;
+    even.glass.width = even.config.width = 48;
+    even.glass.height = even.config.height = 32;
+    for (uint8_t turns = 0; turns < 4; turns++) {
+        rig *r = rig_make(&even, 1);
+        r->display.quarter_turns = turns;
+        CHECK_EQ_INT(rig_init(r, 0), PANEL_OK);
+        CHECK_EQ_INT(draw(r, 16, 8), PANEL_OK);
+        CHECK_EQ_INT(panel_show(&r->panel, 1), PANEL_OK);
+        check_picture(r, "turned without a copy");
+        r->display.quarter_turns = 4;
+        CHECK_EQ_INT(display_init(&r->display), PANEL_ERR_CONFIG);
+        r->display.quarter_turns = 1;
+        r->display.buffer[0] = r->display.buffer[1] = NULL;
+        CHECK_EQ_INT(display_init(&r->display), PANEL_ERR_BUFFER);
+    }
+}
+
 /* Without the copy such tiles are refused, and nothing of them is sent. */
 static void test_alignment(const specimen *s)
 {
@@ -608,6 +656,8 @@ int main(int argc, char **argv)
     for (int i = 0; i < N_SPECIMENS; i++) {
         test_whole_pictures(&specimens[i]);
         test_any_window(&specimens[i]);
+        test_turned(&specimens[i]);
+        test_turned_alone(&specimens[i]);
         test_alignment(&specimens[i]);
         test_library_frame(&specimens[i]);
         test_without_buffers(&specimens[i]);

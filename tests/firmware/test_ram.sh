@@ -101,6 +101,8 @@ if [ -n "$target" ]; then
         predicted $preset surface_lights=1 textures=0 specular=0 masks=0 baked_light=0 punctual_lights=0 main_light=0 shadows=0 persp_step=1
         predicted $preset triangle_groups=100 max_triangles=333
         predicted $preset triangle_groups=1 max_triangles=8 tile_width=72 tile_height=5 shadows=0 orthographic=0
+        predicted $preset transparent_layers=2 tile_width=72 tile_height=5
+        predicted $preset transparent_layers=1 triangle_groups=8 shadows=0
         predicted $preset atlas_texels=8192 other_atlas_texels=64 static_layer=1
     done
 fi

@@ -31,13 +31,14 @@ static void add(int column, int length, const char *text)
 /* Binary operators stand between blanks; unary ones do not. */
 static const struct {
     const char *old, *now[2];
-} operators[] = {
-    {" < ", {" <= ", " >= "}}, {" <= ", {" < ", " > "}}, {" > ", {" >= ", " <= "}},  {" >= ", {" > ", " < "}},
-    {" == ", {" != ", NULL}},  {" != ", {" == ", NULL}}, {" + ", {" - ", NULL}},     {" - ", {" + ", NULL}},
-    {" * ", {" + ", NULL}},    {" / ", {" * ", NULL}},   {" % ", {" / ", NULL}},     {" << ", {" >> ", NULL}},
-    {" >> ", {" << ", NULL}},  {" & ", {" | ", NULL}},   {" | ", {" & ", " ^ "}},    {" ^ ", {" | ", NULL}},
-    {" && ", {" || ", NULL}},  {" || ", {" && ", NULL}}, {" += ", {" -= ", " = "}},  {" -= ", {" += ", " = "}},
-    {" |= ", {" &= ", NULL}},  {" &= ", {" |= ", NULL}}, {" <<= ", {" >>= ", NULL}}, {" >>= ", {" <<= ", NULL}}};
+} operators[] = {{" < ", {" <= ", " >= "}},      {" <= ", {" < ", " > "}},   {" > ", {" >= ", " <= "}},
+                 {" >= ", {" > ", " < "}},       {" == ", {" != ", NULL}},   {" != ", {" == ", NULL}},
+                 {" + ", {" - ", NULL}},         {" - ", {" + ", NULL}},     {" * ", {" + ", NULL}},
+                 {" / ", {" * ", NULL}},         {" % ", {" / ", NULL}},     {" << ", {" >> ", " << 1 + "}},
+                 {" >> ", {" << ", " >> 1 + "}}, {" & ", {" | ", NULL}},     {" | ", {" & ", " ^ "}},
+                 {" ^ ", {" | ", NULL}},         {" && ", {" || ", NULL}},   {" || ", {" && ", NULL}},
+                 {" += ", {" -= ", " = "}},      {" -= ", {" += ", " = "}},  {" |= ", {" &= ", NULL}},
+                 {" &= ", {" |= ", NULL}},       {" <<= ", {" >>= ", NULL}}, {" >>= ", {" <<= ", NULL}}};
 
 static void operators_at(const char *line, int i)
 {
@@ -88,6 +89,25 @@ static void condition_at(const char *line, int i)
     add(i, end - i + 1, text);
 }
 
+/* Its other bound instead of a bound; what is clamped, or saturated, without bounds. */
+static void bound_at(const char *line, int i)
+{
+    static const char *const min_max[] = {"gn_min32(", "gn_max32(", "gn_max32(", "gn_min32("};
+    static const char *const limited[] = {"gn_clamp64(", "gn_sat32("};
+    for (int k = 0; k < 4; k += 2)
+        if (strncmp(line + i, min_max[k], 9) == 0) add(i, 9, min_max[k + 1]);
+    for (int k = 0; k < 2; k++) {
+        const int n = (int)strlen(limited[k]), end = closing(line, i + n - 1);
+        char text[TEXT_MAX];
+        if (strncmp(line + i, limited[k], (size_t)n) != 0 || end < 0) continue;
+        int depth = 0, last = i + n; /* the first argument */
+        while (last < end && (depth || line[last] != ',')) depth += (line[last] == '(') - (line[last] == ')'), last++;
+        if (last - i + 2 >= TEXT_MAX) continue;
+        snprintf(text, sizeof text, "(%.*s)", last - i - n, line + i + n);
+        add(i, end - i + 1, text);
+    }
+}
+
 /* An assignment or a call by itself goes. */
 static void statement(const char *line)
 {
@@ -129,7 +149,7 @@ static void mutate_line(const char *line)
     for (int i = 0; line[i]; i++) {
         const int word = i && (isalnum((unsigned char)line[i - 1]) || line[i - 1] == '_');
         operators_at(line, i);
-        if (!word) condition_at(line, i);
+        if (!word) condition_at(line, i), bound_at(line, i);
         if (!word && isdigit((unsigned char)line[i])) i += constant_at(line, i) - 1;
         else if (strncmp(line + i, "++", 2) == 0) add(i, 2, "--");
     }

@@ -116,9 +116,9 @@ static void report(series *all, const char *what)
 
 static settings settings_for(scene *s)
 {
-    static const char *const sets[] = {
-        "filter=hard",    "cascades=1",    "atlas_size=128", SRGB, "shadow_subpixel_bits=8",
-        "weight_bits=12", "newton_steps=1"};
+    static const char *const sets[] = {"filter=hard",   "cascades=1", "atlas_size=128",         "fit=stable",
+                                       "tiles=equal",   SRGB,         "shadow_subpixel_bits=8", "weight_bits=12",
+                                       "newton_steps=1"};
     char error[512] = "";
     settings set;
     settings_init(&set);

@@ -71,12 +71,36 @@ static gn_status draw(void)
 
 /* ---- Refused ----------------------------------------------------------------------------------------------------- */
 
+/* With error_fields: the last thing that was changed is what the error names. */
+static void check_named(const char *change)
+{
+    static const char *const names[][2] = {{"scene.camera.", "camera."},
+                                           {"scene.shadow.", "shadow."},
+                                           {"object[1].", "object."},
+                                           {"pos[", "object.mesh->pos"},
+                                           {"idx[", "object.mesh->idx"},
+                                           {"sun.", "light."},
+                                           {"sun.bias_normal_q16 = 0", "light.auto_bias"},
+                                           {"mesh.pos_frac_bits", "object.to_world"}};
+    char expected[100] = "";
+    for (size_t k = 0; k < sizeof names / sizeof *names; k++) {
+        const char *at = strstr(change, names[k][0]), *tail = at ? at + strlen(names[k][0]) : "";
+        const int whole = names[k][1][strlen(names[k][1]) - 1] != '.';
+        if (at)
+            snprintf(expected, sizeof expected, "%s%.*s", names[k][1], whole ? 0 : (int)strcspn(tail, " .=[,"), tail);
+    }
+    const char *named = gn_field_text(gn_get_detail(&renderer)->field);
+    if (!CHECK(strcmp(named, expected) == 0)) printf("%s: named is '%s', not '%s'\n", change, named, expected);
+}
+
 /* EXPECTED with the scene changed; without, it is drawn. */
 #define REFUSED(change, expected)                                                                                      \
     do {                                                                                                               \
         begin();                                                                                                       \
         change;                                                                                                        \
-        CHECK_EQ_INT(draw(), expected);                                                                                \
+        const gn_status got = draw();                                                                                  \
+        CHECK_EQ_INT(got, expected);                                                                                   \
+        if (GN_ERROR_FIELDS && got) check_named(#change);                                                              \
     } while (0)
 #define ACCEPTED(change) REFUSED(change, GN_OK)
 

@@ -39,12 +39,12 @@ counted "$tmp/bounds"
 
 # ---- Range: the compilers of the test suite, with sanitizers -----------------------------------------------------------------------
 
-for how in "gcc -O2 -DGN_AUTO_BIAS=0" "clang -O0"; do
+for how in "gcc -O2 -DGN_AUTO_BIAS=0" "clang -O0 -DGN_ERROR_FIELDS=1"; do
     if $how -std=c11 -w -fsanitize=address,undefined -fno-sanitize-recover=all $flags -DGN_MAX_TRIANGLES=64 -DGN_MAX_HEIGHT=64 -Ilib -Itests/support \
         -o "$tmp/range" tests/oracle/compact_range.c lib/gnomon.c -lm 2>"$tmp/log"; then counted "$tmp/range" 5000
     else fail "$how: $(grep -m 1 error "$tmp/log")"; fi
 done
-for knobs in "-DGN_COMPACT=1" "-DGN_COMPACT=1 -DGN_PRESET=GN_PRESET_ACCURATE -DGN_VALIDATION=0" "-DGN_COMPACT=1 -DGN_AUTO_BIAS=0"; do
+for knobs in "-DGN_COMPACT=1" "-DGN_COMPACT=1 -DGN_PRESET=GN_PRESET_ACCURATE -DGN_VALIDATION=0" "-DGN_COMPACT=1 -DGN_AUTO_BIAS=0" "-DGN_COMPACT=1 -DGN_ERROR_FIELDS=1"; do
     gcc -std=c99 -pedantic $warn -O2 -Ilib $knobs -c -o "$tmp/warnings.o" lib/gnomon.c 2>"$tmp/log" && pass || fail "$knobs: $(grep -m 1 -E 'error|warning' "$tmp/log")"
 done
 for contradiction in TEXTURES MANY_CASCADES FILTER_MAX PUNCTUAL_LIGHTS RAW_VIEWS OTHER_FORMATS INCREMENTAL STATIC_LAYER; do

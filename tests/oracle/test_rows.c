@@ -66,8 +66,11 @@ static int open_stage(stage *st, const row *r, const char *words, int preset)
     memset(st, 0, sizeof *st);
     settings_init(&st->set);
     settings_preset(&st->set, preset);
-    if (strstr(r->scene, ".gltf"))
-        return open_file(st, r->scene) || apply_to_file(st, r->words) || apply_to_file(st, words ? words : "") ? -1 : 0;
+    if (strstr(r->scene, ".gltf")) {
+        if (open_file(st, r->scene)) return -1;
+        settings_preset_scene(&st->file, preset);
+        return apply_to_file(st, r->words) || apply_to_file(st, words ? words : "") ? -1 : 0;
+    }
     for (size_t i = 0; i < sizeof row_scenes / sizeof *row_scenes; i++)
         if (strcmp(r->scene, row_scenes[i].name) == 0) row_scenes[i].build(&st->f);
     return apply_words(&st->f, &st->set, r->words) || apply_words(&st->f, &st->set, words ? words : "") ? -1 : 0;
@@ -136,25 +139,30 @@ static void check_tiles(const engine_picture *fixed, const engine_picture *refer
     }
 }
 
-/* Texels whose depths differ by more than two steps, or that only one of both has covered. */
-static double tile_difference(const double *a, const double *b, int texels, int bits)
+/* Texels whose depths differ by more than two steps, or that only one of both has covered. The library may leave out
+ * casters that a smaller cascade shows (culls): its texels are then farther. */
+static double tile_difference(const double *a, const double *b, int texels, int bits, bool culls)
 {
     long differing = 0;
     const double step = 2.0 / (bits == 8 ? 255 : 65535);
-    for (int i = 0; i < texels * texels; i++) differing += (a[i] < 1) != (b[i] < 1) || fabs(a[i] - b[i]) > step;
-    return (double)differing / (texels * texels);
+    for (int i = 0; i < texels; i++)
+        differing += !(culls && a[i] > b[i]) && ((a[i] < 1) != (b[i] < 1) || fabs(a[i] - b[i]) > step);
+    return (double)differing / texels;
 }
 
 /* The share of such texels in the worst tile. [A6] */
-static double atlas_difference(const pair *p, const settings *set)
+static double atlas_difference(const pair *p, const settings *set, bool culls)
 {
     double worst = 0;
     for (size_t l = 0; l < p->fixed.n_lights; l++)
         for (int i = 0; i < p->fixed.n_tiles[l]; i++) {
             const double *a = p->fixed.atlas[l][i], *b = p->reference.atlas[l][i];
             const int bits = p->fixed.perspective[l] ? set->quality.other_depth_bits : set->quality.depth_bits;
+            const int *size = p->fixed.tile_size[l][i], *other = p->reference.tile_size[l][i];
             CHECK(!a == !b);
-            if (a && b) worst = fmax(worst, tile_difference(a, b, p->fixed.atlas_texels[l], bits));
+            if (!a || !b) continue;
+            if (size[0] != other[0] || size[1] != other[1]) return 1;
+            worst = fmax(worst, tile_difference(a, b, size[0] * size[1], bits, culls && i > 0));
         }
     return worst;
 }
@@ -227,7 +235,7 @@ static int measure(result *out, const row *r, int preset, bool matters)
     out->cells = st.set.quality.persp_step > 1;
     out->share = share_needed(&out->m, out->cells ? SETTINGS_BALANCED : preset);
     check_tiles(&p.fixed, &p.reference);
-    out->atlas = atlas_difference(&p, &st.set);
+    out->atlas = atlas_difference(&p, &st.set, scene_of(&st)->shadow.caster_culling);
     const int failed = matters ? compare_without(out, &p, r, preset) : 0;
     engine_free(&p.fixed);
     engine_free(&p.reference);
@@ -331,6 +339,14 @@ static const row rows[] = {
      "cascade_blend=soft cascade_fade=0.6", "cascade_fade=0.6", 0.25},
     {"D7", "lane", ".camera=0.5,2,6,0,0.5,-8 cascades=4 filter=5x5 atlas_size=64",
      "cascade_blend=dither cascade_fade=0.6", "cascade_fade=0.6", 0.25},
+    /* each cascade is turned by itself */
+    {"D12", "lane", "cascades=4 atlas_size=64 tiles=equal fit=stable", "fit=tight", "", 0.25},
+    {"D12", "lane", "cascades=3 atlas_size=64 tiles=equal fit=stable bias_normal=0 auto_bias=normal", "fit=tight", "",
+     0.25},
+    {"D12", "lane", "cascades=3 filter=5x5 tiles=equal fit=stable cascade_blend=soft cascade_fade=0.5", "fit=tight", "",
+     0.5},
+    {"D12", "yard", ".light=suns atlas_size=64 filter=3x3 tiles=equal fit=stable", "fit=tight", "", 0.25},
+    {"D12", "yard", ".light=suns filter=7x7 tiles=equal fit=stable", "main_light=1 fit=tight", "main_light=1", 0.25},
     {"D9", "yard", "", "near_offset=100", NULL, 0.1},
     {"D9", "yard", "max_distance=3", ".direction=-0.2,-0.3,1", "", 0.25},
     {"D10", "yard", ".light=suns", "main_light=1", "", 0.25},
@@ -394,6 +410,9 @@ static const row rows[] = {
     {"A2", "yard", ".light=all", "tiles=importance", "", 0.1},
     {"A2", "yard", ".light=all range@2=3", "tiles=importance", "", 0.1},
     {"A2", "lane", ".light=suns cascades=3", "tiles=importance", "", 0.5},
+    {"A7", "yard", ".light=all fit=stable tiles=equal", "tiles=worth", "", 0.1},
+    {"A7", "room", "fit=stable tiles=equal", "tiles=worth", "", 0.5},
+    {"A7", "lane", "cascades=4 atlas_size=64 fit=stable tiles=equal", "tiles=worth fit=tight", "", 0.5},
     {"A3", "yard", ".light=seventeen object_lights=0", "shadow=1", "shadow=0", 0.25},
     {"A3", "yard", ".light=dozen object_lights=0", "shadow=1", "shadow=0", 0.1},
     {"A3", "lane", ".light=five cascades=4", "shadow=1", "shadow=0", 0.5},
@@ -526,6 +545,10 @@ static const row rows[] = {
     {"M8", "yard", ".texture=soft_pickets", ".visible=2", "", 0.1},
     {"M8", "yard", ".alpha=0.5", ".visible=2", "", 0.1},
     {"M8", "yard", ".texture=pickets .flip=1 .caster=2", ".visible=1 .two_sided=1", "", 0.1},
+    {"M8", "yard", ".alpha=0.5 .visible=3", "transparent_layers=1", "", 0.25},
+    {"M8", "yard", ".alpha=0.4 .visible=3 .light=all .colours=1 .specular=4", "transparent_layers=3", "", 0.25},
+    {"M8", "yard", ".texture=soft_pickets .visible=3 .light=spot", "transparent_layers=2", "", 0.25},
+    {"M8", "yard", ".texture=pickets .visible=3 half_height=3", "transparent_layers=1", "", 0.5},
     {"M9", "yard", "", ".baked=1", "", 0.25},
     {"M9", "yard", ".baked=1 .light=all", "mode@1=baked", "", 0.25},
     {"M9", "yard", ".baked=1 .light=suns", "mode@0=baked", "", 0.25},

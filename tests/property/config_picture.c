@@ -131,7 +131,10 @@ static void use_materials(int variant)
     }
     if (use.textures) box->texture = ground->texture = &texture;
     if (use.textures && use.emissive && use.emissive_textures) ground->emissive_texture = &texture;
-    if (use.visible_alpha) box->visible_alpha = ball->visible_alpha = cut;
+    if (use.visible_alpha) {
+        box->visible_alpha = cut;
+        ball->visible_alpha = variant % 3 ? cut : GN_ALPHA_BLEND;
+    }
     if (use.caster_alpha) box->caster_alpha = ball->caster_alpha = cut;
     for (int k = 0; use.specular && k < 3; k++) ball->specular_uq16[k] = 30000;
     ball->shininess_log2 = 4;

@@ -293,7 +293,7 @@ static void random_material(random_scene *g, gn_object *o)
         o->specular_uq16[k] = (uint32_t)seldom(0, 0, 65536);
         o->emissive_uq16[k] = (uint32_t)seldom(0, 0, one_in(4) ? 0xFFFFFF : 1 << 16);
     }
-    o->visible_alpha = one_in(3) ? (gn_alpha)(rnd() % 3) : GN_ALPHA_OPAQUE;
+    o->visible_alpha = one_in(3) ? (gn_alpha)(rnd() % 4) : GN_ALPHA_OPAQUE;
     o->caster_alpha = one_in(3) ? (gn_alpha)(rnd() % 3) : GN_ALPHA_OPAQUE;
     o->alpha_uq16 = (uint32_t)seldom(65536, 0, 65536);
     o->alpha_cutoff_uq16 = (uint32_t)pick(0, 65536);
@@ -538,6 +538,7 @@ static void random_knobs(gn_frame *k)
     SET_KNOB(k, position_bits, 32); /* may have been spoiled */
     SET_KNOB(k, normal_bits, 16);
     SET_KNOB(k, triangle_groups, one_in(2) ? 0 : 1 + (int32_t)(rnd() % 16));
+    SET_KNOB(k, transparent_layers, one_in(2) ? 0 : 1 + (int32_t)(rnd() % 3));
     if (one_in(200)) {
 #if GN_RUNTIME_KNOBS
         spoil_words(&k->knobs, 0, sizeof k->knobs);

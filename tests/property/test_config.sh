@@ -93,7 +93,10 @@ pairs() {
     echo "PUNCTUAL_LIGHTS=0 MAIN_LIGHT=0 DEPTH_BITS=32 STATIC_LAYER=1"
     echo "OTHER_ATLAS_SIZE=32 ATLAS_SIZE=64 TILE_WIDTH=32 TILE_HEIGHT=5"
     echo "TRIANGLE_GROUPS=64 MAX_TRIANGLES=400 MAX_TILE_REFS=1"
-    echo "none TRIANGLE_GROUPS=3 TILE_WIDTH=24 SIZE_FIRST=1"
+    echo "TRANSPARENT_LAYERS=1 TEXTURES=0 SIZE_FIRST=1"
+    echo "fast TRANSPARENT_LAYERS=3 TRIANGLE_GROUPS=64 MAX_TRIANGLES=400"
+    more "accurate all TRANSPARENT_LAYERS=2 OTHER_FORMATS=0 ORTHOGRAPHIC=0"
+    echo "none TRIANGLE_GROUPS=3 TILE_WIDTH=24 SIZE_FIRST=1 ERROR_FIELDS=1"
     more "tiny all TRIANGLE_GROUPS=4096"
     more "-m32 accurate TRIANGLE_GROUPS=17"
     for preset in tiny fast accurate; do # balanced is the default
@@ -101,7 +104,7 @@ pairs() {
         more "$preset none"
         more "-m32 $preset"
     done
-    echo "tiny all SRGB=0"
+    echo "tiny all SRGB=0 ERROR_FIELDS=1"
     more "accurate all SRGB=0"
     more "-m32"
     more "-m32 none"
@@ -207,6 +210,7 @@ refused vertex_cache -DGN_VERTEX_CACHE=33
 refused tile_width -DGN_TILE_WIDTH=68
 refused triangle_groups_have_tiles "-DGN_TRIANGLE_GROUPS=1 -DGN_TILE_WIDTH=8 -DGN_TILE_HEIGHT=1 -DGN_MAX_HEIGHT=100"
 refused triangle_groups_have_up_to_128 "-DGN_TRIANGLE_GROUPS=1 -DGN_TILE_HEIGHT=1"
+refused transparent_layers_need_visible_alpha "-DGN_TRANSPARENT_LAYERS=1 -DGN_VISIBLE_ALPHA=0"
 
 # ---- The user's own header; C++ --------------------------------------------------------------------------------------------
 

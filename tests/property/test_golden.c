@@ -57,6 +57,7 @@ static int line_of(char *line, size_t bytes, const char *scene_name, int frame, 
     while (n_sets < 4 && sets[n_sets]) n_sets++;
     int failed = scene_load(&s, path, &options, error, sizeof error);
     if (!failed) {
+        settings_preset_scene(&s, preset);
         failed = settings_apply_all(&set, &s, sets, n_sets, error, sizeof error) ||
                  engine_fixed(&p, &s, &set, 320, 240, ENGINE_ALL, error, sizeof error);
         scene_free(&s);

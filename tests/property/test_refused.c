@@ -186,6 +186,14 @@ static void skin_no_joints(gn_scene *s)
 {
     (void)s, skinned(1), skin.n_joints = 0;
 }
+static void skin_no_joint(gn_scene *s)
+{
+    (void)s, skinned(1), skin.joint = NULL;
+}
+static void skin_no_indices(gn_scene *s)
+{
+    (void)s, skinned(1), skin.joint_idx = NULL;
+}
 static void skin_no_weights(gn_scene *s)
 {
     (void)s, skinned(1), skin.weight_u8 = NULL;
@@ -347,86 +355,89 @@ static const struct {
     void (*spoil)(gn_scene *);
     const char *name;
     gn_status status;
+    const char *field;
     uint32_t index, needed, available;
 } refused[] = {
 #define REFUSED(spoil, status, ...)                                                                                    \
     {                                                                                                                  \
         spoil, #spoil, status, __VA_ARGS__                                                                             \
     }
-    REFUSED(no_objects, GN_ERR_NULL, 0, 0, 0),
-    REFUSED(no_lights, GN_ERR_NULL, 0, 0, 0),
-    REFUSED(no_mesh, GN_ERR_NULL, 2, 0, 0),
-    REFUSED(focal_small, GN_ERR_CAMERA_FOCAL, 0, 0, 0),
-    REFUSED(focal_zero, GN_ERR_CAMERA_FOCAL, 0, 0, 0),
-    REFUSED(near_small, GN_ERR_CAMERA_DEPTH, 0, 0, 0),
-    REFUSED(near_negative, GN_ERR_CAMERA_DEPTH, 0, 0, 0),
-    REFUSED(near_large, GN_ERR_CAMERA_DEPTH, 0, 0, 0),
-    REFUSED(far_is_near, GN_ERR_CAMERA_DEPTH, 0, 0, 0),
-    REFUSED(camera_scaled, GN_ERR_CAMERA_TRANSFORM, 0, 0, 0),
-    REFUSED(camera_skewed, GN_ERR_CAMERA_TRANSFORM, 0, 0, 0),
-    REFUSED(camera_wild, GN_ERR_CAMERA_TRANSFORM, 0, 0, 0),
-    REFUSED(camera_far_out, GN_ERR_CAMERA_TRANSFORM, 0, 0, 0),
-    REFUSED(object_exp_high, GN_ERR_OBJECT_TRANSFORM, 1, 0, 0),
-    REFUSED(object_exp_low, GN_ERR_OBJECT_TRANSFORM, 1, 0, 0),
-    REFUSED(object_entry, GN_ERR_OBJECT_TRANSFORM, 1, 0, 0),
-    REFUSED(object_far_out, GN_ERR_OBJECT_TRANSFORM, 1, 0, 0),
-    REFUSED(object_flat, GN_ERR_OBJECT_TRANSFORM, 1, 0, 0),
-    REFUSED(mesh_no_pos, GN_ERR_MESH, 1, 0, 0),
-    REFUSED(mesh_no_idx, GN_ERR_MESH, 1, 0, 0),
-    REFUSED(mesh_no_vertices, GN_ERR_MESH, 1, 0, 0),
-    REFUSED(mesh_no_triangles, GN_ERR_MESH, 1, 0, 0),
-    REFUSED(mesh_bits, GN_ERR_MESH, 1, 0, 0),
-    REFUSED(mesh_index, GN_ERR_MESH_INDEX, 1, 0, 0),
-    REFUSED(mesh_index_no_shadow, GN_ERR_MESH_INDEX, 1, 0, 0),
-    REFUSED(vertex_far, GN_ERR_VERTEX_RANGE, 1, 0, 0),
-    REFUSED(vertex_far_coarse, GN_ERR_VERTEX_RANGE, 1, 0, 0),
-    REFUSED(vertex_over_2_30, GN_ERR_VERTEX_RANGE, 1, 0, 0),
-    REFUSED(vertex_over_2_30_no_shadow, GN_ERR_VERTEX_RANGE, 1, 0, 0),
-    REFUSED(albedo, GN_ERR_COLOUR, 1, 0, 0),
-    REFUSED(emissive, GN_ERR_MATERIAL, 1, 0, 0),
-    REFUSED(skin_no_joints, GN_ERR_SKIN, 1, 0, 0),
-    REFUSED(skin_no_weights, GN_ERR_SKIN, 1, 0, 0),
-    REFUSED(skin_per_vertex_5, GN_ERR_SKIN, 1, 0, 0),
-    REFUSED(skin_joint_large, GN_ERR_SKIN, 1, 0, 0),
-    REFUSED(skin_joint_far, GN_ERR_SKIN, 1, 0, 0),
-    REFUSED(skin_joint_exp, GN_ERR_SKIN, 1, 0, 0),
-    REFUSED(skin_index, GN_ERR_SKIN_JOINT, 1, 0, 0),
-    REFUSED(skin_weights, GN_ERR_SKIN_WEIGHTS, 1, 0, 0),
-    REFUSED(skin_moves_out, GN_ERR_VERTEX_RANGE, 1, 0, 0),
-    REFUSED(ambient, GN_ERR_COLOUR, 0, 0, 0),
-    REFUSED(background, GN_ERR_COLOUR, 0, 0, 0),
-    REFUSED(half_height_small, GN_ERR_CAMERA_FOCAL, 0, 0, 0),
-    REFUSED(half_height_negative, GN_ERR_CAMERA_FOCAL, 0, 0, 0),
-    REFUSED(half_height_large, GN_ERR_CAMERA_FOCAL, 0, 0, 0),
-    REFUSED(background_bottom, GN_ERR_COLOUR, 0, 0, 0),
-    REFUSED(background_gradient, GN_ERR_BACKGROUND, 0, 0, 0),
-    REFUSED(light_colour, GN_ERR_COLOUR, 0, 0, 0),
-    REFUSED(objects_65536, GN_ERR_TOO_MANY_OBJECTS, 0, 65536, 65535),
-    REFUSED(lights_9, GN_ERR_TOO_MANY_LIGHTS, 0, GN_MAX_LIGHTS + 1, GN_MAX_LIGHTS),
-    REFUSED(lights_all, GN_ERR_TOO_MANY_LIGHTS, 0, UINT32_MAX, GN_MAX_LIGHTS),
-    REFUSED(light_kind, GN_ERR_LIGHT_KIND, 0, 0, 0),
-    REFUSED(light_zero, GN_ERR_LIGHT_DIRECTION, 0, 0, 0),
-    REFUSED(light_strength, GN_ERR_LIGHT_BIAS, 0, 0, 0),
-    REFUSED(light_constant, GN_ERR_LIGHT_BIAS, 0, 0, 0),
-    REFUSED(light_slope, GN_ERR_LIGHT_BIAS, 0, 0, 0),
-    REFUSED(light_normal, GN_ERR_LIGHT_BIAS, 0, 0, 0),
-    REFUSED(light_offset, GN_ERR_LIGHT_BIAS, 0, 0, 0),
-    REFUSED(shadow_near, GN_ERR_SHADOW_DISTANCE, 0, 0, 0),
-    REFUSED(shadow_far, GN_ERR_SHADOW_DISTANCE, 0, 0, 0),
-    REFUSED(shadow_fade, GN_ERR_SHADOW_FADE, 0, 0, 0),
-    REFUSED(shadow_fade_high, GN_ERR_SHADOW_FADE, 0, 0, 0),
-    REFUSED(cascade_fade, GN_ERR_SHADOW_FADE, 0, 0, 0),
-    REFUSED(cascades_5, GN_ERR_SHADOW_CASCADES, 0, 0, 0),
-    REFUSED(ratio_falls, GN_ERR_SHADOW_CASCADES, 0, 0, 0),
-    REFUSED(ratio_above_1, GN_ERR_SHADOW_CASCADES, 0, 0, 0),
-    REFUSED(blend_wild, GN_ERR_SHADOW_CASCADES, 0, 0, 0),
-    REFUSED(distance_wild, GN_ERR_SHADOW_DISTANCE, 0, 0, 0),
-    REFUSED(shadow_filter, GN_ERR_SHADOW_FILTER, 0, 0, 0),
-    REFUSED(shadow_filter_wild, GN_ERR_SHADOW_FILTER, 0, 0, 0),
-    REFUSED(triangles_80000, GN_ERR_TRIANGLES_FULL, 0, 80000, GN_MAX_TRIANGLES),
+    REFUSED(no_objects, GN_ERR_NULL, "scene.objects", 0, 0, 0),
+    REFUSED(no_lights, GN_ERR_NULL, "scene.lights", 0, 0, 0),
+    REFUSED(no_mesh, GN_ERR_NULL, "object.mesh", 2, 0, 0),
+    REFUSED(focal_small, GN_ERR_CAMERA_FOCAL, "camera.focal_q24", 0, 0, 0),
+    REFUSED(focal_zero, GN_ERR_CAMERA_FOCAL, "camera.focal_q24", 0, 0, 0),
+    REFUSED(near_small, GN_ERR_CAMERA_DEPTH, "camera.near_q16", 0, 0, 0),
+    REFUSED(near_negative, GN_ERR_CAMERA_DEPTH, "camera.near_q16", 0, 0, 0),
+    REFUSED(near_large, GN_ERR_CAMERA_DEPTH, "camera.near_q16", 0, 0, 0),
+    REFUSED(far_is_near, GN_ERR_CAMERA_DEPTH, "camera.far_q16", 0, 0, 0),
+    REFUSED(camera_scaled, GN_ERR_CAMERA_TRANSFORM, "camera.to_world", 0, 0, 0),
+    REFUSED(camera_skewed, GN_ERR_CAMERA_TRANSFORM, "camera.to_world", 0, 0, 0),
+    REFUSED(camera_wild, GN_ERR_CAMERA_TRANSFORM, "camera.to_world", 0, 0, 0),
+    REFUSED(camera_far_out, GN_ERR_CAMERA_TRANSFORM, "camera.to_world", 0, 0, 0),
+    REFUSED(object_exp_high, GN_ERR_OBJECT_TRANSFORM, "object.to_world", 1, 0, 0),
+    REFUSED(object_exp_low, GN_ERR_OBJECT_TRANSFORM, "object.to_world", 1, 0, 0),
+    REFUSED(object_entry, GN_ERR_OBJECT_TRANSFORM, "object.to_world", 1, 0, 0),
+    REFUSED(object_far_out, GN_ERR_OBJECT_TRANSFORM, "object.to_world", 1, 0, 0),
+    REFUSED(object_flat, GN_ERR_OBJECT_TRANSFORM, "object.to_world", 1, 0, 0),
+    REFUSED(mesh_no_pos, GN_ERR_MESH, "object.mesh->pos", 1, 0, 0),
+    REFUSED(mesh_no_idx, GN_ERR_MESH, "object.mesh->idx", 1, 0, 0),
+    REFUSED(mesh_no_vertices, GN_ERR_MESH, "object.mesh->n_vertices", 1, 0, 0),
+    REFUSED(mesh_no_triangles, GN_ERR_MESH, "object.mesh->n_triangles", 1, 0, 0),
+    REFUSED(mesh_bits, GN_ERR_MESH, "object.mesh->pos_frac_bits", 1, 0, 0),
+    REFUSED(mesh_index, GN_ERR_MESH_INDEX, "object.mesh->idx", 1, 0, 0),
+    REFUSED(mesh_index_no_shadow, GN_ERR_MESH_INDEX, "object.mesh->idx", 1, 0, 0),
+    REFUSED(vertex_far, GN_ERR_VERTEX_RANGE, "object.mesh->pos", 1, 0, 0),
+    REFUSED(vertex_far_coarse, GN_ERR_VERTEX_RANGE, "object.mesh->pos", 1, 0, 0),
+    REFUSED(vertex_over_2_30, GN_ERR_VERTEX_RANGE, "object.mesh->pos", 1, 0, 0),
+    REFUSED(vertex_over_2_30_no_shadow, GN_ERR_VERTEX_RANGE, "object.mesh->pos", 1, 0, 0),
+    REFUSED(albedo, GN_ERR_COLOUR, "object.albedo_uq16", 1, 0, 0),
+    REFUSED(emissive, GN_ERR_MATERIAL, "object.emissive_uq16", 1, 0, 0),
+    REFUSED(skin_no_joints, GN_ERR_SKIN, "object.skin->n_joints", 1, 0, 0),
+    REFUSED(skin_no_joint, GN_ERR_SKIN, "object.skin->joint", 1, 0, 0),
+    REFUSED(skin_no_indices, GN_ERR_SKIN, "object.skin->joint_idx", 1, 0, 0),
+    REFUSED(skin_no_weights, GN_ERR_SKIN, "object.skin->weight_u8", 1, 0, 0),
+    REFUSED(skin_per_vertex_5, GN_ERR_SKIN, "object.skin->per_vertex", 1, 0, 0),
+    REFUSED(skin_joint_large, GN_ERR_SKIN, "object.skin->joint", 1, 0, 0),
+    REFUSED(skin_joint_far, GN_ERR_SKIN, "object.skin->joint", 1, 0, 0),
+    REFUSED(skin_joint_exp, GN_ERR_SKIN, "object.skin->joint", 1, 0, 0),
+    REFUSED(skin_index, GN_ERR_SKIN_JOINT, "object.skin->joint_idx", 1, 0, 0),
+    REFUSED(skin_weights, GN_ERR_SKIN_WEIGHTS, "object.skin->weight_u8", 1, 0, 0),
+    REFUSED(skin_moves_out, GN_ERR_VERTEX_RANGE, "object.mesh->pos", 1, 0, 0),
+    REFUSED(ambient, GN_ERR_COLOUR, "scene.ambient_uq16", 0, 0, 0),
+    REFUSED(background, GN_ERR_COLOUR, "scene.background_uq16", 0, 0, 0),
+    REFUSED(half_height_small, GN_ERR_CAMERA_FOCAL, "camera.half_height_q16", 0, 0, 0),
+    REFUSED(half_height_negative, GN_ERR_CAMERA_FOCAL, "camera.half_height_q16", 0, 0, 0),
+    REFUSED(half_height_large, GN_ERR_CAMERA_FOCAL, "camera.half_height_q16", 0, 0, 0),
+    REFUSED(background_bottom, GN_ERR_COLOUR, "scene.background_bottom_uq16", 0, 0, 0),
+    REFUSED(background_gradient, GN_ERR_BACKGROUND, "scene.background_gradient", 0, 0, 0),
+    REFUSED(light_colour, GN_ERR_COLOUR, "light.colour_uq16", 0, 0, 0),
+    REFUSED(objects_65536, GN_ERR_TOO_MANY_OBJECTS, "", 0, 65536, 65535),
+    REFUSED(lights_9, GN_ERR_TOO_MANY_LIGHTS, "", 0, GN_MAX_LIGHTS + 1, GN_MAX_LIGHTS),
+    REFUSED(lights_all, GN_ERR_TOO_MANY_LIGHTS, "", 0, UINT32_MAX, GN_MAX_LIGHTS),
+    REFUSED(light_kind, GN_ERR_LIGHT_KIND, "light.kind", 0, 0, 0),
+    REFUSED(light_zero, GN_ERR_LIGHT_DIRECTION, "light.direction", 0, 0, 0),
+    REFUSED(light_strength, GN_ERR_LIGHT_BIAS, "light.shadow_strength_uq16", 0, 0, 0),
+    REFUSED(light_constant, GN_ERR_LIGHT_BIAS, "light.bias_constant_q16", 0, 0, 0),
+    REFUSED(light_slope, GN_ERR_LIGHT_BIAS, "light.bias_slope_q16", 0, 0, 0),
+    REFUSED(light_normal, GN_ERR_LIGHT_BIAS, "light.bias_normal_q16", 0, 0, 0),
+    REFUSED(light_offset, GN_ERR_LIGHT_BIAS, "light.near_offset_q16", 0, 0, 0),
+    REFUSED(shadow_near, GN_ERR_SHADOW_DISTANCE, "shadow.max_distance_q16", 0, 0, 0),
+    REFUSED(shadow_far, GN_ERR_SHADOW_DISTANCE, "shadow.max_distance_q16", 0, 0, 0),
+    REFUSED(shadow_fade, GN_ERR_SHADOW_FADE, "shadow.distance_fade_uq16", 0, 0, 0),
+    REFUSED(shadow_fade_high, GN_ERR_SHADOW_FADE, "shadow.distance_fade_uq16", 0, 0, 0),
+    REFUSED(cascade_fade, GN_ERR_SHADOW_FADE, "shadow.cascade_fade_uq16", 0, 0, 0),
+    REFUSED(cascades_5, GN_ERR_SHADOW_CASCADES, "shadow.n_cascades", 0, 0, 0),
+    REFUSED(ratio_falls, GN_ERR_SHADOW_CASCADES, "shadow.cascade_ratio_uq16", 0, 0, 0),
+    REFUSED(ratio_above_1, GN_ERR_SHADOW_CASCADES, "shadow.cascade_ratio_uq16", 0, 0, 0),
+    REFUSED(blend_wild, GN_ERR_SHADOW_CASCADES, "shadow.blend", 0, 0, 0),
+    REFUSED(distance_wild, GN_ERR_SHADOW_DISTANCE, "shadow.distance_mode", 0, 0, 0),
+    REFUSED(shadow_filter, GN_ERR_SHADOW_FILTER, "shadow.disk_samples", 0, 0, 0),
+    REFUSED(shadow_filter_wild, GN_ERR_SHADOW_FILTER, "shadow.filter", 0, 0, 0),
+    REFUSED(triangles_80000, GN_ERR_TRIANGLES_FULL, "", 0, 80000, GN_MAX_TRIANGLES),
 };
 
-static int provoked[GN_STATUS_COUNT];
+static int provoked[GN_STATUS_COUNT], named[GN_FIELD_COUNT];
 
 static gn_status note(gn_status status)
 {
@@ -435,16 +446,25 @@ static gn_status note(gn_status status)
 }
 
 /* A call on `one` that must fail with this status, and say what it was about. */
-static int fails(gn_status got, gn_status expected, uint32_t index, uint32_t needed, uint32_t available,
-                 const char *name)
+static int fails_on(gn_status got, gn_status expected, const char *field, uint32_t index, uint32_t needed,
+                    uint32_t available, const char *name)
 {
     const gn_detail *d = gn_get_detail(&one);
     note(got);
-    if (got == expected && d->status == got && d->index == index && d->needed == needed && d->available == available)
+    if (CHECK((uint32_t)d->field < GN_FIELD_COUNT)) named[d->field] = 1;
+    if (got == expected && d->status == got && d->index == index && d->needed == needed && d->available == available &&
+        strcmp(gn_field_text(d->field), field) == 0)
         return CHECK(1);
-    printf("%s: status %d, detail %d, index %u, needed %u, available %u\n", name, (int)got, (int)d->status, d->index,
-           d->needed, d->available);
+    printf("%s: status %d, detail %d of %s, index %u, needed %u, available %u\n", name, (int)got, (int)d->status,
+           gn_field_text(d->field), d->index, d->needed, d->available);
     return check_note(0, __FILE__, __LINE__, "refused with the right status and detail");
+}
+
+/* Of no single field. */
+static int fails(gn_status got, gn_status expected, uint32_t index, uint32_t needed, uint32_t available,
+                 const char *name)
+{
+    return fails_on(got, expected, "", index, needed, available, name);
 }
 
 static void test_refused_scenes(void)
@@ -457,7 +477,8 @@ static void test_refused_scenes(void)
         demo_scene_make(&demo, 0);
         refused[i].spoil(&demo.scene);
         gn_status status = gn_render(&one, &demo.scene, flush, &c);
-        fails(status, refused[i].status, refused[i].index, refused[i].needed, refused[i].available, refused[i].name);
+        fails_on(status, refused[i].status, refused[i].field, refused[i].index, refused[i].needed, refused[i].available,
+                 refused[i].name);
         CHECK_EQ_INT(c.n_calls, 0); /* nothing is flushed if it fails */
         demo_scene_make(&demo, 0);
         CHECK(gn_render(&one, &demo.scene, flush, &c) == GN_OK); /* and the next frame is unharmed */
@@ -514,7 +535,7 @@ static const bounded bounds[] = {
     UNSIGNED(full.light[2].receiver_plane, 0, 1, GN_ERR_LIGHT_BIAS, 2),
     LIGHT_SIGNED(FULL_SPOT, auto_bias, 0, 3, GN_ERR_LIGHT_BIAS),
     LIGHT_SIGNED(FULL_DIRECTIONAL, near_offset_q16, 0, 8192 * UNIT, GN_ERR_LIGHT_BIAS),
-    SIGNED(demo.object[1].visible_alpha, 0, 2, GN_ERR_MATERIAL, 1),
+    SIGNED(demo.object[1].visible_alpha, 0, 3, GN_ERR_MATERIAL, 1),
     SIGNED(demo.object[2].caster_alpha, 0, 2, GN_ERR_MATERIAL, 2),
     UNSIGNED(demo.object[1].alpha_uq16, 0, UNIT, GN_ERR_MATERIAL, 1),
     UNSIGNED(demo.object[1].alpha_cutoff_uq16, 0, UNIT, GN_ERR_MATERIAL, 1),
@@ -544,6 +565,21 @@ static void set_field(const bounded *b, int64_t value)
     else memcpy(b->field, &(uint32_t){(uint32_t)value}, 4);
 }
 
+/* What the field of the tests' scene is called in errors. */
+static const char *field_of(const char *name, char out[64])
+{
+    static const char *const names[][2] = {{"full.light[", "light."},
+                                           {"demo.object[", "object."},
+                                           {"demo.ball.", "object.mesh->"},
+                                           {"demo.scene.shadow.", "shadow."},
+                                           {"demo.scene.", "scene."}};
+    size_t k = 0;
+    while (strncmp(name, names[k][0], strlen(names[k][0])) != 0) k++;
+    const char *tail = strrchr(name, '.') + 1;
+    snprintf(out, 64, "%s%.*s", names[k][1], (int)strcspn(tail, "["), tail);
+    return out;
+}
+
 /* Each field at both ends of its range: drawn; next to them and at the ends of its type: refused, and the object or
  * light named. */
 static void test_bounds(void)
@@ -563,8 +599,14 @@ static void test_bounds(void)
             full_scene();
             set_field(b, values[k]);
             gn_status status = gn_render(&one, &demo.scene, flush, &c);
-            if (!inside) fails(status, b->status, b->index, 0, 0, b->name);
-            else if (!CHECK(status == GN_OK))
+            char field[64];
+            if (!inside) {
+                /* an outer angle below the inner one is the inner one's fault */
+                const int inner = b->field == &full.light[1].outer_turn && values[k] >= GN_TURN(1);
+                const int is_inner = inner && values[k] < GN_TURN(30);
+                fails_on(status, b->status, is_inner ? "light.inner_turn" : field_of(b->name, field), b->index, 0, 0,
+                         b->name);
+            } else if (!CHECK(status == GN_OK))
                 printf("%s = %lld: %s\n", b->name, (long long)values[k], gn_status_text(status));
         }
     }
@@ -600,14 +642,30 @@ static void emissive_texture_no_texels(void)
     full.mask.rgba = NULL, demo.object[FULL_OBJECT].mask_image = NULL;
     demo.object[FULL_OBJECT].emissive_texture = &full.mask;
 }
-static void emissive_texture_clamps(void)
-{
-    full.mask.flags = GN_TEXTURE_CLAMP_V;
-    demo.object[FULL_OBJECT].emissive_texture = &full.mask;
-}
 static void fine_emissive_texture(void)
 {
     full.mask.flags = GN_TEXTURE_BILINEAR;
+    demo.object[FULL_OBJECT].emissive_texture = &full.mask;
+}
+static void emissive_texture_wide(void)
+{
+    fine_emissive_texture(), full.mask.width = 4097, demo.object[FULL_OBJECT].mask_image = NULL;
+}
+static void emissive_texture_high(void)
+{
+    fine_emissive_texture(), full.mask.height = 4097, demo.object[FULL_OBJECT].mask_image = NULL;
+}
+static void emissive_texture_format(void)
+{
+    fine_emissive_texture(), full.mask.format = GN_TEXTURE_FORMAT_COUNT, demo.object[FULL_OBJECT].mask_image = NULL;
+}
+static void emissive_texture_no_palette(void)
+{
+    fine_emissive_texture(), full.mask.format = GN_TEXTURE_PALETTE1, demo.object[FULL_OBJECT].mask_image = NULL;
+}
+static void emissive_texture_clamps(void)
+{
+    full.mask.flags = GN_TEXTURE_CLAMP_V;
     demo.object[FULL_OBJECT].emissive_texture = &full.mask;
 }
 static void fine_emissive_texture_alone(void)
@@ -709,40 +767,45 @@ static void test_combinations(void)
         void (*set)(void);
         const char *name;
         gn_status status;
+        const char *field;
         uint32_t index;
     } cases[] = {
-#define COMBINATION(set, status, index) {set, #set, status, index}
-        COMBINATION(texture_no_texels, GN_ERR_TEXTURE, FULL_OBJECT),
-        COMBINATION(texture_wide, GN_ERR_TEXTURE, FULL_OBJECT),
-        COMBINATION(texture_high, GN_ERR_TEXTURE, FULL_OBJECT),
-        COMBINATION(texture_wider, GN_ERR_TEXTURE, FULL_OBJECT),
-        COMBINATION(texture_format, GN_ERR_TEXTURE_FORMAT, FULL_OBJECT),
-        COMBINATION(texture_no_palette, GN_ERR_TEXTURE, FULL_OBJECT),
-        COMBINATION(texture_no_uv, GN_ERR_TEXTURE, FULL_OBJECT),
-        COMBINATION(emissive_texture_no_texels, GN_ERR_TEXTURE, FULL_OBJECT),
-        COMBINATION(emissive_texture_clamps, GN_ERR_TEXTURE, FULL_OBJECT),
-        COMBINATION(fine_emissive_texture, GN_OK, 0),
-        COMBINATION(fine_emissive_texture_alone, GN_OK, 0),
-        COMBINATION(mask_no_texels, GN_ERR_MASK, FULL_OBJECT),
-        COMBINATION(mask_wide, GN_ERR_MASK, FULL_OBJECT),
-        COMBINATION(mask_high, GN_ERR_MASK, FULL_OBJECT),
-        COMBINATION(mask_format, GN_ERR_TEXTURE_FORMAT, FULL_OBJECT),
-        COMBINATION(mask_no_uv, GN_ERR_MASK, FULL_OBJECT),
-        COMBINATION(spot_no_direction, GN_ERR_LIGHT_DIRECTION, FULL_SPOT),
-        COMBINATION(spot_below_1_degree, GN_ERR_LIGHT_ANGLE, FULL_SPOT),
-        COMBINATION(spot_no_angle, GN_ERR_LIGHT_ANGLE, FULL_SPOT),
-        COMBINATION(range_short, GN_ERR_LIGHT_RANGE, FULL_POINT),
-        COMBINATION(range_is_near, GN_ERR_LIGHT_RANGE, FULL_SPOT),
-        COMBINATION(fine_without_texture, GN_OK, 0),
-        COMBINATION(fine_without_mask, GN_OK, 0),
-        COMBINATION(fine_point_no_direction, GN_OK, 0),
-        COMBINATION(fine_point_wild_angles, GN_OK, 0),
-        COMBINATION(fine_directional_wild_place, GN_OK, 0),
-        COMBINATION(fine_narrow_spot, GN_OK, 0),
-        COMBINATION(fine_short_range, GN_OK, 0),
-        COMBINATION(fine_long_range, GN_OK, 0),
-        COMBINATION(fine_no_disk, GN_OK, 0),
-        COMBINATION(fine_unknown_flags, GN_OK, 0),
+#define COMBINATION(set, status, field, index) {set, #set, status, field, index}
+        COMBINATION(texture_no_texels, GN_ERR_TEXTURE, "object.texture->rgba", FULL_OBJECT),
+        COMBINATION(texture_wide, GN_ERR_TEXTURE, "object.texture->width", FULL_OBJECT),
+        COMBINATION(texture_high, GN_ERR_TEXTURE, "object.texture->height", FULL_OBJECT),
+        COMBINATION(texture_wider, GN_ERR_TEXTURE, "object.texture->width", FULL_OBJECT),
+        COMBINATION(texture_format, GN_ERR_TEXTURE_FORMAT, "object.texture->format", FULL_OBJECT),
+        COMBINATION(texture_no_palette, GN_ERR_TEXTURE, "object.texture->palette", FULL_OBJECT),
+        COMBINATION(texture_no_uv, GN_ERR_TEXTURE, "object.mesh->uv", FULL_OBJECT),
+        COMBINATION(emissive_texture_no_texels, GN_ERR_TEXTURE, "object.emissive_texture->rgba", FULL_OBJECT),
+        COMBINATION(emissive_texture_wide, GN_ERR_TEXTURE, "object.emissive_texture->width", FULL_OBJECT),
+        COMBINATION(emissive_texture_high, GN_ERR_TEXTURE, "object.emissive_texture->height", FULL_OBJECT),
+        COMBINATION(emissive_texture_format, GN_ERR_TEXTURE_FORMAT, "object.emissive_texture->format", FULL_OBJECT),
+        COMBINATION(emissive_texture_no_palette, GN_ERR_TEXTURE, "object.emissive_texture->palette", FULL_OBJECT),
+        COMBINATION(emissive_texture_clamps, GN_ERR_TEXTURE, "object.emissive_texture->flags", FULL_OBJECT),
+        COMBINATION(fine_emissive_texture, GN_OK, "", 0),
+        COMBINATION(fine_emissive_texture_alone, GN_OK, "", 0),
+        COMBINATION(mask_no_texels, GN_ERR_MASK, "object.mask_image->rgba", FULL_OBJECT),
+        COMBINATION(mask_wide, GN_ERR_MASK, "object.mask_image->width", FULL_OBJECT),
+        COMBINATION(mask_high, GN_ERR_MASK, "object.mask_image->height", FULL_OBJECT),
+        COMBINATION(mask_format, GN_ERR_TEXTURE_FORMAT, "object.mask_image->format", FULL_OBJECT),
+        COMBINATION(mask_no_uv, GN_ERR_MASK, "object.mesh->mask_uv_uq16", FULL_OBJECT),
+        COMBINATION(spot_no_direction, GN_ERR_LIGHT_DIRECTION, "light.direction", FULL_SPOT),
+        COMBINATION(spot_below_1_degree, GN_ERR_LIGHT_ANGLE, "light.outer_turn", FULL_SPOT),
+        COMBINATION(spot_no_angle, GN_ERR_LIGHT_ANGLE, "light.outer_turn", FULL_SPOT),
+        COMBINATION(range_short, GN_ERR_LIGHT_RANGE, "light.range_q16", FULL_POINT),
+        COMBINATION(range_is_near, GN_ERR_LIGHT_RANGE, "light.near_q16", FULL_SPOT),
+        COMBINATION(fine_without_texture, GN_OK, "", 0),
+        COMBINATION(fine_without_mask, GN_OK, "", 0),
+        COMBINATION(fine_point_no_direction, GN_OK, "", 0),
+        COMBINATION(fine_point_wild_angles, GN_OK, "", 0),
+        COMBINATION(fine_directional_wild_place, GN_OK, "", 0),
+        COMBINATION(fine_narrow_spot, GN_OK, "", 0),
+        COMBINATION(fine_short_range, GN_OK, "", 0),
+        COMBINATION(fine_long_range, GN_OK, "", 0),
+        COMBINATION(fine_no_disk, GN_OK, "", 0),
+        COMBINATION(fine_unknown_flags, GN_OK, "", 0),
     };
     gn_picture p = picture_of(24, 16, GN_FORMAT_RGB565);
     canvas c;
@@ -751,7 +814,8 @@ static void test_combinations(void)
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
         full_scene();
         cases[i].set();
-        fails(gn_render(&one, &demo.scene, flush, &c), cases[i].status, cases[i].index, 0, 0, cases[i].name);
+        gn_status status = gn_render(&one, &demo.scene, flush, &c);
+        fails_on(status, cases[i].status, cases[i].field, cases[i].index, 0, 0, cases[i].name);
     }
     canvas_end(&c);
 }
@@ -760,22 +824,23 @@ static void test_refused_pictures(void)
 {
     static const struct {
         int w, h, format, view, status;
+        const char *field;
     } cases[] = {
-        {0, 1, GN_FORMAT_RGB565, GN_VIEW_COLOUR, GN_ERR_PICTURE_SIZE},
-        {1, 0, GN_FORMAT_RGB565, GN_VIEW_COLOUR, GN_ERR_PICTURE_SIZE},
-        {GN_MAX_WIDTH + 1, 1, GN_FORMAT_RGB565, GN_VIEW_COLOUR, GN_ERR_PICTURE_SIZE},
-        {1, GN_MAX_HEIGHT + 1, GN_FORMAT_RGB565, GN_VIEW_COLOUR, GN_ERR_PICTURE_SIZE},
-        {8, 8, 99, GN_VIEW_COLOUR, GN_ERR_FORMAT},
-        {8, 8, -1, GN_VIEW_COLOUR, GN_ERR_FORMAT},
-        {8, 8, GN_FORMAT_RGB565, GN_VIEW_DEPTH, GN_ERR_FORMAT},
-        {8, 8, GN_FORMAT_RAW32, GN_VIEW_COLOUR, GN_ERR_FORMAT},
-        {8, 8, GN_FORMAT_RAW32, GN_VIEW_TRIANGLE + 1, GN_ERR_FORMAT},
-        {8, 8, GN_FORMAT_RAW32, -1, GN_ERR_FORMAT},
+        {0, 1, GN_FORMAT_RGB565, GN_VIEW_COLOUR, GN_ERR_PICTURE_SIZE, "picture.width"},
+        {1, 0, GN_FORMAT_RGB565, GN_VIEW_COLOUR, GN_ERR_PICTURE_SIZE, "picture.height"},
+        {GN_MAX_WIDTH + 1, 1, GN_FORMAT_RGB565, GN_VIEW_COLOUR, GN_ERR_PICTURE_SIZE, "picture.width"},
+        {1, GN_MAX_HEIGHT + 1, GN_FORMAT_RGB565, GN_VIEW_COLOUR, GN_ERR_PICTURE_SIZE, "picture.height"},
+        {8, 8, 99, GN_VIEW_COLOUR, GN_ERR_FORMAT, "picture.format"},
+        {8, 8, -1, GN_VIEW_COLOUR, GN_ERR_FORMAT, "picture.format"},
+        {8, 8, GN_FORMAT_RGB565, GN_VIEW_DEPTH, GN_ERR_FORMAT, "picture.view"},
+        {8, 8, GN_FORMAT_RAW32, GN_VIEW_COLOUR, GN_ERR_FORMAT, "picture.view"},
+        {8, 8, GN_FORMAT_RAW32, GN_VIEW_TRIANGLE + 1, GN_ERR_FORMAT, "picture.view"},
+        {8, 8, GN_FORMAT_RAW32, -1, GN_ERR_FORMAT, "picture.view"},
     };
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
         gn_picture p = picture_of(cases[i].w, cases[i].h, (gn_format)cases[i].format);
         p.view = (gn_view)cases[i].view;
-        fails(gn_init(&one, &p), (gn_status)cases[i].status, 0, 0, 0, "gn_init");
+        fails_on(gn_init(&one, &p), (gn_status)cases[i].status, cases[i].field, 0, 0, 0, "gn_init");
         fails(gn_begin(&one, &demo.scene), GN_ERR_ORDER, 0, 0, 0, "gn_begin after a failed gn_init");
     }
     gn_picture p = picture_of(8, 8, GN_FORMAT_RGB565);
@@ -804,6 +869,31 @@ static void test_tile_refs_full(void)
     canvas_end(&c);
 }
 
+/* Values that a knob's range does not exclude, one at a time. */
+static void odd_knobs(void)
+{
+    gn_picture p = picture_of(8, 8, GN_FORMAT_RGB565);
+    static const struct {
+        size_t offset;
+        int32_t value;
+    } odd[] = {
+#define ODD_(name, value) {offsetof(gn_knobs, name), value}
+        ODD_(persp_step, 2),   ODD_(persp_step, 5),        ODD_(persp_step, 15),       ODD_(atten_bits, 9),
+        ODD_(atten_bits, 15),  ODD_(atlas_size, 96),       ODD_(other_atlas_size, 96), ODD_(depth_bits, 24),
+        ODD_(depth_bits, 9),   ODD_(other_depth_bits, 24), ODD_(other_depth_bits, 31), ODD_(tile_width, 65),
+        ODD_(tile_width, 2044)};
+    for (size_t i = 0; i < sizeof odd / sizeof *odd; i++) {
+        gn_init(&one, &p);
+        memcpy((char *)&one.frame.knobs + odd[i].offset, &odd[i].value, sizeof odd[i].value);
+        fails(gn_begin(&one, &demo.scene), GN_ERR_KNOB, 0, 0, 0, "a knob's value that its range does not exclude");
+    }
+    gn_init(&one, &p);
+    one.frame.knobs.tile_width = 2048, one.frame.knobs.tile_height = 32;
+    CHECK_EQ_INT(gn_begin(&one, &demo.scene), GN_OK);
+    one.frame.knobs.tile_height = 33;
+    fails(gn_begin(&one, &demo.scene), GN_ERR_KNOB, 0, 0, 0, "a screen tile of more pixels than are built");
+}
+
 /* Each quality knob beyond both ends of its range, and values in it that are not allowed. */
 static void test_knobs(void)
 {
@@ -824,19 +914,7 @@ static void test_knobs(void)
             fails(gn_begin(&one, &demo.scene), GN_ERR_KNOB, 0, 0, 0, knobs[i].name);
         }
     }
-    static const struct {
-        int32_t persp_step, atten_bits, atlas_size, tile_width, tile_height;
-    } odd[] = {
-        {2, 8, 128, 64, 16}, {8, 9, 128, 64, 16}, {8, 8, 96, 64, 16}, {8, 8, 128, 65, 16}, {8, 8, 128, 2048, 33}};
-    for (size_t i = 0; i < sizeof odd / sizeof *odd; i++) {
-        gn_init(&one, &p);
-        one.frame.knobs.persp_step = odd[i].persp_step;
-        one.frame.knobs.atten_bits = odd[i].atten_bits;
-        one.frame.knobs.atlas_size = odd[i].atlas_size;
-        one.frame.knobs.tile_width = odd[i].tile_width;
-        one.frame.knobs.tile_height = odd[i].tile_height;
-        fails(gn_begin(&one, &demo.scene), GN_ERR_KNOB, 0, 0, 0, "a knob's value that its range does not exclude");
-    }
+    odd_knobs();
     static gn_light lights[2];
     lights[0] = lights[1] = demo.light[0];
     gn_init(&one, &p);
@@ -851,6 +929,18 @@ static void test_knobs(void)
     one.frame.knobs.tile_width = 8;
     one.frame.knobs.tile_height = 1;
     fails(gn_begin(&one, &demo.scene), GN_ERR_KNOB, 0, 0, 0, "more screen tiles than are built");
+    for (int along = 0; along < 2; along++) { /* groups of triangles count at most 128 x 128 screen tiles */
+        p = picture_of(along ? 8 : 1025, along ? 1025 : 8, GN_FORMAT_RGB565);
+        gn_init(&one, &p);
+        one.frame.knobs.tile_width = one.frame.knobs.tile_height = 8;
+        CHECK_EQ_INT(gn_begin(&one, &demo.scene), GN_OK);
+        one.frame.knobs.triangle_groups = 1;
+        fails(gn_begin(&one, &demo.scene), GN_ERR_KNOB, 0, 0, 0, "more screen tiles along a side than groups can have");
+        p = picture_of(along ? 8 : 1024, along ? 1024 : 8, GN_FORMAT_RGB565);
+        gn_init(&one, &p);
+        one.frame.knobs.tile_width = one.frame.knobs.tile_height = 8, one.frame.knobs.triangle_groups = 1;
+        CHECK_EQ_INT(gn_begin(&one, &demo.scene), GN_OK);
+    }
 }
 
 static void test_status_texts(void)
@@ -869,6 +959,27 @@ static void test_status_texts(void)
     provoked[GN_OK] = provoked[GN_ERR_SURFACE_LIGHTS] = provoked[GN_ERR_ATLAS_FULL] = 1;
     for (int i = 0; i < GN_STATUS_COUNT; i++)
         if (!CHECK(provoked[i])) printf("%s was not provoked\n", names[i]);
+}
+
+/* Names are unique, and each was given by an error above: but for those of what is not built, which test_config.sh and
+ * test_compact.sh have, and for those of textures that no check is about. */
+static void test_field_texts(void)
+{
+    static const gn_field elsewhere[] = {
+        GN_FIELD_SCENE_DRAW_BEHIND, GN_FIELD_SCENE_DRAW_OVER, GN_FIELD_SHADOW_REFRESH,   GN_FIELD_OBJECT_MASK_U8,
+        GN_FIELD_OBJECT_BAKED,      GN_FIELD_OBJECT_SKIN,     GN_FIELD_TEXTURE,          GN_FIELD_TEXTURE_FLAGS,
+        GN_FIELD_EMISSIVE_TEXTURE,  GN_FIELD_MASK_IMAGE,      GN_FIELD_MASK_IMAGE_FLAGS, GN_FIELD_MASK_IMAGE_PALETTE};
+    for (size_t i = 0; i < sizeof elsewhere / sizeof *elsewhere; i++) {
+        CHECK(!named[elsewhere[i]]);
+        named[elsewhere[i]] = 1;
+    }
+    for (int i = 0; i < GN_FIELD_COUNT; i++) {
+        const char *text = gn_field_text((gn_field)i);
+        CHECK(text && (text[0] != 0) == (i != GN_FIELD_NONE));
+        for (int k = 0; k < i; k++) CHECK(strcmp(text, gn_field_text((gn_field)k)) != 0);
+        if (!CHECK(named[i])) printf("%s was not named\n", text);
+    }
+    CHECK(strcmp(gn_field_text(GN_FIELD_COUNT), "unknown field") == 0);
 }
 
 /* ---- Null pointers, order ---------------------------------------------------------------------------------------- */
@@ -904,19 +1015,23 @@ static void test_nulls(void)
     CHECK(!gn_get_stats(NULL) && !gn_get_detail(NULL) && gn_get_shadow_tile(NULL, 0, 0, &depth) == 0);
     CHECK(gn_init(&one, &p) == GN_OK);
     CHECK(gn_get_shadow_tile(&one, 0, 0, &depth) == 0); /* before the first frame */
-    fails(gn_begin(&one, NULL), GN_ERR_NULL, 0, 0, 0, "gn_begin without a scene");
+    fails_on(gn_begin(&one, NULL), GN_ERR_NULL, "scene", 0, 0, 0, "gn_begin without a scene");
     CHECK(gn_render(&one, &demo.scene, flush, &c) == GN_OK);
     CHECK(gn_screen_tile(&one.frame, NULL, 0, flush, &c) == GN_ERR_NULL);
     CHECK(gn_screen_tile(&one.frame, &one.scratch, 0, NULL, &c) == GN_ERR_NULL);
     CHECK(gn_get_shadow_tile(&one, 0, 0, NULL) == 0);
+    CHECK(gn_get_light_shadow(NULL, 0, NULL, NULL) == GN_SHADOW_NOT_WANTED);
+    CHECK(gn_screen_tile_if_changed(&one.frame, &one.scratch, 0, NULL, flush, &c, NULL) == GN_ERR_NULL);
+    gn_forget_shadows(NULL);
     CHECK_EQ_INT(gn_get_shadow_tile(&one, 0, 0, &depth), GN_ATLAS_SIZE);
     CHECK(depth.depth != NULL && depth.texels == GN_ATLAS_SIZE && depth.depth_bits == 16);
     CHECK(gn_get_shadow_tile(&one, 1, 0, &depth) == 0 && gn_get_shadow_tile(&one, UINT32_MAX, 0, &depth) == 0);
-    fails(gn_render(&one, &demo.scene, NULL, &c), GN_ERR_NULL, 0, 0, 0, "gn_render without a flush");
+    fails_on(gn_render(&one, &demo.scene, NULL, &c), GN_ERR_NULL, "flush", 0, 0, 0, "gn_render without a flush");
+    fails_on(gn_render_changes(&one, &demo.scene, NULL, flush, &c, NULL), GN_ERR_NULL, "panel", 0, 0, 0, "no panel");
     CHECK(gn_render(&one, &demo.scene, flush, &c) == GN_OK);
-    fails(gn_init(&one, NULL), GN_ERR_NULL, 0, 0, 0, "gn_init without a picture");
+    fails_on(gn_init(&one, NULL), GN_ERR_NULL, "picture", 0, 0, 0, "gn_init without a picture");
     CHECK(gn_init(&one, &p) == GN_OK);
-    fails(gn_render(&one, NULL, flush, &c), GN_ERR_NULL, 0, 0, 0, "gn_render without a scene");
+    fails_on(gn_render(&one, NULL, flush, &c), GN_ERR_NULL, "scene", 0, 0, 0, "gn_render without a scene");
     CHECK_EQ_INT(c.n_calls, 2);
     canvas_end(&c);
 }
@@ -958,7 +1073,7 @@ static void test_order(void)
     CHECK(gn_begin(&one, &demo.scene) == GN_OK);
     demo.ball_idx[5] += 1000; /* and a tile that failed is not done, whatever is mended afterwards */
     gn_forget_shadows(&one);
-    fails(gn_shadow_tile(&one, 0), GN_ERR_MESH_INDEX, 1, 0, 0, "shadow tile with a bad index");
+    fails_on(gn_shadow_tile(&one, 0), GN_ERR_MESH_INDEX, "object.mesh->idx", 1, 0, 0, "shadow tile with a bad index");
     demo.ball_idx[5] -= 1000;
     fails(gn_prepare(&one), GN_ERR_ORDER, 0, 0, 0, "prepare after a failed shadow tile");
     CHECK(gn_shadow_tile(&one, 0) == GN_OK && gn_prepare(&one) == GN_OK);
@@ -1029,5 +1144,6 @@ int main(void)
     test_nulls();
     test_order();
     test_status_texts();
+    test_field_texts();
     return check_report();
 }

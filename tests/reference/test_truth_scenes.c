@@ -73,6 +73,7 @@ static void check_own_scene(const char *path)
     if (!CHECK_EQ_INT(scene_load(&s, path, &load, error, sizeof error), 0)) return;
     settings_init(&set);
     settings_preset(&set, SETTINGS_ACCURATE);
+    settings_preset_scene(&s, SETTINGS_ACCURATE);
     CHECK_EQ_INT(settings_apply_all(&set, &s, NULL, 0, error, sizeof error), 0);
     const ref_options options = engine_ref_options(&s, &set, 160, 120);
     ref_picture maps, truth, kept;

@@ -336,17 +336,19 @@ static void test_formats(void)
 static void test_levels(void)
 {
     const int sides[3][2] = {{5, 3}, {2, 1}, {1, 1}};
-    for (int format = 0; texture_format_names[format]; format++) {
+    for (int n = 0; texture_format_names[n / 2]; n++) { /* levels of texels that are converted, and texels of levels */
+        const scene_texture_format format = (scene_texture_format)(n / 2);
         begin();
         object.texture_idx = 0;
         texture.width = 5;
         texture.height = 3;
         texture.rgba = malloc(4 * 15);
         if (!CHECK(texture.rgba != NULL)) return;
-        for (int i = 0; i < 4 * 15; i++) texture.rgba[i] = (uint8_t)(i * 73 + i * i * 11 + format);
+        for (int i = 0; i < 4 * 15; i++) texture.rgba[i] = (uint8_t)(i * 73 + i * i * 11 + (int)format);
+        CHECK(n % 2 == 0 || texture_convert(&texture, format));
         CHECK(texture_set_levels(&texture, true));
         CHECK_EQ_INT(texture_level_texels(&texture, texture_level_count(&texture)), 18);
-        if (CHECK(texture_convert(&texture, (scene_texture_format)format)) && quantise()) {
+        if (CHECK(n % 2 || texture_convert(&texture, format)) && quantise()) {
             const gn_texture *t = fixed.objects[0].texture;
             CHECK(t->flags & GN_TEXTURE_MIPMAPPED);
             for (int k = 0; k < 3; k++)

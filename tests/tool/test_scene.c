@@ -518,7 +518,7 @@ static void test_obj(void)
           has_note("line 5: texture 'build/tmp/x.png' cannot be opened"));
     CHECK_EQ_INT(s.n_notes, 3);
     CHECK_NEAR(s.objects[0].alpha, 0.5, 0);
-    CHECK(s.objects[0].visible_alpha == SCENE_ALPHA_DITHER && s.objects[0].caster == SCENE_CASTER_DITHER);
+    CHECK(s.objects[0].visible_alpha == SCENE_ALPHA_BLEND && s.objects[0].caster == SCENE_CASTER_DITHER);
     CHECK(s.objects[1].visible_alpha == SCENE_ALPHA_OPAQUE && s.objects[1].caster == SCENE_CASTER_ON);
     CHECK(s.objects[0].texture_idx == SCENE_NONE && !s.meshes[0].uv);
     scene_free(&s);

@@ -117,7 +117,7 @@ static void test_textured(void)
     CHECK(u->clamp_u && !u->clamp_v && !u->bilinear);
     for (int i = 0; i < 16; i++) CHECK(t->rgba[i] == i + 1 && u->rgba[i] == i + 1);
     CHECK(a->visible_alpha == SCENE_ALPHA_OPAQUE && a->caster == SCENE_CASTER_ON);
-    CHECK(b->visible_alpha == SCENE_ALPHA_DITHER && b->caster == SCENE_CASTER_DITHER);
+    CHECK(b->visible_alpha == SCENE_ALPHA_BLEND && b->caster == SCENE_CASTER_DITHER);
     CHECK_NEAR(b->alpha, 0.25, 0);
     check_textured_meshes();
     CHECK(a->mask && c->mask && a->mask != c->mask && !b->mask && !b->baked);

@@ -512,7 +512,7 @@ static void test_fence(void)
     check_surface(&s, "pickets", 3, SCENE_ALPHA_CLIP, SCENE_CASTER_CLIP, 1);
     check_surface(&s, "trellis", 1, SCENE_ALPHA_CLIP, SCENE_CASTER_CLIP, 1);
     check_surface(&s, "plant", 1, SCENE_ALPHA_CLIP, SCENE_CASTER_CLIP, 1);
-    check_surface(&s, "film", 0, SCENE_ALPHA_DITHER, SCENE_CASTER_DITHER, 1);
+    check_surface(&s, "film", 0, SCENE_ALPHA_BLEND, SCENE_CASTER_DITHER, 1);
     check_surface(&s, "towel", 0, SCENE_ALPHA_OPAQUE, SCENE_CASTER_ON, 1);
     check_surface(&s, "post", 0, SCENE_ALPHA_OPAQUE, SCENE_CASTER_ON, 0);
     const scene_object *tree = need_object(&s, "tree"), *lantern = find_object(&s, "lantern", 1),

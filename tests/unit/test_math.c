@@ -338,6 +338,22 @@ static void test_mesh_normals(void)
     CHECK_TALLY(t, "gn_surface_normal is gn_xform_normal");
 }
 
+/* Two rows at right angles, and a third that leaves their plane by e / 2^29: to 2^-28 it is flat. */
+static void test_det_sign(void)
+{
+    static const struct {
+        int32_t e;
+        int sign;
+    } cases[] = {{0, 0}, {1, 0}, {-1, 0}, {64, 1}, {-64, -1}, {1 << 29, 1}, {-(1 << 29), -1}};
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        const int32_t flat[3] = {1 << 29, 1 << 29, cases[i].e};
+        const int32_t m[3][3] = {{1 << 30, 0, 0}, {0, 1 << 30, 0}, {flat[0], flat[1], flat[2]}};
+        const int32_t turned[3][3] = {{flat[0], flat[1], flat[2]}, {1 << 30, 0, 0}, {0, 1 << 30, 0}};
+        CHECK_EQ_INT(gn_det_sign(m), cases[i].sign);
+        CHECK_EQ_INT(gn_det_sign(turned), cases[i].sign);
+    }
+}
+
 static void test_normalise(void)
 {
     tally t = {0}, zero = {0};
@@ -448,6 +464,10 @@ static void test_sine(void)
     CHECK_TALLY(bound, "gn_sin_q30 within 2 LSB");
     CHECK_TALLY(symmetry, "symmetries of the sine");
     CHECK(gn_sin_q30(0) == 0 && gn_sin_q30(16384) == 1 << 30 && gn_sin_q30(49152) == -(1 << 30));
+    /* and the same bits everywhere: constants of its series may be off by less than the bound shows */
+    uint64_t sum = 0;
+    for (uint32_t i = 0; i <= 16384; i++) sum = sum * 0x9E3779B97F4A7C15U + (uint32_t)gn_sin_q30((uint16_t)i);
+    CHECK(sum == 0x524819787CA8CD19U);
     printf("gn_sin_q30: %.3Lf LSB at %s\n", w.error, w.at);
 }
 
@@ -489,6 +509,7 @@ int main(int argc, char **argv)
     test_isqrt();
     test_normalise();
     test_mesh_normals();
+    test_det_sign();
     test_norm_vec();
     test_cross_dot();
     test_sine();

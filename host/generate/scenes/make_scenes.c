@@ -36,6 +36,7 @@ int main(int argc, char **argv)
     failed |= make(argv[2], "baked.gltf", gallery_baked_write);
     failed |= make(argv[2], "suns.gltf", gallery_suns_write);
     failed |= make(argv[2], "sheets.gltf", gallery_sheets_write);
+    failed |= make(argv[2], "glass.gltf", gallery_glass_write);
     failed |= make(argv[2], "glow.gltf", gallery_glow_write);
     failed |= make(argv[2], "isometric.gltf", gallery_isometric_write);
     failed |= make(argv[2], "snake.gltf", gallery_snake_write);

@@ -33,6 +33,7 @@ int gallery_near_write(FILE *file);
 int gallery_baked_write(FILE *file);
 int gallery_suns_write(FILE *file);
 int gallery_sheets_write(FILE *file);
+int gallery_glass_write(FILE *file);
 int gallery_glow_write(FILE *file);
 int gallery_snake_write(FILE *file);
 int gallery_isometric_write(FILE *file);

@@ -66,8 +66,8 @@ typedef struct {
 
 #define SCENE_NONE ((size_t)-1)
 
-typedef enum { SCENE_ALPHA_OPAQUE, SCENE_ALPHA_CLIP, SCENE_ALPHA_DITHER } scene_alpha;                   /* M8 */
-typedef enum { SCENE_CASTER_OFF, SCENE_CASTER_ON, SCENE_CASTER_CLIP, SCENE_CASTER_DITHER } scene_caster; /* M1 */
+typedef enum { SCENE_ALPHA_OPAQUE, SCENE_ALPHA_CLIP, SCENE_ALPHA_DITHER, SCENE_ALPHA_BLEND } scene_alpha; /* M8 */
+typedef enum { SCENE_CASTER_OFF, SCENE_CASTER_ON, SCENE_CASTER_CLIP, SCENE_CASTER_DITHER } scene_caster;  /* M1 */
 
 typedef struct {
     char *name;

@@ -255,16 +255,27 @@ static void scale(const scene_texture *t, int w, int h, bool is_data, uint8_t *o
         }
 }
 
+/* Means are no texels of the format: palettes are chosen anew, of all levels. The error is that of both, at most. */
+static bool convert_means(scene_texture *t)
+{
+    const double max = t->error_max, rms = t->error_rms;
+    if (t->format == SCENE_TEXTURE_RGBA8888) return true;
+    if (!texture_convert(t, t->format)) return false;
+    t->error_max += max;
+    t->error_rms = sqrt(t->error_rms * t->error_rms + rms * rms);
+    return true;
+}
+
 bool texture_set_levels(scene_texture *t, bool mipmapped)
 {
     t->mipmapped = mipmapped;
-    if (!mipmapped) return true;
+    if (!mipmapped) return convert_means(t);
     uint8_t *all = realloc(t->rgba, 4 * count(t));
     if (!all) return false;
     t->rgba = all;
     for (int i = 1; i < texture_level_count(t); i++)
         scale(t, side_of(t->width, i), side_of(t->height, i), false, all + 4 * texture_level_texels(t, i));
-    return true;
+    return convert_means(t);
 }
 
 bool texture_shrink(scene_texture *t, int side, bool is_data)

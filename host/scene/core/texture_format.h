@@ -19,7 +19,7 @@ size_t texture_level_texels(const scene_texture *texture, int n);
 int texture_level_count(const scene_texture *texture);
 
 /* Makes the smaller levels, or takes them away: means in linear light, colours weighed by alpha, of the first level
- * each. False: out of memory. */
+ * each, rounded to the texture's format. False: out of memory. */
 bool texture_set_levels(scene_texture *texture, bool mipmapped);
 
 /* Rounds every texel to what the format has; palettes are chosen by the median cut. What a texel is off by then is

@@ -173,7 +173,7 @@ static bool get_casting(gltf *g, const json_value *knobs, gltf_material *materia
 
 static bool get_alpha(gltf *g, const json_value *knobs, scene_object *surface)
 {
-    static const char *const words[] = {"opaque", "clip", "dither", NULL}; /* as scene_alpha */
+    static const char *const words[] = {"opaque", "clip", "dither", "blend", NULL}; /* as scene_alpha */
     int alpha = (int)surface->visible_alpha;
     if (!get_word(g, knobs, "visible_alpha", words, &alpha)) return false;
     surface->visible_alpha = (scene_alpha)alpha;

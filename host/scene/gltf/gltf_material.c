@@ -63,7 +63,7 @@ static bool read_alpha(gltf *g, const json_value *json, const char *name, gltf_m
         scene_caster caster;
     } modes[] = {{"OPAQUE", SCENE_ALPHA_OPAQUE, SCENE_CASTER_ON},
                  {"MASK", SCENE_ALPHA_CLIP, SCENE_CASTER_CLIP},
-                 {"BLEND", SCENE_ALPHA_DITHER, SCENE_CASTER_DITHER}};
+                 {"BLEND", SCENE_ALPHA_BLEND, SCENE_CASTER_DITHER}};
     const char *mode = "OPAQUE";
     double *cutoff = &out->surface.alpha_cutoff;
     if (!gltf_get_string(g, json, "alphaMode", &mode) || !gltf_get_number(g, json, "alphaCutoff", cutoff)) return false;

@@ -165,7 +165,8 @@ static size_t add_mesh(writer *w, const scene_object *o, size_t material)
 
 static void add_material(writer *w, const scene_object *o, size_t idx)
 {
-    static const char *const modes[] = {"OPAQUE", "MASK", "BLEND"}, *const casters[] = {"off", "on", "clip", "dither"};
+    static const char *const modes[] = {"OPAQUE", "MASK", "BLEND", "BLEND"}, *const casters[] = {"off", "on", "clip",
+                                                                                                 "dither"};
     const double factor[4] = {o->albedo[0], o->albedo[1], o->albedo[2], o->alpha};
     write_buffer *b = &w->materials;
     begin_item(b, idx);
@@ -184,6 +185,7 @@ static void add_material(writer *w, const scene_object *o, size_t idx)
         b,
         "\"caster\": \"%s\", \"casts_two_sided\": %d, \"hidden\": %d, \"moving\": %d, \"receives\": %d, \"unlit\": %d",
         casters[o->caster], o->casts_two_sided, o->hidden, o->moving, o->receives, o->unlit);
+    if (o->visible_alpha == SCENE_ALPHA_DITHER) write_text(b, ", \"visible_alpha\": \"dither\"");
     put_member(b, "alpha_cutoff", o->alpha_cutoff);
     write_text(b, ", ");
     put_numbers(b, "specular", o->specular, 3);

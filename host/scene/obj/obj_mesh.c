@@ -135,7 +135,7 @@ static bool emit_material(obj_file *o, mesh_splitter *splitter, const obj_materi
     object.texture_idx = material->texture_idx;
     object.alpha = material->alpha;
     if (material->alpha < 1) {
-        object.visible_alpha = SCENE_ALPHA_DITHER;
+        object.visible_alpha = SCENE_ALPHA_BLEND;
         object.caster = SCENE_CASTER_DITHER;
     }
     object.name = loader_format(o->l, "%s", material->name);

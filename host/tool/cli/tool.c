@@ -7,6 +7,7 @@
 #include <string.h>
 
 #include "../../base/utf8.h"
+#include "../../scene/core/reduce.h"
 
 enum { LINE_BYTES = 8192 };
 
@@ -37,6 +38,22 @@ int tool_samples(const tool_options *o)
     return o->samples ? o->samples : 1;
 }
 
+/* --triangles */
+static int reduce(scene *s, int n_triangles, char *error, size_t error_bytes)
+{
+    reduce_result r;
+    char note[300];
+    snprintf(error, error_bytes, "out of memory");
+    if (reduce_scene(s, (size_t)n_triangles, &r)) return -1;
+    int n = snprintf(note, sizeof note, "meshes have %zu of %zu triangles", r.n_after, r.n_before);
+    if (r.n_after > (size_t)n_triangles)
+        n += snprintf(note + n, sizeof note - (size_t)n, " (fewer would tear borders or seams, or fold)");
+    if (r.off > 0)
+        snprintf(note + n, sizeof note - (size_t)n, ", off by at most %.3g, %.2g %% of the size of '%.80s'", r.off,
+                 100 * r.off_share, s->meshes[r.mesh_idx].name);
+    return scene_add_note(s, note, error, error_bytes);
+}
+
 int tool_load_with(const tool_options *o, const char *const *sets, int n_sets, scene *s, settings *set, char *error,
                    size_t error_bytes)
 {
@@ -61,7 +78,8 @@ int tool_load_with(const tool_options *o, const char *const *sets, int n_sets, s
     }
     if (scene_load(s, o->scene_path, &options, error, error_bytes)) return -1;
     settings_init(set);
-    if (settings_apply_all(set, s, sets, n_sets, error, error_bytes) ||
+    if ((o->triangles && reduce(s, o->triangles, error, error_bytes)) ||
+        settings_apply_all(set, s, sets, n_sets, error, error_bytes) ||
         settings_enforce(set, s, o->width, o->height, error, error_bytes)) {
         scene_free(s);
         return -1;

@@ -41,6 +41,7 @@ typedef struct {
     int open;             /* compile: names, and everything can be written */
     int asset;            /* is what runs: the configuration is not the tool's */
     int flash;            /* bytes; 0: not given */
+    int triangles;        /* --triangles: meshes are reduced to so many; 0: not given */
     int outside;          /* the scene may name files outside its folder */
     int budget;           /* times the usual limits of what a scene may ask for; 0: once */
     int orbit;            /* --orbit is given: */

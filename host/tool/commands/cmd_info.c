@@ -9,7 +9,7 @@
 typedef struct {
     size_t triangles, vertices, shadow_lights;
     size_t textured, masked, baked, hidden, moving, two_sided, unlit; /* objects */
-    size_t visible[3];                                                /* objects by scene_alpha */
+    size_t visible[4];                                                /* objects by scene_alpha */
     size_t casters[4];                                                /* objects by scene_caster */
     int smooth, coloured;
     settings_need needs[SETTINGS_NEEDS_MAX];
@@ -145,10 +145,12 @@ static void json_objects(const counts *c)
     printf(", \"textured_objects\": %zu, \"masked_objects\": %zu, \"baked_objects\": %zu, \"hidden_objects\": %zu, "
            "\"moving_objects\": %zu",
            c->textured, c->masked, c->baked, c->hidden, c->moving);
-    printf(", \"alpha\": {\"clip\": %zu, \"dither\": %zu}, \"casters\": {\"on\": %zu, \"clip\": %zu, \"dither\": %zu, "
+    printf(", \"alpha\": {\"clip\": %zu, \"dither\": %zu, \"blend\": %zu}, \"casters\": {\"on\": %zu, \"clip\": %zu, "
+           "\"dither\": %zu, "
            "\"off\": %zu}",
-           c->visible[SCENE_ALPHA_CLIP], c->visible[SCENE_ALPHA_DITHER], c->casters[SCENE_CASTER_ON],
-           c->casters[SCENE_CASTER_CLIP], c->casters[SCENE_CASTER_DITHER], c->casters[SCENE_CASTER_OFF]);
+           c->visible[SCENE_ALPHA_CLIP], c->visible[SCENE_ALPHA_DITHER], c->visible[SCENE_ALPHA_BLEND],
+           c->casters[SCENE_CASTER_ON], c->casters[SCENE_CASTER_CLIP], c->casters[SCENE_CASTER_DITHER],
+           c->casters[SCENE_CASTER_OFF]);
 }
 
 static void print_json(const report *r)
@@ -256,11 +258,11 @@ static void text_objects(const counts *c)
 {
     static const char *const special[] = {
         "textured", "with a shadow mask", "with baked light", "hidden", "moving", "two-sided", "unlit"};
-    static const char *const cut[] = {"clip", "dither"};
+    static const char *const cut[] = {"clip", "dither", "blend"};
     static const char *const casting[] = {"clip", "dither", "off"};
     text_counts("  objects: ", special,
                 (const size_t[]){c->textured, c->masked, c->baked, c->hidden, c->moving, c->two_sided, c->unlit}, 7);
-    text_counts("  objects cut by alpha: ", cut, &c->visible[SCENE_ALPHA_CLIP], 2);
+    text_counts("  objects cut by alpha: ", cut, &c->visible[SCENE_ALPHA_CLIP], 3);
     text_counts(
         "  casters: ", casting,
         (const size_t[]){c->casters[SCENE_CASTER_CLIP], c->casters[SCENE_CASTER_DITHER], c->casters[SCENE_CASTER_OFF]},

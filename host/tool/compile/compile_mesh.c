@@ -76,13 +76,30 @@ static bool alike(const attribute *all, size_t n, size_t a, size_t b)
 
 enum { BUCKETS = 65536 };
 
+/* Boxes of vertices decide tight fits [D12] and the worth of tiles [A7]: vertices at their ends stay. Boxes of a skin's
+ * mesh change with its pose: all of its vertices stay. */
+static void use_ends(const compiled *c, const gn_mesh *mesh, bool *used)
+{
+    size_t end[6] = {0};
+    bool skinned = false;
+    for (uint32_t i = 0; i < c->fixed.scene.n_objects; i++)
+        skinned = skinned || (c->fixed.objects[i].mesh == mesh && c->fixed.objects[i].skin);
+    for (size_t v = 0; v < mesh->n_vertices; v++) {
+        used[v] = used[v] || skinned;
+        for (size_t k = 0; k < 3; k++) {
+            if (mesh->pos[3 * v + k] < mesh->pos[3 * end[2 * k] + k]) end[2 * k] = v;
+            if (mesh->pos[3 * v + k] > mesh->pos[3 * end[2 * k + 1] + k]) end[2 * k + 1] = v;
+        }
+    }
+    for (size_t i = 0; mesh->n_vertices && i < 6; i++) used[end[i]] = true;
+}
+
 /* The first vertex like each; merge: else every vertex is its own. Places are given to those that triangles use. */
 static size_t place_vertices(const gn_mesh *mesh, const attribute *all, size_t n_attributes, bool merge, uint16_t *to,
                              bool *used, uint32_t *bucket, uint32_t *next)
 {
     size_t n_left = 0;
     memset(bucket, 0xFF, BUCKETS * sizeof *bucket);
-    for (size_t i = 0; i < 3 * (size_t)mesh->n_triangles; i++) used[mesh->idx[i]] = true;
     for (size_t v = 0; v < mesh->n_vertices; v++) {
         if (!used[v]) continue;
         uint32_t hash = hash_of(all, n_attributes, v) % BUCKETS, like = merge ? bucket[hash] : UINT32_MAX;
@@ -106,6 +123,9 @@ static size_t shrink_mesh(const compiled *c, gn_mesh *mesh, bool merge)
     bool *used = calloc(before + 1, sizeof *used);
     uint32_t *bucket = malloc(BUCKETS * sizeof *bucket), *next = malloc((before + 1) * sizeof *next);
     if (all && to && used && bucket && next) {
+        for (size_t i = 0; i < 3 * (size_t)mesh->n_triangles; i++) used[mesh->idx[i]] = true;
+        if (c->fixed.scene.shadow.fit == GN_FIT_TIGHT || c->fixed.scene.shadow.tile_sizes == GN_TILES_WORTH)
+            use_ends(c, mesh, used);
         n_left = place_vertices(mesh, all, n_attributes, merge, to, used, bucket, next);
         if (n_left < before) move_vertices(mesh, all, n_attributes, to, used, n_left);
     }

@@ -53,52 +53,33 @@ static void add_units(const job *j)
              ldexp(1, -j->fixed->world_exp), name, farthest.reach);
 }
 
-/* What the index of a status counts. */
-typedef enum { ABOUT_NOTHING, ABOUT_OBJECT, ABOUT_LIGHT } subject;
-
-static subject subject_of(gn_status status)
+/* Names what an error is about as the scene file does, and its field as the library does. */
+static void name_culprit(const job *j, char out[200])
 {
-    switch (status) {
-    case GN_ERR_OBJECT_TRANSFORM:
-    case GN_ERR_MESH:
-    case GN_ERR_VERTEX_RANGE:
-    case GN_ERR_TEXTURE:
-    case GN_ERR_TEXTURE_FORMAT:
-    case GN_ERR_MATERIAL:
-    case GN_ERR_MASK:
-    case GN_ERR_SKIN:
-    case GN_ERR_SKIN_JOINT:
-    case GN_ERR_SKIN_WEIGHTS:
-        return ABOUT_OBJECT;
-    case GN_ERR_LIGHT_KIND:
-    case GN_ERR_LIGHT_DIRECTION:
-    case GN_ERR_LIGHT_POSITION:
-    case GN_ERR_LIGHT_RANGE:
-    case GN_ERR_LIGHT_ANGLE:
-    case GN_ERR_LIGHT_BIAS:
-        return ABOUT_LIGHT;
-    default:
-        return ABOUT_NOTHING;
-    }
+    const gn_detail *d = gn_get_detail(j->renderer);
+    const scene *s = j->scene;
+    const char *field = gn_field_text(d->field), *tail = strchr(field, '.');
+    if (!field[0] || !tail) return;
+    if (strncmp(field, "object.", 7) == 0 && d->index < s->n_objects)
+        snprintf(out, 200, "object '%.100s': %s: ", s->objects[d->index].name, tail + 1);
+    else if (strncmp(field, "light.", 6) == 0 && d->index < s->n_lights)
+        snprintf(out, 200, "light '%.100s': %s: ", s->lights[d->index].name, tail + 1);
+    else snprintf(out, 200, "%s: ", field);
 }
 
-/* Names what the status is about as the scene file does. */
 static int explain(const job *j, gn_status status)
 {
     const gn_detail *d = gn_get_detail(j->renderer);
     const scene *s = j->scene;
-    subject about = subject_of(status);
+    char culprit[200] = "";
+    name_culprit(j, culprit);
     if (d->needed)
         snprintf(j->error, j->error_bytes, "%s: %u needed, %u available", gn_status_text(status), d->needed,
                  d->available);
-    else if (about == ABOUT_OBJECT && d->index < s->n_objects)
-        snprintf(j->error, j->error_bytes, "object '%s': %s", s->objects[d->index].name, gn_status_text(status));
-    else if (about == ABOUT_LIGHT && d->index < s->n_lights)
-        snprintf(j->error, j->error_bytes, "light '%s': %s", s->lights[d->index].name, gn_status_text(status));
     else if (status == GN_ERR_SHADOW_DISTANCE)
         snprintf(j->error, j->error_bytes, "%s: it is %g, the near plane %g; --set max_distance=...",
                  gn_status_text(status), s->shadow.max_distance, s->camera.near);
-    else snprintf(j->error, j->error_bytes, "%s", gn_status_text(status));
+    else snprintf(j->error, j->error_bytes, "%s%s", culprit, gn_status_text(status));
     if (status == GN_ERR_CAMERA_DEPTH || status == GN_ERR_SHADOW_DISTANCE || status == GN_ERR_LIGHT_RANGE ||
         status == GN_ERR_LIGHT_POSITION)
         add_units(j);

@@ -75,6 +75,7 @@ ref_options engine_ref_options(const scene *s, const settings *set, int width, i
                          .depth_bits = set->quality.depth_bits,
                          .other_depth_bits = set->quality.other_depth_bits,
                          .newton_steps = set->quality.newton_steps,
+                         .transparent_layers = set->quality.transparent_layers,
                          .unit = ldexp(1.0, -16 - quantise_world_exp(s))};
 }
 
@@ -82,8 +83,10 @@ static void quantise(engine_picture *out, const ref_picture *ref, const settings
 {
     const size_t width = (size_t)ref->width, n = width * (size_t)ref->height;
     for (size_t i = 0; i < n; i++) {
-        const double *c = ref->rgb + 3 * i;
+        double c[3];
+        ref_shown(ref, i, output_levels(set->output), set->quality.srgb, c);
         output_quantise(set->output, c, set->quality.srgb, (int)(i % width), (int)(i / width), out->rgb8 + 3 * i);
+        ref_shown(ref, i, output_levels(GN_FORMAT_RGB565), set->quality.srgb, c);
         out->rgb565[i] = (uint16_t)(level(c[0], 31) << 11 | level(c[1], 63) << 5 | level(c[2], 31));
     }
 }

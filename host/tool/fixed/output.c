@@ -83,6 +83,13 @@ static unsigned level(double v, double levels)
     return (unsigned)floor(v * levels + 0.5);
 }
 
+const double *output_levels(gn_format format)
+{
+    static const double of_565[3] = {31, 63, 31}, of_888[3] = {255, 255, 255}, of_greys[3] = {0x1p40, 0x1p40, 0x1p40};
+    if (format == GN_FORMAT_RGB565 || format == GN_FORMAT_RGB565_SWAPPED) return of_565;
+    return format == GN_FORMAT_RGB888 ? of_888 : of_greys;
+}
+
 void output_quantise(gn_format format, const double encoded[3], int srgb, int x, int y, uint8_t rgb8[3])
 {
     static const double weight[3] = {0.2126, 0.7152, 0.0722};

@@ -24,7 +24,8 @@ _Static_assert((int)GN_FILTER_DISK == (int)SCENE_FILTER_DISK && (int)GN_FILTER_7
                    (int)GN_LIGHT_SPOT == (int)SCENE_LIGHT_SPOT && (int)GN_LIGHT_POINT == (int)SCENE_LIGHT_POINT &&
                    (int)GN_LIGHT_MIXED == (int)SCENE_MIXED && (int)GN_LIGHT_BAKED == (int)SCENE_BAKED &&
                    (int)GN_SOFTNESS_HARD == (int)SCENE_SOFT_HARD && (int)GN_SOFTNESS_SOFT == (int)SCENE_SOFT_SOFT &&
-                   (int)GN_ALPHA_CLIP == (int)SCENE_ALPHA_CLIP && (int)GN_ALPHA_DITHER == (int)SCENE_ALPHA_DITHER,
+                   (int)GN_ALPHA_CLIP == (int)SCENE_ALPHA_CLIP && (int)GN_ALPHA_DITHER == (int)SCENE_ALPHA_DITHER &&
+                   (int)GN_ALPHA_BLEND == (int)SCENE_ALPHA_BLEND,
                "the scene's enumerations are the library's");
 
 /* Q1.30, kept within +-1.0 */

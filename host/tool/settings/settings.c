@@ -29,7 +29,7 @@ int settings_load_option(scene_options *options, const char *key, const char *va
 /* ---- Applying ---------------------------------------------------------------------------------------------------- */
 
 /* Settings of the tool itself. 1: taken; 0: not one of them; -1: bad value. */
-static int apply_own(settings *out, const char *key, const char *value, char *error, size_t bytes)
+static int apply_own(settings *out, scene *s, const char *key, const char *value, char *error, size_t bytes)
 {
     char expected[96];
     int preset = strcmp(key, "preset") == 0, i;
@@ -39,8 +39,11 @@ static int apply_own(settings *out, const char *key, const char *value, char *er
         settings_join(expected, sizeof expected, words, " or ");
         return settings_fail(error, bytes, key, value, expected);
     }
-    if (preset) settings_preset(out, i);
-    else out->output = (gn_format)i;
+    if (!preset) out->output = (gn_format)i;
+    if (preset) {
+        settings_preset(out, i);
+        settings_preset_scene(s, i);
+    }
     return 1;
 }
 
@@ -132,7 +135,7 @@ int settings_apply(settings *out, scene *s, const char *key, const char *value, 
     scene_options ignored;
     int taken = settings_load_option(&ignored, key, value, error, error_bytes);
     if (taken) return taken < 0 ? -1 : 0; /* done while loading */
-    if ((taken = apply_own(out, key, value, error, error_bytes))) return taken < 0 ? -1 : 0;
+    if ((taken = apply_own(out, s, key, value, error, error_bytes))) return taken < 0 ? -1 : 0;
     const char *at = strchr(key, '@');
     if (at) return apply_to_light(out, s, key, at, value, error, error_bytes);
     /* main_light, caster_culling, receiver_plane, auto_bias and texture_levels are built and used, or neither: knobs
@@ -174,7 +177,9 @@ void settings_print_table(void)
     printf("\n### Settings of the tool\n\n| setting | values | meaning |\n|---|---|---|\n");
     printf("| `output` | rgb888, rgb565, rgb565_swapped, grey8, grey4, mono1 | the panel that pictures are made for "
            "(R5) |\n");
-    printf("| `preset` | tiny, fast, balanced, accurate | all quality knobs together |\n");
+    printf("| `preset` | tiny, fast, balanced, accurate | all quality knobs together, and `fit` and `tiles`: tight and "
+           "worth, but "
+           "stable and equal for accurate |\n");
     printf("| `ground` | 0, 1, auto | add a ground plane (auto: where there is no floor for shadows to fall on, but "
            "not to a scene with a camera and a light of its own) |\n");
     printf("| `normals` | face, smooth | for meshes without normals |\n");

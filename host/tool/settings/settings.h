@@ -23,8 +23,9 @@ typedef struct {
 enum { SETTINGS_TINY, SETTINGS_FAST, SETTINGS_BALANCED, SETTINGS_ACCURATE, SETTINGS_PRESETS };
 extern const char *const settings_preset_name[SETTINGS_PRESETS + 1]; /* the last is NULL */
 
-void settings_preset(settings *out, int preset); /* quality knobs of a preset; the rest unchanged */
-void settings_init(settings *out);               /* balanced, every feature; capacities 0: as much as the scene needs */
+void settings_preset(settings *out, int preset);  /* quality knobs of a preset; the rest unchanged */
+void settings_preset_scene(scene *s, int preset); /* what of a scene belongs to a preset: fit and tiles */
+void settings_init(settings *out); /* balanced, every feature; capacities 0: as much as the scene needs */
 
 /* What a rendered picture needed. */
 typedef struct {

@@ -80,6 +80,13 @@ void settings_preset(settings *out, int preset)
     for (size_t i = 0; i < groups[QUALITY].n; i++) *field(out, &quality_knobs[i]) = quality_knobs[i].preset[preset];
 }
 
+/* As gn_scene_default. */
+void settings_preset_scene(scene *s, int preset)
+{
+    s->shadow.fit = preset == SETTINGS_ACCURATE ? SCENE_FIT_STABLE : SCENE_FIT_TIGHT;
+    s->shadow.tiles = preset == SETTINGS_ACCURATE ? SCENE_TILES_EQUAL : SCENE_TILES_WORTH;
+}
+
 void settings_init(settings *out)
 {
     static const settings defaults = {.output = GN_FORMAT_RGB888, .capacity.vertex_cache = 32};

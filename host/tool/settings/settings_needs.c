@@ -62,8 +62,6 @@ static void needs_of_shadows(need_list *list, const scene *s)
     if (s->shadow.main_light) need(list, "main_light", 1, "main_light 1");
     if (s->shadow.n_cascades > 1) need(list, "many_cascades", 1, "cascades %d", s->shadow.n_cascades);
     if (s->shadow.tiles == SCENE_TILES_IMPORTANCE) need(list, "tile_importance", 1, "tiles importance");
-    if (s->shadow.tiles == SCENE_TILES_WORTH) need(list, "tight_fit", 1, "tiles worth");
-    else if (s->shadow.fit == SCENE_FIT_TIGHT) need(list, "tight_fit", 1, "fit tight");
     if (s->shadow.mixing != SCENE_MIX_NONE) need(list, "masks", 1, "mixing");
 }
 
@@ -184,6 +182,10 @@ int settings_enforce(const settings *set, scene *s, int width, int height, char 
         if (!set->feature.vertex_colours) drop(&s->meshes[i].rgb);
     }
     for (size_t i = 0; i < s->n_lights && !set->feature.shadows; i++) s->lights[i].shadow = false;
+    if (!set->feature.tight_fit || !set->feature.shadows) {
+        s->shadow.fit = SCENE_FIT_STABLE;
+        if (s->shadow.tiles == SCENE_TILES_WORTH) s->shadow.tiles = SCENE_TILES_EQUAL;
+    }
     if (over(error, error_bytes, "max_width", set->capacity.max_width, "the picture's width", width) ||
         over(error, error_bytes, "max_height", set->capacity.max_height, "the picture's height", height))
         return -1;

@@ -146,6 +146,7 @@ static void put_work(layout *out, const settings *s)
     long incident = s->feature.punctual_lights ? s->capacity.surface_lights : 0;
     incident *= s->feature.shadows ? 20 : 8;
     put(&all, 1, 28 + 4 * values + incident + (s->feature.specular ? 24 : 0), 4); /* sample */
+    if (s->quality.transparent_layers) put(&all, 4, 4, 4);                        /* mixture */
     if (s->quality.persp_step > 1) put(&all, 1, lattice_bytes(s), 8);
     pad(&all, all.align);
     const long casting = casting_bytes(s), clipping = 264, seen = s->feature.punctual_lights ? 848 : 828;
@@ -197,6 +198,10 @@ settings_ram_parts settings_ram(const settings *s)
     put(&all, s->capacity.vertex_cache, 16, 4);
     put(&all, 64, tile_w * tile_h > 65535 ? 4 : 2, tile_w * tile_h > 65535 ? 4 : 2); /* run_list */
     if (groups) r.triangles += put(&all, 1 + s->capacity.max_triangles, 4, 2);       /* drawn */
+    if (s->quality.transparent_layers) {
+        r.cells += put(&all, 1, 4, 4); /* how many are in use */
+        r.cells += put(&all, s->quality.transparent_layers * tile_w * tile_h, 4, 4);
+    }
     put_work(&all, s);
     pad(&all, all.align);
     r.total = all.size;
