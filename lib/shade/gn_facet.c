@@ -313,7 +313,7 @@ GN_HOT static int add_vertex_light(facet *f, uint32_t slot)
     return 1;
 }
 
-/* Whether normals turn by so little that they need not be brought to length 1 in between: NUMERICS 4.14. */
+/* Whether normals turn by so little that they need not be brought to length 1 in between: NUMERICS 4.17. */
 GN_HOT static int turns_little(const gn_frame *frame, const gn_surface *s)
 {
     uint32_t sum = 0;

@@ -1,5 +1,5 @@
 /* Small triangles: light, colours and places in shadow maps are found at the vertices, and are linear on the screen in
- * between (NUMERICS 4.14). */
+ * between (NUMERICS 4.17). */
 #ifndef GN_FACET_H
 #define GN_FACET_H
 

@@ -11,7 +11,7 @@
 /* Begins a tile. */
 void gn_mix_begin(gn_shading *s);
 
-/* Mixes pixels of the triangle at hand, shaded into the layer, into those of the tile. DESIGN 1.2. */
+/* Mixes pixels of the triangle at hand, shaded into the layer, into those of the tile. MODEL 2. */
 void gn_mix_run(gn_shading *s, int32_t x, int32_t y, int32_t n);
 
 #endif
