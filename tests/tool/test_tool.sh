@@ -123,23 +123,25 @@ is_png() { # is_png FILE SIZE WHAT
     rm -f "$1"
 }
 
+plain="--set fit=stable --set tiles=equal" # square tiles of one size
+
 # every view, by either engine [A6]
 for engine in fixed reference; do
     for view in colour shadow depth normal cascade atlas; do
         size=33x21
         [ $view = atlas ] && size=64x64
-        good render "$cube" -o "$tmp/view.png" --size 33x21 --engine $engine --view $view --set atlas_size=64
+        good render "$cube" -o "$tmp/view.png" --size 33x21 --engine $engine --view $view --set atlas_size=64 $plain
         is_png "$tmp/view.png" $size "--engine $engine --view $view"
     done
 done
 for engine in fixed reference; do # three of four tiles in a row
-    good render "$cube" -o "$tmp/view.png" --size 33x21 --engine $engine --view atlas --set atlas_size=64 --set cascades=3
+    good render "$cube" -o "$tmp/view.png" --size 33x21 --engine $engine --view atlas --set atlas_size=64 $plain --set cascades=3
     is_png "$tmp/view.png" 96x32 "--engine $engine --view atlas, three cascades"
 done
 for engine in fixed reference; do # a spot light has one tile, a point light six
-    good render "$cube" -o "$tmp/view.png" --size 33x21 --engine $engine --view atlas --light 1 --set other_atlas_size=64 --set lights=directional,spot
+    good render "$cube" -o "$tmp/view.png" --size 33x21 --engine $engine --view atlas --light 1 --set other_atlas_size=64 $plain --set lights=directional,spot
     is_png "$tmp/view.png" 64x64 "--engine $engine --view atlas, spot light"
-    good render "$cube" -o "$tmp/view.png" --size 33x21 --engine $engine --view atlas --set other_atlas_size=64 --set lights=point
+    good render "$cube" -o "$tmp/view.png" --size 33x21 --engine $engine --view atlas --set other_atlas_size=64 $plain --set lights=point
     is_png "$tmp/view.png" 96x16 "--engine $engine --view atlas, point light"
     good render "$cube" -o "$tmp/view.png" --size 33x21 --engine $engine --view shadow --light 2 --set lights=point,directional,spot
     is_png "$tmp/view.png" 33x21 "--engine $engine --view shadow, the last of three lights"
@@ -170,7 +172,7 @@ is_png "$tmp/new/beside.png" 56x16 "compare -o, side by side"
 for name in fixed reference error; do is_png "$tmp/new/$name.png" 16x16 "compare -o"; done
 good compare "$cube" -o "$tmp/new" --size 33x8 --view depth
 is_png "$tmp/new/beside.png" 33x32 "compare -o, one below the other"
-good compare "$cube" -o "$tmp/new" --size 16x16 --view atlas --set atlas_size=64 --set cascades=3
+good compare "$cube" -o "$tmp/new" --size 16x16 --view atlas --set atlas_size=64 $plain --set cascades=3
 for name in fixed reference error; do is_png "$tmp/new/$name.png" 96x32 "compare -o --view atlas"; done
 is_png "$tmp/new/beside.png" 96x104 "compare -o --view atlas"
 bad 1 "no light 1" compare "$cube" -o "$tmp/new" --size 16x16 --view shadow --light 1
@@ -527,9 +529,9 @@ alike 'caster_culling=0 cascades=4' 'caster_culling=1 cascades=4'
 for knob in depth_bits other_depth_bits; do # the reference does not round depths
     kind=directional
     [ $knob = other_depth_bits ] && kind=spot
-    for bits in 8 16 32; do good render "$cube" -o "$tmp/view$bits.png" --size 64x48 --view atlas --set lights=$kind --set $knob=$bits; done
+    for bits in 8 16 32; do good render "$cube" -o "$tmp/view$bits.png" --size 64x48 --view atlas $plain --set lights=$kind --set $knob=$bits; done
     cmp -s "$tmp/view8.png" "$tmp/view16.png" && fail "$knob=8 stores what 16 does" || pass
-    good render "$cube" -o "$tmp/b.png" --size 64x48 --view atlas --set lights=$kind --set $knob=32 --engine reference
+    good render "$cube" -o "$tmp/b.png" --size 64x48 --view atlas $plain --set lights=$kind --set $knob=32 --engine reference
     is_png "$tmp/b.png" "$(png_size "$tmp/view32.png")" "$knob=32"
 done
 
@@ -542,7 +544,7 @@ good render "$cube" -o "$tmp/a.png" --size 8x8 --set lights=$kinds --json
 good render "$cube" -o "$tmp/a.png" --size 8x8 --set lights=$kinds --engine reference
 said render "$cube" -o "$tmp/a.png" --size 8x8 --set lights=$kinds --set object_lights=0 --set other_atlas_size=32
 grep -q "lights have no shadow tile, so no shadow: [0-9]* 'spot', [0-9]* 'spot'.*, \.\.\.$" "$tmp/err" && [ "$(wc -l <"$tmp/err")" = 1 ] && pass || fail "render does not name lights without a tile: $(cat "$tmp/err")"
-said compare "$cube" --size 8x8 --set lights=spot,point,point,point --set other_atlas_size=64
+said compare "$cube" --size 8x8 --set lights=spot,point,point,point --set other_atlas_size=64 --set tiles=equal --set fit=stable
 [ "$(cat "$tmp/err")" = "gnomon: 1 light has no shadow tile, so no shadow: 3 'point'" ] && pass || fail "compare does not name the light without a tile: $(cat "$tmp/err")"
 good compare "$cube" --size 8x8 --set lights=spot,point,point,point --set other_atlas_size=64 --json
 bad 1 'no more than 64' render "$cube" -o "$tmp/a.png" --size 8x8 --set lights=$kinds,spot
@@ -593,7 +595,7 @@ for set in bias_receiver=1,2,3,4 refresh=1,1,2,4 refresh=3 object_lights=0 mask_
 done
 
 # what info says of lights
-good info "$cube" --size 16x12 --json --set lights=directional,spot,point,spot --set shadow@3=0 --set other_atlas_size=64 --set atlas_size=64 --set cascades=2
+good info "$cube" --size 16x12 --json --set lights=directional,spot,point,spot --set shadow@3=0 --set other_atlas_size=64 $plain --set atlas_size=64 --set cascades=2
 light() { # light WHAT PATTERN: one entry of the last JSON's light_list
     grep -q "$2" "$tmp/out" && pass || fail "info of $1: no $2 in $(sed 's/.*"light_list": \(\[[^]]*\]\).*/\1/' "$tmp/out")"
 }
@@ -603,17 +605,17 @@ light 'a point light' '"kind": "point", "mode": "realtime", "shadow": "realtime"
 light 'a light without a shadow' '"kind": "spot", "mode": "realtime", "shadow": "not_wanted", "tiles": 0, "tile_texels": 0}'
 light 'what it needs' '"needs": {[^}]*"punctual_lights": 1'
 light 'the tiles of each atlas' '"shadow_tiles": 2, "other_tiles": 7'
-good info "$cube" --size 16x12 --json --set lights=point,point,point,spot,spot --set mode@3=baked --set other_atlas_size=64
+good info "$cube" --size 16x12 --json --set lights=point,point,point,spot,spot --set mode@3=baked --set other_atlas_size=64 --set tiles=equal
 light 'a spot light after it' '"kind": "spot", "mode": "realtime", "shadow": "realtime", "tiles": 1, "tile_texels": 16}'
 light 'a point light without room' '"kind": "point", "mode": "realtime", "shadow": "no_room", "tiles": 0, "tile_texels": 0}'
 light 'a baked light' '"kind": "spot", "mode": "baked", "shadow": "not_wanted", "tiles": 0, "tile_texels": 0}'
 light 'lights without room' '"other_tiles": 13.*"lights_without_room": 1'
-good info "$cube" --size 16x12 --set lights=spot,point,point,point --set other_atlas_size=64
+good info "$cube" --size 16x12 --set lights=spot,point,point,point --set other_atlas_size=64 --set tiles=equal --set fit=stable
 grep -q "3 'point': point, no room for its shadow" "$tmp/out" && grep -q "0 'spot': spot, 1 shadow tile of 16x16" "$tmp/out" && pass || fail "info does not say which light got a tile"
 grep -q 'needs:.* punctual_lights' "$tmp/out" && pass || fail "info does not name punctual_lights"
-good info host/scenes/fence.gltf --set preset=balanced --set fit=tight --set tiles=worth
-grep -q "'sun': directional, shadow tiles of [0-9]*x[0-9]* (worth [0-9]* pixels; turned by [1-7]/32 about the light)" "$tmp/out" && pass || fail "info does not say why a tile is as large and turned"
-good info host/scenes/fence.gltf --set preset=balanced --set fit=tight --json
+good info host/scenes/mixed.gltf --set preset=balanced
+grep -q "'moon': directional, mixed, shadow tiles of [0-9]*x[0-9]* (worth [0-9]* pixels; turned by [1-7]/32 about the light)" "$tmp/out" && pass || fail "info does not say why a tile is as large and turned"
+good info host/scenes/mixed.gltf --set preset=balanced --set tiles=equal --json
 light 'a fitted tile' '"tile_list": \[{"texels": [0-9]*, "rows": [0-9]*, "worth_px": [0-9]*, "turn": [1-7]}'
 good info "$cube" --size 16x12
 grep -q 'needs:.* punctual_lights' "$tmp/out" && fail "info names punctual_lights without a need" || pass

@@ -17,7 +17,7 @@ enum { SAMPLES = 3, LISTED_MAX = 48, EIGHTHS = 8, LEAN_MAX = 2, SMALL_VERTEX_CAC
 #define MUCH 16.0 /* a change, RMS of 255, for which a picture of down to half the sides is looked for instead */
 
 /* What changes the picture, each from 0: as it was requested. */
-enum { ATLAS, OTHER_ATLAS, DEPTH, OTHER_DEPTH, SUBPIXEL, FILTER, OTHER_FILTER, STEP, LOSSES };
+enum { ATLAS, OTHER_ATLAS, DEPTH, OTHER_DEPTH, SUBPIXEL, FILTER, OTHER_FILTER, STEP, FIT, LOSSES };
 
 typedef struct {
     int loss[LOSSES];
@@ -76,6 +76,7 @@ static void find_losses(search *s, bool flash_is_short)
     }
     s->n_steps[SUBPIXEL] = q->subpixel_bits > 7;
     s->n_steps[STEP] = flash_is_short && q->persp_step > 1;
+    s->n_steps[FIT] = flash_is_short && (shadow->fit == GN_FIT_TIGHT || shadow->tile_sizes == GN_TILES_WORTH);
 }
 
 /* The compiled scene as the variant has it. */
@@ -96,6 +97,10 @@ static compiled apply(const search *s, const variant *v)
     if (v->tile_height && v->tile_height < q->tile_height) q->tile_height = v->tile_height;
     c.fixed.scene.shadow.filter = (gn_filter)((int)c.fixed.scene.shadow.filter - v->loss[FILTER]);
     c.fixed.scene.shadow.other_filter = (gn_filter)((int)c.fixed.scene.shadow.other_filter - v->loss[OTHER_FILTER]);
+    if (v->loss[FIT]) {
+        c.fixed.scene.shadow.fit = GN_FIT_STABLE;
+        c.fixed.scene.shadow.tile_sizes = GN_TILES_EQUAL;
+    }
     if (v->lean >= 1 && c.set.capacity.vertex_cache > SMALL_VERTEX_CACHE)
         c.set.capacity.vertex_cache = SMALL_VERTEX_CACHE;
     if (v->lean >= 2)
@@ -301,6 +306,7 @@ static void say_variant(const search *s, const variant *v, const compile_memory 
     if (v->loss[FILTER]) say(out, bytes, &n, " --set filter=%s", settings_filter_names[c.fixed.scene.shadow.filter]);
     if (v->loss[OTHER_FILTER])
         say(out, bytes, &n, " --set other_filter=%s", settings_filter_names[c.fixed.scene.shadow.other_filter]);
+    if (v->loss[FIT]) say(out, bytes, &n, " --set fit=stable --set tiles=equal");
     SAY_(capacity, vertex_cache);
     if (v->lean == LEAN_MAX) {
         if (on->feature.depth_blocks) say(out, bytes, &n, " --set depth_blocks=0");
