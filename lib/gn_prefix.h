@@ -229,6 +229,7 @@
 #define gn_sample_cascade GN_PREFIXED_(GN_PREFIX, gn_sample_cascade)
 #define gn_sample_find_cascade GN_PREFIXED_(GN_PREFIX, gn_sample_find_cascade)
 #define gn_sample_in_view GN_PREFIXED_(GN_PREFIX, gn_sample_in_view)
+#define gn_sample_inside_q32 GN_PREFIXED_(GN_PREFIX, gn_sample_inside_q32)
 #define gn_sample_lifted GN_PREFIXED_(GN_PREFIX, gn_sample_lifted)
 #define gn_sample_normal GN_PREFIXED_(GN_PREFIX, gn_sample_normal)
 #define gn_sample_offset GN_PREFIXED_(GN_PREFIX, gn_sample_offset)
