@@ -33,13 +33,13 @@ HOST_SRC := $(filter-out host/tool/main.c host/generate/% host/report/% host/web
 SCENE_SRC := $(filter-out %/make_scenes.c, $(wildcard host/generate/scenes/*.c))
 TEST_SRC := $(wildcard tests/*/test_*.c)
 TESTS := $(basename $(notdir $(TEST_SRC)))
-# Those of unit/ and property/ need no more than the library, but for four.
+# Those of unit/ and property/ need no more than the library, but for five; test_golden_random is of GCC alone.
 ALONE := $(patsubst tests/%.c,$(BUILD)/%,$(subst unit/,,$(subst property/,,$(wildcard tests/unit/test_*.c tests/property/test_*.c))))
-ALONE := $(filter-out %/test_culling %/test_golden %/test_groups %/test_stages,$(ALONE))
+ALONE := $(filter-out %/test_culling %/test_golden %/test_golden_random %/test_groups %/test_stages,$(ALONE))
 # And those that are built with constants for knobs, too. The others choose their knobs: casters
-# corner and radiance sweep what may be lost over all presets, arrival has the finest, golden_random chooses its own, refused what a knob refuses, runs and tiles
+# corner and radiance sweep what may be lost over all presets, arrival has the finest, refused what a knob refuses, runs and tiles
 # have sizes of their own.
-CONSTANT := $(filter-out %/test_arrival %/test_casters %/test_corner %/test_golden_random %/test_radiance %/test_refused %/test_runs %/test_tiles,$(ALONE))
+CONSTANT := $(filter-out %/test_arrival %/test_casters %/test_corner %/test_radiance %/test_refused %/test_runs %/test_tiles,$(ALONE))
 
 LIB_OBJ := $(LIB_SRC:%.c=$(BUILD)/obj/%.o)
 HOST_OBJ := $(HOST_SRC:%.c=$(BUILD)/obj/%.o)

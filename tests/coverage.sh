@@ -20,7 +20,7 @@ shipped() {
     shift 2
     gcc -std=c11 -w -O0 --coverage -Dalways_inline=unused -D_POSIX_C_SOURCE=200809L -Ilib -I. -Itests -Itests/support "$@" -c -o "$build/shipped/$name.o" lib/gnomon.c &&
         gcc -std=c11 -w -O1 -D_POSIX_C_SOURCE=200809L -Ilib -I. -Itests -Itests/support "$@" -o "$build/shipped/$name" "$source" "$build/shipped/$name.o" --coverage -lm &&
-        SCENES=3000 "$build/shipped/$name" 3000 >/dev/null || echo "$name failed"
+        SCENES=25000 "$build/shipped/$name" 20000 >/dev/null || echo "$name failed"
 }
 shipped tiny tests/property/test_random.c -DGN_PRESET=GN_PRESET_TINY
 shipped accurate tests/property/test_random.c -DGN_PRESET=GN_PRESET_ACCURATE -DGN_ATLAS_SIZE=128 -DGN_OTHER_ATLAS_SIZE=64 -DGN_STATIC_LAYER=1

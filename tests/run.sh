@@ -64,7 +64,8 @@ names() { # names FOLDER...: the programs of these folders of tests/
 sanitizers="-g1 -fsanitize=address,undefined -fno-sanitize-recover=all" # -g1: line numbers alone, less to write and to link
 
 # Pictures by the hundred, against floors: they take five times as long under sanitizers, where make soak runs them, too.
-pictures="test_accuracy test_rows test_seams test_views"
+# The random scenes of test_golden_random are others there: the compiler chooses the order of some random numbers.
+pictures="test_accuracy test_rows test_seams test_views test_golden_random"
 build all $(for name in $pictures test_extremes test_extremes_light test_extremes_many test_oiio make_report gen_tables; do echo "build/$name"; done)
 for name in $pictures; do job $name build/$name; done
 

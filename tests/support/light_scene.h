@@ -141,8 +141,10 @@ static inline void ls_add_random_objects(light_scene *s, rng *r, uint32_t n)
 {
     for (; n > 0; n--) {
         gn_object *o = ls_add_object(s, n & 1 ? &s->demo.box : &s->demo.ball);
-        ls_place(o, ls_q16(r, -5, 5), ls_q16(r, 0.3, 2), ls_q16(r, -5, 5), (uint16_t)rng_u32(r), (uint16_t)rng_u32(r),
-                 0.4);
+        /* one after the other: the order of arguments is the compiler's choice */
+        const uint16_t pitch = (uint16_t)rng_u32(r), yaw = (uint16_t)rng_u32(r);
+        const int32_t z_q16 = ls_q16(r, -5, 5), y_q16 = ls_q16(r, 0.3, 2), x_q16 = ls_q16(r, -5, 5);
+        ls_place(o, x_q16, y_q16, z_q16, yaw, pitch, 0.4);
     }
 }
 
