@@ -62,8 +62,8 @@ GN_HOT static void begin_light(gn_lattice *l, const gn_frame *frame, const gn_su
     gn_lattice_light *out = &l->light[slot];
     out->lifts = 0;
     out->realtime = s->shadowed && gn_shadow_is_realtime(light, 65536);
-    out->masked = s->masked && light->mask_channel >= 0 &&
-                  !(out->realtime && frame->scene->shadow.mixing == GN_MIXING_DISTANCE);
+    out->masked =
+        s->masked && light->mask_channel >= 0 && !(out->realtime && frame->scene->shadow.mixing == GN_MIXING_DISTANCE);
     out->lit_uq16 = out->dark_uq16 = 65536;
     if (out->realtime) out->dark_uq16 = gn_shadow_mixed(frame, light, 65536, 65536, 0);
 #if GN_SHADOWS
@@ -334,10 +334,10 @@ GN_HOT static void light_at(const gn_lattice *l, const gn_frame *frame, const gn
         at->irradiance_q24 = irradiance(frame, light->state, from, gn_sat32(-gn_dot_q30(p->unit_q30, from)), at);
     }
 #endif
+    (void)l;
     if (GN_RAW_VIEWS && frame->picture.format == GN_FORMAT_RAW32) at->irradiance_q24 = at->arrives > 0 ? 1 << 24 : 0;
 #if GN_MASKS
-    at->mask_uq16 =
-        l->light[slot].masked || c->g_uq16 != 65536 ? mask_at(s, p, c, light->state->mask_channel) : 65536;
+    at->mask_uq16 = l->light[slot].masked || c->g_uq16 != 65536 ? mask_at(s, p, c, light->state->mask_channel) : 65536;
 #endif
 #if GN_SHADOWS
     at->placed = GN_VIEW_NONE;

@@ -23,6 +23,14 @@ GN_HOT static inline int32_t gn_cell_light_log2(const gn_frame *frame)
     return GN_K(frame, persp_step) >= 8 ? 0 : 7;
 }
 
+/* The sum of all lights may be off by 2^this times as much: with the fastest shading, and in cells of 8 pixels, in
+ * place of which there would be four of the smallest that light alone asks for. */
+GN_HOT static inline int32_t gn_cell_sum_log2(const gn_frame *frame, int32_t size_log2)
+{
+    (void)frame, (void)size_log2;
+    return GN_K(frame, persp_step) == 16 || (GN_K(frame, persp_step) == 8 && size_log2 == 3);
+}
+
 /* Smooth bodies are made of small surfaces with corners of their own: what interpolation is off by is not the same on
  * both sides of an edge, and is seen sooner. Normals count as turning 2^this times as much. */
 GN_HOT static inline int32_t gn_cell_turn_log2(const gn_frame *frame)

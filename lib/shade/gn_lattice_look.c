@@ -102,7 +102,8 @@ GN_HOT static inline void add_within(int32_t sum_q24[3], const uint32_t colour_u
 }
 
 /* Adds a light that is in shadow all over the cell, or nowhere. */
-GN_HOT static void add_colour(const gn_lattice_cell *cell, uint32_t slot, const gn_contribution *light, int lit)
+GN_HOT static GN_NOINLINE void add_colour(const gn_lattice_cell *cell, uint32_t slot, const gn_contribution *light,
+                                          int lit)
 {
     const uint32_t *colour = cell->s->light[slot].radiance_uq16;
     int within = cell->s->n_lights < 8 && !((colour[0] | colour[1] | colour[2]) >> 16); /* 8 * 2^27, of 2^27 * 2^16 */
@@ -117,8 +118,14 @@ GN_HOT static void add_colour(const gn_lattice_cell *cell, uint32_t slot, const 
     }
 }
 
+GN_HOT static uint32_t strongest_of(const uint32_t colour_uq16[3])
+{
+    uint32_t most = colour_uq16[0] > colour_uq16[1] ? colour_uq16[0] : colour_uq16[1];
+    return colour_uq16[2] > most ? colour_uq16[2] : most;
+}
+
 /* Whether all that a light adds is less than half a step of the picture: what shadows it, and how uneven it is, cannot
- * be seen. Of a channel of 6 bits half a step is 1/32 or more of what is there, up to 1/2, and of black 2^-11. */
+ * be seen. Of a channel of 6 bits half a step is 1/32 or more of what is there, up to 1/4, and of black 2^-11. */
 GN_HOT static int is_faint(const gn_lattice_cell *cell, uint32_t strongest_uq16, int32_t most_q24)
 {
     const gn_lattice_look *look = cell->out;
@@ -126,7 +133,7 @@ GN_HOT static int is_faint(const gn_lattice_cell *cell, uint32_t strongest_uq16,
     int32_t least = INT32_MAX;
     if (cell->s->specular || (GN_RAW_VIEWS && cell->frame->picture.format == GN_FORMAT_RAW32)) return 0;
     for (int i = 0; i < 4; i++) least = gn_min32(least, gn_min32(c[i][0], gn_min32(c[i][1], c[i][2])));
-    return gn_corner_times(strongest_uq16, most_q24) < gn_max32(1 << 13, gn_min32(least, 1 << 23) >> 5);
+    return gn_corner_times(strongest_uq16, most_q24) < gn_max32(1 << 13, gn_min32(least, 1 << 22) >> 5);
 }
 
 /* Adds a light. Returns 0 if the cell is to be split. */
@@ -149,14 +156,12 @@ GN_HOT static int add_light(gn_lattice_cell *cell, uint32_t slot)
     if (!most) return 1;
     if (GN_RAW_VIEWS && least != most && cell->frame->picture.format == GN_FORMAT_RAW32) return 0;
     if (!find_highlight(cell, slot, light)) return 0;
-    uint32_t strongest = colour[0] > colour[1] ? colour[0] : colour[1];
-    if (colour[2] > strongest) strongest = colour[2];
-    int faint = is_faint(cell, strongest, most);
+    int faint = is_faint(cell, strongest_of(colour), most);
     int realtime = find_shares(cell, slot, light),
         shadow = realtime > 0 && !faint ? gn_cell_shadow(cell, slot, light) : GN_CELL_LIT;
     if (realtime < 0 || shadow == GN_CELL_SPLIT) return 0;
     if (shadow != GN_CELL_DARK && !faint) {
-        uint32_t kink;
+        uint32_t kink, strongest = strongest_of(colour);
         uint32_t error = gn_cell_unevenness_q24(cell, slot, least, most, &kink);
         int32_t log2 = gn_cell_light_log2(cell->frame); /* where it arrives it is part of the light itself */
         if ((uint64_t)error << log2 > (uint32_t)least) cell->error_q24 += (uint64_t)strongest * error >> 16;
@@ -215,13 +220,13 @@ GN_HOT static int finish_colours(const gn_lattice_cell *cell)
 /* Whether the interpolated light is close enough, as a share of the least that there is. */
 GN_HOT static int is_even(const gn_lattice_cell *cell)
 {
-    int32_t least = INT32_MAX, twice = GN_K(cell->frame, persp_step) == 16;
+    int32_t least = INT32_MAX, more_log2 = gn_cell_sum_log2(cell->frame, cell->size_log2);
     for (int i = 0; i < 4; i++) {
         const int32_t *c = cell->out->colour_q24[i];
         least = gn_min32(least, gn_max32(c[0], gn_max32(c[1], c[2])));
     }
     uint64_t error = cell->size_log2 > gn_cell_finest_log2(cell->frame) ? cell->error_q24 : cell->kink_q24;
-    return error << gn_cell_light_log2(cell->frame) <= (uint64_t)(gn_max32(least, 0) + (1 << 19)) << twice;
+    return error << gn_cell_light_log2(cell->frame) <= (uint64_t)(gn_max32(least, 0) + (1 << 19)) << more_log2;
 }
 
 GN_HOT static GN_NOINLINE int look_once(gn_lattice *lattice, const gn_frame *frame, const gn_surface *surface,
