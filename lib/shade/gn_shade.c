@@ -71,7 +71,8 @@ GN_HOT static inline void shade_those(gn_shading *s)
 {
     const gn_lattice *l = &s->lattice;
     gn_lattice_shade(s);
-    for (int32_t i = 0; GN_MIXES(s) && i < l->n_spans; i++) gn_mix_run(s, l->span[i].x, l->span[i].y, l->span[i].n_px);
+    if (GN_MIXES(s))
+        for (int32_t i = 0; i < l->n_spans; i++) gn_mix_run(s, l->span[i].x, l->span[i].y, l->span[i].n_px);
 }
 
 /* Takes the triangle's runs as spans, so many at a time, and shades them. */
