@@ -70,7 +70,8 @@ GN_HOT static inline void shade_those(gn_shading *s)
 {
     const gn_lattice *l = &s->lattice;
     gn_lattice_shade(s);
-    for (int32_t i = 0; GN_MIXES(s) && i < l->n_spans; i++) gn_mix_run(s, l->span[i].x, l->span[i].y, l->span[i].n_px);
+    if (GN_MIXES(s))
+        for (int32_t i = 0; i < l->n_spans; i++) gn_mix_run(s, l->span[i].x, l->span[i].y, l->span[i].n_px);
 }
 
 /* Takes the triangle's runs as spans, so many at a time, and shades them. */
@@ -362,9 +363,9 @@ GN_HOT void gn_shade_tile(const gn_frame *frame, gn_scratch *scratch, uint32_t t
     s->rows.x0 = s->rect.x0;
     s->rows.y0 = s->rect.y0;
     clear_background(s);
-    const int layered = GN_LAYERS(frame) && !(GN_RAW_VIEWS && frame->picture.format == GN_FORMAT_RAW32);
+    const int coloured = !(GN_RAW_VIEWS && frame->picture.format == GN_FORMAT_RAW32);
     const uint32_t n_linked = sort_runs(s, s->rect.y1 - s->rect.y0);
-    if (!n_linked && !(layered && gn_layers_count(scratch))) return;
+    if (!n_linked && !(GN_LAYERS(frame) && coloured && gn_layers_count(scratch))) return;
     s->cache.object = NULL;
 #if GN_INTERPOLATES
     gn_lattice_begin_tile(s);
@@ -372,5 +373,5 @@ GN_HOT void gn_shade_tile(const gn_frame *frame, gn_scratch *scratch, uint32_t t
     s->cache.lights = GN_PUNCTUAL_LIGHTS && GN_TILE_LIGHTS ? gn_punctual_in_tile(frame, &s->rect) : UINT64_MAX;
     for (uint32_t i = 0; i < GN_VERTEX_CACHE; i++) gn_vertex_drop(&scratch->vertex[i]);
     if (n_linked) shade_triangles(s, tile_idx);
-    if (layered) shade_layers(s, tile_idx);
+    if (GN_LAYERS(frame) && coloured) shade_layers(s, tile_idx);
 }
