@@ -22,7 +22,7 @@ else fail "a command fails: $(grep '^+' "$tmp/log" | tail -n 1): $(tail -n 1 "$t
 # what the text says of their output
 says() { grep -q -e "$1" "$tmp/log" && pass || fail "no command says: $1"; }
 says 'added: ground, camera, light'
-says '^      bias: normal, bias_constant 20, which it does not need'
+says '^      bias: normal, bias_constant 64, which it does not need'
 says 'does not fit that: .*nearest that does: '
 says '^  fits that: '
 says '^--set '
