@@ -323,7 +323,7 @@ GN_HOT static int turns_little(const gn_frame *frame, const gn_surface *s)
             uint32_t d = gn_abs32(s->normal_q30[k][i]) >> 16;
             sum += d * d >> 4; /* Q24: 2^30 */
         }
-    return sum <= 1U << 22;
+    return sum <= 1U << 21;
 }
 
 /* ---- Pixels ------------------------------------------------------------------------------------------------------ */
@@ -448,6 +448,7 @@ GN_HOT static int draw(facet *f)
         return 1;
     }
     if (!f->steep && use_two_colours(f)) {
+        GN_COUNT(facet_pixels, f->n_px);
         for (int32_t i = 0; i < l->n_spans; i++) draw_levels(f, &l->span[i]);
         return 1;
     }
@@ -463,6 +464,7 @@ GN_HOT static int draw(facet *f)
 #endif
     (void)tints;
     if (f->steep) return 0;
+    GN_COUNT(facet_pixels, f->n_px);
     for (int32_t i = 0; i < l->n_spans; i++) draw_span(f, base, tint_q16, &l->span[i]);
     return 1;
 }
@@ -489,6 +491,7 @@ GN_HOT int gn_facet_shade(gn_shading *s, const gn_rect *box, int32_t n_px)
     }
     for (uint32_t slot = 0; slot < surface->n_lights; slot++)
         if (!add_vertex_light(&f, slot)) return 0;
+    GN_COUNT(facets, 1);
     return draw(&f);
 }
 
