@@ -156,10 +156,8 @@
 #include "shade/gn_shadow.c"
 #include "shade/gn_surface.c"
 #include "shade/gn_surface_lights.c"
-#if GN_LAYERS_MAX
 #include "visible/gn_layers.c"
 #include "shade/gn_mix.c"
-#endif
 #endif
 
 #if GN_PICKING

@@ -8,6 +8,8 @@
 #include "shade/gn_pixel.h"
 #include "shade/gn_sample.h"
 
+#if GN_LAYERS_MAX
+
 /* A stored pixel, in the low bits. */
 GN_HOT static uint32_t load(const gn_frame *frame, const gn_pixel_rows *rows, int32_t x, int32_t y)
 {
@@ -133,3 +135,5 @@ GN_HOT void gn_mix_run(gn_shading *s, int32_t x, int32_t y, int32_t n)
         gn_pixel_store(s->frame, &tile, x, y, known->packed);
     }
 }
+
+#endif

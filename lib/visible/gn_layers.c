@@ -7,6 +7,8 @@
 #include "geometry/gn_alpha.h"
 #include "visible/gn_layers.h"
 
+#if GN_LAYERS_MAX
+
 GN_HOT void gn_layers_clear(gn_scratch *scratch)
 {
     scratch->layers.n = 0;
@@ -71,3 +73,5 @@ GN_HOT uint32_t gn_layers_nearest(const gn_scratch *scratch, int32_t at)
 {
     return scratch->layers.n ? scratch->layers.layer[0].cell[at] : 0;
 }
+
+#endif
