@@ -32,9 +32,10 @@ const option options[] = {
      "KEY@LIGHT=VALUE for one light, by its number or name"},
     {"--orbit", BY_ALL, "YAW,PITCH,ZOOM",
      "YAW,PITCH,ZOOM: degrees from -360 to 360 and -90 to 90, a factor from 0.1 to 100",
-     "a camera around the model in the place of the file's: degrees from its front to its right, degrees upwards, and "
-     "how "
-     "much larger than to fill the picture (30,25,1)"},
+     "a camera around the model in the place of the file's: degrees from the front (+Z) to the right as the viewer "
+     "sees "
+     "it (90: from +X), degrees upwards, and size: 1 leaves room for the shadow, about 1.5 fills the picture "
+     "(30,25,1)"},
     {"--outside", BY_ALL, NULL, NULL, "the scene may name files outside its folder"},
     {"--budget", BY_ALL, "N", "a number from 1 to 64",
      "load scenes N times as large as usual, in textures, vertices, triangles, materials and memory (1)"},
@@ -43,7 +44,7 @@ const option options[] = {
     {"--csv", BY_SWEEP, "FILE", "a path", "every configuration as a table"},
     {"--svg", BY_SWEEP, "FILE", "a path", "every configuration as a plot"},
     {"--all", BY_SWEEP, NULL, NULL, "print every configuration, not only the front"},
-    {"--quick", BY_SWEEP | BY_ADVISE, NULL, NULL, "a few configurations only"},
+    {"--quick", BY_SWEEP | BY_ADVISE, NULL, NULL, "a few configurations only, for a first look"},
     {"--board", BY_COMPILE | BY_INFO, "NAME", "a folder of boards/",
      "must fit the memory of boards/NAME; or of --ram and --flash"},
     {"--ram", BY_ADVISE | BY_COMPILE | BY_INFO, "BYTES", "bytes from 1 to 1000000000",

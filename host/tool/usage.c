@@ -20,10 +20,11 @@ static const command_help commands[] = {
      "added, and named.",
      "gnomon render host/scenes/sundial.gltf -o sundial.png --frame 48 --set preset=accurate"},
     {"compare", BY_COMPARE, "SCENE [-o DIR]", "the library against the double-precision reference, or the ray tracer",
-     "DIR gets fixed.png, reference.png, error.png, and beside.png, the three side by side. --with truth adds the ray "
-     "tracer (truth.png), and reports apart what fixed point costs (fixed against reference), what the shadow maps "
-     "cost (reference against truth), and both, with an error picture for each. Near planes, max_distance and "
-     "one-sided casters are part of the scene, in truth too.",
+     "DIR gets fixed.png, reference.png, error.png (eight times the difference), and beside.png, the three side by "
+     "side. --with truth adds the ray tracer, and an error picture for each pair. beside.png then has two rows: fixed, "
+     "reference, truth; and the errors of fixed against reference (what fixed point costs), reference against truth "
+     "(what the shadow maps cost), and fixed against truth (both). Without it nothing is compared with exact shadows. "
+     "Near planes, max_distance and one-sided casters are part of the scene, in truth too.",
      "gnomon compare host/scenes/desk.gltf --with truth -o desk"},
     {"info", BY_INFO, "SCENE", "what the scene needs, and what in the file was ignored",
      "Which light has which shadow tiles, and with which bias; how much RAM the presets take; whether it fits a board, "
@@ -34,8 +35,9 @@ static const command_help commands[] = {
      "shadow tiles that are kept.",
      "gnomon sweep host/scenes/avenue.gltf --quick --svg avenue.svg"},
     {"advise", BY_ADVISE, "SCENE --ram BYTES", "the most accurate configuration within a budget, as --set arguments",
-     "What it prints can be appended to render, compare and compile. RAM is that of the renderer: leave some KB for "
-     "the stack and the program.",
+     "What it prints can be appended to render, compare and compile. RAM is that of the renderer alone: your RAM, less "
+     "what moves and the stack (both by info), less the program's own. Of equally accurate configurations within the "
+     "budget it takes the one of fewest instructions.",
      "gnomon advise host/scenes/avenue.gltf --ram 48000"},
     {"compile", BY_COMPILE, "SCENE -o DIR", "C for flash: scene.c, scene.h, and the library's configuration",
      "DIR gets scene.c and scene.h, and gn_scene_config.h, the library with just what the scene needs. The animation "

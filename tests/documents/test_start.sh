@@ -22,15 +22,16 @@ else fail "a command fails: $(grep '^+' "$tmp/log" | tail -n 1): $(tail -n 1 "$t
 # what the text says of their output
 says() { grep -q -e "$1" "$tmp/log" && pass || fail "no command says: $1"; }
 says 'added: ground, camera, light'
-says '^      bias: normal, bias_constant 64, which it does not need'
+says '^      bias: set by hand, bias_normal 1, bias_constant 24; automatic alone: --set bias_constant@0=0 --set auto_bias@0=normal$'
+says '^      bias: automatic$'
 says 'does not fit that: .*nearest that does: '
 says '^  fits that: '
 says '^--set '
 says '^ok$'
 [ "$(grep '^[0-9a-f]* frame 0\|crc\|^[0-9A-F]* frame' "$tmp/log" | grep -v '^+' | sort | uniq -c | awk '{ print $1 }')" = 2 ] && pass || fail "board and host print other CRCs: $(grep frame "$tmp/log" | tail -n 2)"
-mismatch() { grep -A 30 "+ .*-o build/start/$1 " "$tmp/log" | sed -n 's/^  shadow mismatch *\([0-9.]*\) .*/\1/p' | sed -n 3p; } # against exact shadows
-awk -v good="$(mismatch good)" -v bad="$(mismatch bad)" 'BEGIN { exit !(good > 0 && bad > good + 0.5) }' && pass || fail "shadows differ from exact ones by $(mismatch bad) % with the bias, $(mismatch good) % without"
-for file in sundial house other bad fit panel compare/beside; do
+psnr() { grep -A 30 "+ .*-o build/start/$1 " "$tmp/log" | grep -A 3 'reference against truth' | sed -n 's/^  PSNR (8-bit) *\([0-9.]*\) .*/\1/p' | head -n 1; }
+awk -v good="$(psnr good)" -v bad="$(psnr bad)" 'BEGIN { exit !(bad > 0 && good > bad + 3) }' && pass || fail "against exact shadows $(psnr bad) dB with the bias, $(psnr good) dB without"
+for file in sundial house other fit panel compare/beside bad/beside good/beside; do
     [ -s "$tree/build/start/$file.png" ] && pass || fail "$file.png was not made"
 done
 

@@ -88,6 +88,23 @@ for knob in refresh incremental static_layer; do # they act from frame to frame
 done
 good info "$cube" --size 32x24
 good info "$glb" --size 32x24
+# the arguments that info prints end every bias of the file's: the picture is the one without
+good render "$cube" -o "$tmp/without.png" --size 64x48
+good info "$cube" --size 64x48
+grep -q -x '      bias: automatic' "$tmp/out" && pass || fail "info does not say that the bias is automatic"
+for bias in bias_constant=64 bias_slope=9 bias_caster=4 auto_bias=off bias_normal=5 bias_receiver=4 auto_bias=depth "bias_normal=5 --set bias_constant=9 --set bias_caster=1"; do
+    # shellcheck disable=SC2086
+    good info "$cube" --size 64x48 --set $bias
+    mend=$(sed -n 's/^      bias: .*; automatic alone: //p' "$tmp/out")
+    # shellcheck disable=SC2086
+    good render "$cube" -o "$tmp/a.png" --size 64x48 --set $bias
+    cmp -s "$tmp/a.png" "$tmp/without.png" && fail "$bias changes nothing" || pass
+    # shellcheck disable=SC2086
+    good render "$cube" -o "$tmp/a.png" --size 64x48 --set $bias $mend
+    cmp -s "$tmp/a.png" "$tmp/without.png" && pass || fail "$bias is not mended by: $mend"
+done
+good info "$cube" --size 64x48 --ram 100000
+grep -q 'of flash (Cortex-M0), no --flash given$' "$tmp/out" && pass || fail "info without --flash: $(tail -n 1 "$tmp/out")"
 good compare "$cube" --size 32x24
 good render "$glb" -o "$tmp/a.png" --size 32x24
 grep -q -x "$tmp/a.png: 32x24, 2 objects, 3 triangles, 1 light; added: ground, camera, light" "$tmp/out" && pass || fail "render says: $(head -n 1 "$tmp/out")"

@@ -208,23 +208,31 @@ static void text_tiles(const engine_picture *p, size_t light)
     printf("\n");
 }
 
-/* A bias that was set is the first suspect of a shadow that does not touch its caster. */
-static void text_bias(const scene_light *l, size_t i)
+static void text_own_bias(const scene_light *l)
 {
-    const double *b = l->bias_receiver;
-    const bool by_hand = l->auto_bias == SCENE_AUTO_BIAS_OFF;
-    if (l->auto_bias == SCENE_AUTO_BIAS_NORMAL && l->bias_constant <= 0 && l->bias_slope <= 0 && l->bias_caster <= 0)
-        return;
-    printf("      bias: %s", by_hand ? "set by hand" : l->auto_bias == SCENE_AUTO_BIAS_DEPTH ? "depth" : "normal");
-    if (by_hand) printf(", bias_normal %g", l->bias_normal);
-    if (by_hand && (b[0] > 0 || b[1] > 0 || b[2] > 0 || b[3] > 0))
-        printf(", bias_receiver %g,%g,%g,%g", b[0], b[1], b[2], b[3]);
     if (l->bias_constant > 0) printf(", bias_constant %g", l->bias_constant);
     if (l->bias_slope > 0) printf(", bias_slope %g", l->bias_slope);
     if (l->bias_caster > 0) printf(", bias_caster %g", l->bias_caster);
-    if (!by_hand && l->bias_constant + l->bias_slope + l->bias_caster > 0) printf(", which it does not need");
-    if (l->auto_bias != SCENE_AUTO_BIAS_NORMAL)
-        printf("; automatic again with --set auto_bias@%zu=normal as the last", i);
+}
+
+/* A bias that was set is the first suspect of a shadow that does not touch its caster. The automatic one replaces
+ * bias_normal and bias_receiver; the others are added to it, and must be taken back by name. */
+static void text_bias(const scene_light *l, size_t i)
+{
+    const double *b = l->bias_receiver;
+    const bool by_hand = l->auto_bias == SCENE_AUTO_BIAS_OFF, along_normal = l->auto_bias == SCENE_AUTO_BIAS_NORMAL;
+    const bool adds = l->bias_constant > 0 || l->bias_slope > 0 || l->bias_caster > 0;
+    printf("      bias: %s", by_hand ? "set by hand" : along_normal ? "automatic" : "automatic, depth");
+    if (by_hand) printf(", bias_normal %g", l->bias_normal);
+    if (by_hand && (b[0] > 0 || b[1] > 0 || b[2] > 0 || b[3] > 0))
+        printf(", bias_receiver %g,%g,%g,%g", b[0], b[1], b[2], b[3]);
+    text_own_bias(l);
+    if (!by_hand && adds) printf(", still added: it detaches shadows");
+    if (adds || !along_normal) printf("; automatic alone:");
+    if (l->bias_constant > 0) printf(" --set bias_constant@%zu=0", i);
+    if (l->bias_slope > 0) printf(" --set bias_slope@%zu=0", i);
+    if (l->bias_caster > 0) printf(" --set bias_caster@%zu=0", i);
+    if (!along_normal) printf(" --set auto_bias@%zu=normal", i);
     printf("\n");
 }
 

@@ -28,6 +28,12 @@ static void try_preset(info_memory *out, const tool_options *o, int preset, int 
     compile_free(&c);
 }
 
+static void say_limit(const char *name, bool given, long limit, char *out, size_t bytes)
+{
+    if (given) snprintf(out, bytes, " of %ld", limit);
+    else snprintf(out, bytes, ", no --%s given", name);
+}
+
 /* What gnomon compile would say. */
 static int judge(info_memory *out, const tool_options *o, const board *b, char *error, size_t bytes)
 {
@@ -36,14 +42,18 @@ static int judge(info_memory *out, const tool_options *o, const board *b, char *
     compile_memory m = compile_measure(&c, b);
     out->fits = compile_fits(&m, b);
     if (out->fits) {
-        snprintf(out->verdict, sizeof out->verdict,
-                 "fits %s: %ld bytes of RAM (stack %ld) of %ld, about %ld of flash of %ld", b->name,
-                 compile_ram_bytes(&m, b), b->stack, b->ram, compile_rom_bytes(&m), b->flash);
+        char ram[40], flash[40];
+        say_limit("ram", o->board || o->ram, b->ram, ram, sizeof ram);
+        say_limit("flash", o->board || o->flash, b->flash, flash, sizeof flash);
+        snprintf(out->verdict, sizeof out->verdict, "fits %s: %ld bytes of RAM (stack %ld)%s, about %ld of flash%s%s",
+                 b->name, compile_ram_bytes(&m, b), b->stack, ram, compile_rom_bytes(&m),
+                 o->board ? "" : " (Cortex-M0)", flash);
     } else {
         char much[240], nearest[400];
         compile_say_memory(&m, b, much, sizeof much);
         compile_find_nearest(&c, b, nearest, sizeof nearest);
-        snprintf(out->verdict, sizeof out->verdict, "does not fit %s: %s; %s", b->name, much, nearest);
+        snprintf(out->verdict, sizeof out->verdict, "does not fit %s: %s; %s%s", b->name, much, nearest,
+                 strstr(nearest, " --size ") ? "; gnomon advise keeps the size" : "");
     }
     compile_free(&c);
     return 0;

@@ -19,12 +19,15 @@ static double load_of(const budget *b, const sweep_row *r)
     return fmax((double)r->ram_bytes / b->ram, r->cost / b->instructions);
 }
 
-/* More accurate; of equals the smaller, then the faster: such a row is on the front. */
+/* What is printed alike is equally accurate. */
+static const double db_equal = 0.01;
+
+/* Of equally accurate rows the faster, then the smaller: with the last step such a row is on the front. */
 static bool is_better(const sweep_row *a, const sweep_row *b)
 {
-    if (a->db < b->db || a->db > b->db) return a->db > b->db;
+    if (a->cost < b->cost || a->cost > b->cost) return a->cost < b->cost;
     if (a->ram_bytes != b->ram_bytes) return a->ram_bytes < b->ram_bytes;
-    return a->cost < b->cost;
+    return a->db > b->db;
 }
 
 /* SIZE_MAX: none. */
@@ -40,9 +43,13 @@ static size_t least_load(const sweep *w, const budget *b)
 static size_t find_best(const sweep *w, const budget *b)
 {
     size_t best = SIZE_MAX;
+    double most = -(double)INFINITY;
+    for (size_t i = 0; i < w->n_rows; i++)
+        if (load_of(b, &w->rows[i]) <= 1) most = fmax(most, w->rows[i].db);
     for (size_t i = 0; i < w->n_rows; i++) {
-        if (load_of(b, &w->rows[i]) > 1) continue;
-        if (best == SIZE_MAX || is_better(&w->rows[i], &w->rows[best])) best = i;
+        const sweep_row *r = &w->rows[i];
+        if (load_of(b, r) > 1 || r->db < most - db_equal) continue;
+        if (best == SIZE_MAX || is_better(r, &w->rows[best])) best = i;
     }
     return best;
 }
@@ -66,7 +73,8 @@ static size_t smallest(const sweep *w, const budget *b, bool ram)
 
 /* ---- The search
  * ------------------------------------------------------------------------------------------------------------- It
- * knows no budget: that only chooses among the rows. So a larger budget never gets a worse answer. */
+ * knows no budget: that only chooses among the rows, and the screen tiles. So a larger budget never gets a worse
+ * answer. */
 
 /* What an explored row covers: rows that are better by less than that. Halved as long as rows may be added. */
 static const double coarsest = 0.64, finest = 0.002, ram_ratio = 2, db_ratio = 4;
@@ -172,11 +180,36 @@ static void settle(sweep *w, const budget *b)
         if (!w->rows[i].is_counted) w->rows[i].cost = (double)INFINITY;
 }
 
+/* Takes back rows from the n-th on that are more accurate than they may be. */
+static void drop_better(sweep *w, size_t n, double most)
+{
+    for (size_t i = n; i < w->n_rows; i++)
+        if (w->rows[i].db <= most) w->rows[n++] = w->rows[i];
+    w->n_rows = n;
+}
+
+/* Screen tiles hardly change a pixel: RAM that is left buys larger ones, and fewer instructions. Nothing else, as a
+ * larger budget might find another row. */
+static int resize_tiles(sweep *w, const budget *b)
+{
+    size_t best = find_best(w, b), before = SIZE_MAX;
+    const double most = best == SIZE_MAX ? 0 : w->rows[best].db + db_equal;
+    while (best != before) {
+        const size_t n = w->n_rows;
+        if (sweep_tiles_around(w, best)) return -1;
+        if (n < w->n_rows) drop_better(w, n, most);
+        before = best;
+        best = find_best(w, b);
+    }
+    return 0;
+}
+
 static int search(sweep *w, const budget *b, bool quick)
 {
     w->colours_only = true;
     if (sweep_run(w, quick) || sweep_min(w)) return -1;
     if (explore(w, quick ? ROWS_MAX_QUICK : ROWS_MAX)) return -1;
+    if (resize_tiles(w, b)) return -1;
     if (w->counts && b->instructions < DBL_MAX) count_ends(w, b);
     if (w->counts) settle(w, b);
     return 0;

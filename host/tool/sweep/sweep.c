@@ -241,6 +241,13 @@ int sweep_around(sweep *w, size_t i)
     return measure_all(w, &list);
 }
 
+int sweep_tiles_around(sweep *w, size_t i)
+{
+    static sweep_plan list;
+    sweep_plan_tiles(&list, w, &w->rows[i]);
+    return measure_all(w, &list);
+}
+
 int sweep_min(sweep *w)
 {
     static sweep_plan list;

@@ -108,6 +108,9 @@ int sweep_run(sweep *w, bool quick);
 /* Measures the neighbours of a row: one knob, one level up or down. Prints the error and returns -1. */
 int sweep_around(sweep *w, size_t row);
 
+/* The same row with the screen tiles next in size. */
+int sweep_tiles_around(sweep *w, size_t row);
+
 /* The configuration with the minimum of every knob, with each preset. */
 int sweep_min(sweep *w);
 

@@ -149,6 +149,23 @@ void sweep_plan_around(sweep_plan *list, const sweep *w, const sweep_row *row)
     }
 }
 
+/* The next smaller and larger screen tiles. */
+void sweep_plan_tiles(sweep_plan *list, const sweep *w, const sweep_row *row)
+{
+    const int width = row->effective.level[SWEEP_TILE_WIDTH], height = row->effective.level[SWEEP_TILE_HEIGHT];
+    start(list, w);
+    for (int i = 0; i < 9; i++) {
+        const int x = i % 3 - 1, y = i / 3 - 1;
+        if (x && (w->held[SWEEP_TILE_WIDTH] || width < 0)) continue;
+        if (y && (w->held[SWEEP_TILE_HEIGHT] || height < 0)) continue;
+        if (width + x >= sweep_n_levels(SWEEP_TILE_WIDTH) || height + y >= sweep_n_levels(SWEEP_TILE_HEIGHT)) continue;
+        sweep_config c = row->config;
+        if (x) c.level[SWEEP_TILE_WIDTH] = width + x;
+        if (y) c.level[SWEEP_TILE_HEIGHT] = height + y;
+        if ((!x || width + x >= 0) && (!y || height + y >= 0)) plan(list, c);
+    }
+}
+
 void sweep_plan_min(sweep_plan *list, const sweep *w)
 {
     start(list, w);

@@ -14,6 +14,7 @@ typedef struct {
 /* Each starts an empty plan anew. */
 void sweep_plan_documented(sweep_plan *list, const sweep *w, bool quick);
 void sweep_plan_around(sweep_plan *list, const sweep *w, const sweep_row *row);
+void sweep_plan_tiles(sweep_plan *list, const sweep *w, const sweep_row *row);
 void sweep_plan_min(sweep_plan *list, const sweep *w);
 
 #endif
