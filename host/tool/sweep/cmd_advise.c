@@ -188,8 +188,8 @@ static void drop_better(sweep *w, size_t n, double most)
     w->n_rows = n;
 }
 
-/* With persp_step 1 screen tiles change no pixel: RAM that is left buys larger ones, and fewer instructions. Nothing else, as a
- * larger budget might find another row. */
+/* With persp_step 1 screen tiles change no pixel: RAM that is left buys larger ones, and fewer instructions. Nothing
+ * else, as a larger budget might find another row. */
 static int resize_tiles(sweep *w, const budget *b)
 {
     size_t best = find_best(w, b), before = SIZE_MAX;
