@@ -23,14 +23,11 @@ GN_HOT static inline int32_t gn_cell_light_log2(const gn_frame *frame)
     return GN_K(frame, persp_step) >= 8 ? 0 : 7;
 }
 
-/* The sum of all lights may be off by 2^this times as much: with the fastest shading, and in cells of 8 pixels of flat
- * surfaces, in place of which there would be four of the smallest that light alone asks for. */
-GN_HOT static inline int32_t gn_cell_sum_log2(const gn_lattice_cell *cell)
+/* The sum of all lights may be off by 2^this times as much with the fastest shading. */
+GN_HOT static inline int32_t gn_cell_sum_log2(const gn_frame *frame)
 {
-    const gn_frame *frame = cell->frame;
     (void)frame;
-    return GN_K(frame, persp_step) == 16 ||
-           (GN_K(frame, persp_step) == 8 && cell->size_log2 == 3 && !GN_SMOOTH(cell->s));
+    return GN_K(frame, persp_step) == 16;
 }
 
 /* Smooth bodies are made of small surfaces with corners of their own: what interpolation is off by is not the same on

@@ -220,7 +220,7 @@ GN_HOT static int finish_colours(const gn_lattice_cell *cell)
 /* Whether the interpolated light is close enough, as a share of the least that there is. */
 GN_HOT static int is_even(const gn_lattice_cell *cell)
 {
-    int32_t least = INT32_MAX, more_log2 = gn_cell_sum_log2(cell);
+    int32_t least = INT32_MAX, more_log2 = gn_cell_sum_log2(cell->frame);
     for (int i = 0; i < 4; i++) {
         const int32_t *c = cell->out->colour_q24[i];
         least = gn_min32(least, gn_max32(c[0], gn_max32(c[1], c[2])));

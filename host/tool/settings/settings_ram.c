@@ -105,6 +105,7 @@ static long lattice_bytes(const settings *s)
 {
     layout all = {0, 4};
     put(&all, 1, 244, 4);                         /* span to plane */
+    if (s->feature.shadows) put(&all, 10, 4, 4);  /* matrix */
     put(&all, s->capacity.surface_lights, 12, 4); /* light */
     put(&all, 1, 200, 4);                         /* face_q30 to bits */
     put(&all, 12 + 1, corner_bytes(s), 4);        /* corners, corner */
@@ -129,6 +130,7 @@ static void put_work(layout *out, const settings *s)
     long values = (s->feature.textures ? 2 : 0) + (s->feature.masks ? 4 : 0) + (s->feature.baked_light ? 3 : 0) + 5 +
                   (long)per_light * s->capacity.surface_lights;
     put(&surface, 1, s->feature.orthographic ? 244 : 200, 8); /* object to the colours of attribute_q16 */
+    if (s->quality.persp_step > 1) put(&surface, 9, 4, 4);    /* v_q16 */
     if (s->feature.masks) put(&surface, 12, 4, 4);
     if (s->feature.baked_light) put(&surface, 9, 4, 4);
     if (s->feature.textures) put(&surface, 6, 8, 8);
