@@ -18,7 +18,7 @@ ifeq ($(wildcard boards/$(BOARD)/board.mk),)
 $(error There is no board '$(BOARD)': make boards lists those that there are)
 endif
 ifeq ($(wildcard boards/apps/$(APP).c),)
-$(error There is no app '$(APP)': boards/apps has $(sort $(patsubst boards/apps/%.mk,%,$(filter-out %/screen.mk,$(wildcard boards/apps/*.mk))) play))
+$(error There is no app '$(APP)': boards/apps has $(basename $(notdir $(shell grep -l '^int app_main' boards/apps/*.c))))
 endif
 ifneq ($(PRESET),)
 ifeq ($(filter tiny fast balanced accurate,$(PRESET)),)
@@ -34,6 +34,15 @@ $(error SCENE=$(SCENE): there is no such file)
 endif
 endif
 include boards/$(BOARD)/board.mk
+ifneq ($(BOARD_RUNS),host)
+$(foreach setting,BOARD_RUNS BOARD_CROSS BOARD_CPU BOARD_COMMON,$(if $(strip $($(setting))),,$(error boards/$(BOARD)/board.mk sets no $(setting))))
+ifeq ($(filter qemu rp2040js no,$(BOARD_RUNS)),)
+$(error boards/$(BOARD)/board.mk: BOARD_RUNS is '$(BOARD_RUNS)', none of qemu, rp2040js, no)
+endif
+ifeq ($(BOARD_RUNS)$(strip $(BOARD_EMULATOR)),qemu)
+$(error boards/$(BOARD)/board.mk: BOARD_RUNS is qemu, but it sets no BOARD_EMULATOR)
+endif
+endif
 
 BOARD_OPT ?= -O2
 FW_OPT ?= $(BOARD_OPT)
@@ -44,6 +53,11 @@ FW_OBJ_DIR := $(FW)/$(IMAGE).obj
 
 APP_LIB := lib/gnomon.c
 -include boards/apps/$(APP).mk
+ifeq ($(SCENE),) # an app that does without asks for BOARD_SCENE first
+ifneq ($(shell awk '/BOARD_SCENE/ { exit } /^.include "scene.h"/ { print; exit }' boards/apps/$(APP).c),)
+$(error APP=$(APP) needs SCENE=FILE)
+endif
+endif
 
 # The host links a program; boards link without a C library.
 FW_HOSTED := $(filter host,$(BOARD_RUNS))
@@ -144,10 +158,10 @@ ifneq ($(FW_HOSTED),)
 	@$(FIRMWARE) $(ARGS)
 else ifeq ($(BOARD_RUNS),rp2040js)
 	@$(RUN_PICO)
-else ifneq ($(BOARD_EMULATOR),)
+else ifeq ($(BOARD_RUNS),qemu)
 	@timeout $(or $(TIMEOUT),120) $(EMULATE) $(EMULATOR_FLAGS)
 else
-	@echo "$(BOARD) is built, not run: no emulator has it" && exit 1
+	@echo "$(BOARD) is built, not run: its board.mk has BOARD_RUNS := $(BOARD_RUNS)" >&2; exit 1
 endif
 
 # The display, when the clock has come to the last time of ARGS; the Pico's after ARGS frames.
@@ -159,11 +173,11 @@ run-screen: $(FIRMWARE) $(PICO_NEEDS) $(BUILD)/capture $(BUILD)/ppm
 ifeq ($(BOARD_RUNS),rp2040js)
 	@$(RUN_PICO) $(SCREEN_OUT)
 	@$(BUILD)/ppm png $(SCREEN_OUT) $(SCREEN_OUT:.ppm=.png) && echo $(SCREEN_OUT:.ppm=.png)
-else ifneq ($(BOARD_EMULATOR),)
+else ifeq ($(BOARD_RUNS),qemu)
 	@$(BUILD)/capture $(or $(TIMEOUT),60) 'READY $(lastword $(ARGS))' $(SCREEN_OUT) $(EMULATE)
 	@$(BUILD)/ppm png $(SCREEN_OUT) $(SCREEN_OUT:.ppm=.png) && echo $(SCREEN_OUT:.ppm=.png)
 else
-	@echo "$(BOARD) is built, not run: no emulator has it" && exit 1
+	@echo "$(BOARD) is built, not run: its board.mk has BOARD_RUNS := $(BOARD_RUNS)" >&2; exit 1
 endif
 
 $(BUILD)/libstages.so: boards/tools/stage_plugin.c boards/tools/tcg_plugin.h

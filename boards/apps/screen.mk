@@ -1,10 +1,11 @@
 # For apps that show the sundial on a display. SCREEN_SIZE, SCREEN_FORMAT, SCREEN_ZOOM (16ths) and SCREEN_SETTINGS come from the board.
 ifeq ($(SCREEN_SIZE),)
-$(error $(BOARD) has no display that the clock knows)
+$(error $(BOARD) has no display (SCREEN_SIZE in board.mk))
 endif
 SCREEN_ZOOM ?= 16
 SCENE ?= host/scenes/sundial.gltf
 SCENE_FLAGS ?= --size $(SCREEN_SIZE) $(SCREEN_SETTINGS) --simplify safe
+override SCENE_FLAGS += $(if $(TURN),--open)
 APP_FLAGS := -DSCREEN_WIDTH=$(word 1,$(subst x, ,$(SCREEN_SIZE))) -DSCREEN_HEIGHT=$(word 2,$(subst x, ,$(SCREEN_SIZE))) \
   -DGN_FORMAT_SCREEN=GN_FORMAT_$(SCREEN_FORMAT) -DSCREEN_ZOOM=$(SCREEN_ZOOM)
 

@@ -1,5 +1,6 @@
 /* Any compiled scene on the board's display, frame after frame: make firmware BOARD=... APP=show SCENE=FILE. Only tiles
- * that changed are sent. ARGS=N: the first N frames, then it says READY N and keeps the picture. */
+ * that changed are sent. ARGS=N: the first N frames, then it says READY N and keeps the picture. TURN=N: the model
+ * turns, once in N pictures. */
 #include "scene.h"
 
 #include "board.h"
@@ -19,12 +20,30 @@ static void open_display(void)
     shown = unknown;
 }
 
-static gn_status show(uint32_t frame)
+/* Everything that casts shadows turns about the file's vertical axis; a ground that the tool added does not cast. From
+ * where the file has it each time, so that nothing drifts. */
+static const gn_scene *scene_at(uint32_t n)
+{
+#ifdef SHOW_TURN
+    gn_affine turn;
+    scene_init(&state);
+    scene_frame(&state, n % SCENE_FRAMES);
+    gn_affine_rotation(&turn, (uint16_t)((n % SHOW_TURN << 16) / SHOW_TURN), 0, 0);
+    for (uint32_t i = 0; i < SCENE_OBJECTS; i++) {
+        gn_object *object = &state.objects[i];
+        if (object->flags & GN_OBJECT_CASTS) gn_affine_mul(&object->to_world, &turn, &object->to_world);
+    }
+    return scene_now(&state);
+#else
+    return scene_frame(&state, n % SCENE_FRAMES);
+#endif
+}
+
+static gn_status show(uint32_t n)
 {
     for (;;) {
         uint32_t n_sent;
-        gn_status status =
-            gn_render_changes(&renderer, scene_frame(&state, frame), &shown, display_flush, &the_display, &n_sent);
+        gn_status status = gn_render_changes(&renderer, scene_at(n), &shown, display_flush, &the_display, &n_sent);
         if (status) return status;
         if (!display_finish(&the_display) && (the_panel.shown || !panel_show(&the_panel, 1))) return GN_OK;
         open_display();
@@ -45,7 +64,7 @@ int app_main(void)
     const uint32_t n_frames = frames_of(board_args());
     gn_status status = gn_init(&renderer, &picture);
     open_display();
-    for (uint32_t n = 0; !status && (!n_frames || n < n_frames); n++) status = show(n % SCENE_FRAMES);
+    for (uint32_t n = 0; !status && (!n_frames || n < n_frames); n++) status = show(n);
     board_print(status ? gn_status_text(status) : "READY ");
     board_print_u32(n_frames);
     board_print("\n");

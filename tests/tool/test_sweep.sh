@@ -237,7 +237,7 @@ grep -q '"target": {"board": "mps2-an385", "instructions_per_pixel": [0-9.]*, ' 
 # where nothing counts, the reason is said once; a board that there is not, or that QEMU does not run, is an error
 scene=host/scenes/fence.gltf
 mkdir -p "$tmp/ghost"
-printf '# A core that nobody has a compiler for.\nBOARD_RUNS := qemu\nBOARD_CROSS := ghost-none-\nBOARD_EMULATOR := qemu-system-ghost\n' >"$tmp/ghost/board.mk"
+printf '# A core that nobody has a compiler for.\nBOARD_RUNS := qemu\nBOARD_CROSS := ghost-none-\nBOARD_CPU := -mcpu=ghost\nBOARD_COMMON := semihosting\nBOARD_EMULATOR := qemu-system-ghost\n' >"$tmp/ghost/board.mk"
 run sweep $scene --quick --size 8x8 --target "../$tmp/ghost" --csv "$tmp/ghost.csv" && pass || fail "without a toolchain the sweep fails: $(head -n 1 "$tmp/err")"
 [ "$(grep -c 'ghost-none-gcc is not installed' "$tmp/err")" = 1 ] && [ "$(wc -l <"$tmp/err")" = 1 ] && pass || fail "without a toolchain: $(head -n 2 "$tmp/err")"
 awk -F '"' 'NR > 1 { split($3, v, ","); if (v[22] != "" || v[23] != "" || v[24] == "") exit 1 } END { exit !(NR > 5) }' "$tmp/ghost.csv" && pass || fail "columns that were not counted are not empty"

@@ -106,7 +106,12 @@ int board_read(board *out, const char *name, char *error, size_t error_bytes)
     if (!script)
         snprintf(error, error_bytes, "--board %s: there is no %s/link.ld; --ram and --flash say the same of any board",
                  name, folder);
-    else if (!ok) snprintf(error, error_bytes, "--board %s: the memory in %s/link.ld is not understood", name, folder);
+    else if (!ok)
+        snprintf(
+            error, error_bytes,
+            "--board %s: %s/link.ld: wanted are REGION_ALIAS(\"RAM\", name) and (\"FLASH\", name), each of a region "
+            "\"name (rwx) : ORIGIN = 0x20000000, LENGTH = 64K\", as boards/mps2-an386/link.ld has them",
+            name, folder);
     free(script);
     free(settings_text);
     return ok ? 0 : -1;

@@ -175,7 +175,7 @@ settings_ram_parts settings_ram(const settings *s)
     long offset = s->capacity.max_tile_refs > 65535 ? 4 : 2;
     int punctual = s->feature.punctual_lights;
     const long groups = s->quality.triangle_groups;
-    put(&frame, 1, (s->feature.orthographic ? 248 : 240) + (groups ? 4 : 0), 8); /* scene to detail */
+    put(&frame, 1, (s->feature.orthographic ? 252 : 244) + (groups ? 4 : 0), 8); /* scene to detail */
     if (s->feature.shadows) {
         put(&frame, 1, 8, 4);  /* n_cascades to frame_count */
         put(&frame, 4, 40, 8); /* cascade */
