@@ -7,6 +7,7 @@
 #include "engine.h"
 #include "../fixed/output.h"
 #include "../fixed/quantise.h"
+#include "shadow/gn_tiles.h"
 
 typedef struct {
     uint8_t *pixels;
@@ -204,9 +205,18 @@ static size_t surface_lights(const gn_frame *frame)
 }
 
 /* Texels up to the end of each atlas's last tile. Views that nothing is seen in have an empty one; unused cascades
- * none. */
+ * none, but with tiles by worth the library reserves it. */
 static void demand_texels(const gn_frame *frame, settings_demand *out)
 {
+    size_t reserved[2] = {0, 0};
+    int empty[2] = {0, 0};
+    for (uint32_t i = 0; GN_BY_WORTH(frame) && i < frame->n_views; i++) {
+        const size_t side = frame->seen[i].side;
+        reserved[frame->view[i].in_other] += side * side;
+        empty[frame->view[i].in_other] |= !side;
+    }
+    out->atlas_texels = reserved[0] + (empty[0] ? 64 : 0);
+    out->other_atlas_texels = reserved[1] + (empty[1] ? 64 : 0);
     for (uint32_t i = 0; i < frame->n_views; i++) {
         const gn_light_view *view = &frame->view[i];
         const bool unused = !view->in_other && frame->n_cascades > 1 &&
