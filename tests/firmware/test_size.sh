@@ -78,7 +78,7 @@ within flash Cortex-M3 full linked 53800
 within flash Cortex-M3 accurate linked 56400
 within flash Cortex-M3 smallest linked 8192
 within flash Cortex-M0 smallest linked 9800
-within flash Cortex-M3 small linked 16900
+within flash Cortex-M3 small linked 17000
 within ram Cortex-M3 smallest total 17000
 
 # ---- Growth -----------------------------------------------------------------------------------------------------------------

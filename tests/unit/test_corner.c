@@ -548,8 +548,10 @@ static void check_scene(const gn_knobs *knobs)
         plane p;
         plane_of(&p, view, tri->source.triangle_idx);
         gn_surface_begin(&renderer.frame, scratch, &cache, &surface, &tri->source);
+        gn_surface_use_bary(&renderer.frame, &surface);
         const gn_rect r = gn_setup_bounds(&renderer.frame, tri);
-        const int has_plane = gn_corner_begin(&lattice, &renderer.frame, &surface, &r);
+        const int reached = gn_corner_begin_lights(&lattice, &renderer.frame, &surface);
+        const int has_plane = reached && gn_corner_begin(&lattice, &renderer.frame, &surface, &r);
         n_planes += has_plane;
         n_no_plane += !has_plane;
         for (int y = r.y0 - 6; has_plane && y < r.y1 + 14; y += 5)
