@@ -199,7 +199,7 @@ long compile_state_bytes(const compiled *c, bool short_enums);
 typedef struct {
     long renderer, state, data, code;
 } compile_memory;
-enum { COMPILE_SHORT_ENUMS_LESS = 8 }; /* gn_renderer */
+enum { COMPILE_SHORT_ENUMS_LESS = 16 }; /* gn_renderer */
 enum { COMPILE_CODE_TOLERANCE = 10 };  /* per cent that code may take more than estimated */
 compile_memory compile_measure(const compiled *c, const board *b);
 long compile_ram_bytes(const compile_memory *m, const board *b); /* all of it, stack and board included */
