@@ -200,7 +200,7 @@ typedef struct {
     long renderer, state, data, code;
 } compile_memory;
 enum { COMPILE_SHORT_ENUMS_LESS = 16 }; /* gn_renderer */
-enum { COMPILE_CODE_TOLERANCE = 10 };  /* per cent that code may take more than estimated */
+enum { COMPILE_CODE_TOLERANCE = 10 };   /* per cent that code may take more than estimated */
 compile_memory compile_measure(const compiled *c, const board *b);
 long compile_ram_bytes(const compile_memory *m, const board *b); /* all of it, stack and board included */
 long compile_rom_bytes(const compile_memory *m);
