@@ -120,7 +120,7 @@ GN_HOT static int use_matrix(gn_view_matrix *matrix, const gn_frame *frame, cons
 {
     if (matrix->view == view) return 1;
     matrix->view = NULL;
-    if (view->fit.ortho.ray_shift < 0 || frame->cam.focal2_px_q16 >> 31) return 0;
+    if ((uint32_t)view->fit.ortho.ray_shift > 62 || frame->cam.focal2_px_q16 >> 31) return 0;
     for (int i = 0; i < 3; i++) {
         const gn_ray_plane *r = &view->fit.ortho.ray[i];
         int64_t x = (int64_t)r->ax * (int32_t)frame->cam.focal2_px_q16 >> 16,
@@ -298,9 +298,10 @@ GN_HOT static int add_vertex_light(facet *f, uint32_t slot)
     if (said != GN_CELL_EDGE && !ends) {
         for (int k = 0; share && k < 3; k++) {
             int32_t v = gn_cell_share(e[k], share);
-            for (int c = 0; c < 3; c++)
-                f->colour_q24[k][c] =
-                    gn_min32(f->colour_q24[k][c] + gn_corner_times(light->radiance_uq16[c], v), 1 << 27);
+            for (int c = 0; c < 3; c++) {
+                f->colour_q24[k][c] += gn_corner_times(light->radiance_uq16[c], v);
+                if (f->colour_q24[k][c] > 1 << 27) return 0; /* cells know how its limit bends it */
+            }
         }
         return 1;
     }
@@ -342,8 +343,8 @@ GN_HOT static void add_pixel_lights(const facet *f, int32_t right, int32_t down,
         }
         if (!share) continue;
         e = gn_cell_share(e, share);
-        for (int c = 0; c < 3; c++)
-            colour_q24[c] = gn_min32(colour_q24[c] + gn_corner_times(light->radiance_uq16[c], e), 1 << 27);
+        for (int c = 0; c < 3; c++) /* 2^27 each, and as much to begin with */
+            colour_q24[c] += gn_corner_times(light->radiance_uq16[c], e);
     }
 }
 

@@ -15,7 +15,6 @@ int gn_lattice_look_at(gn_lattice *lattice, const gn_frame *frame, const gn_surf
  * its own face of a point light. And a flag: pixels that are not in this face are in that of the next edge. */
 enum { GN_PLACES_BILINEAR, GN_PLACES_BY_ROW, GN_PLACES_LONE, GN_PLACES_OF_TWO = 4 };
 
-/* Value of a patch at (x, y) pixels from its first corner. */
 /* Through values at the corners of a cell. */
 GN_HOT static inline void gn_patch_make(gn_patch *p, const int32_t at[4], int32_t size_log2)
 {
@@ -26,6 +25,7 @@ GN_HOT static inline void gn_patch_make(gn_patch *p, const int32_t at[4], int32_
     p->dxy = (((at[3] - at[2]) >> size_log2) - across) >> size_log2;
 }
 
+/* Value of a patch at (x, y) pixels from its first corner. */
 GN_HOT static inline int32_t gn_patch_at(const gn_patch *p, int32_t x, int32_t y)
 {
     return p->at + y * p->dy + x * (p->dx + y * p->dxy);
