@@ -23,6 +23,14 @@ static void use_preset(int preset)
     renderer.frame.knobs = knobs;
 }
 
+/* Scenes are compiled for preset balanced: the one preset with other fits and tiles brings its own. */
+static void use_fits(gn_scene *s, int preset)
+{
+    if (preset != GN_PRESET_ACCURATE) return;
+    s->shadow.fit = GN_FIT_STABLE;
+    s->shadow.tile_sizes = GN_TILES_EQUAL;
+}
+
 static void hard(gn_scene *s)
 {
     s->shadow.filter = GN_FILTER_HARD;
@@ -186,6 +194,7 @@ static gn_status draw_frame(const golden_frame *g, uint32_t frame, int preset)
     scene = *g->scene->at(frame);
     memcpy(lights, scene.lights, scene.n_lights * sizeof *lights);
     scene.lights = lights;
+    use_fits(&scene, preset);
     if (g->set) g->set(&scene);
     gn_status status = gn_render(&renderer, &scene, flush, &sum);
     if (!status) print_line(g, frame, preset, sum.crc);
