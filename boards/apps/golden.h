@@ -1,11 +1,12 @@
-/* The scenes of the golden frames: each is compiled from its file by gnomon compile, and wrapped by golden_scene.c. */
+/* The scenes whose frames are checked on every board: a frame's pixels have a CRC in tests/golden.txt, which host and
+ * boards must reproduce. `gnomon compile` makes C of each host/scenes/NAME.gltf; golden_scene.c gives it its name. */
 #ifndef GNOMON_BOARDS_GOLDEN_H
 #define GNOMON_BOARDS_GOLDEN_H
 
 #include "gnomon.h"
 
 typedef struct {
-    const char *name;
+    const char *name;                      /* of the scene's file, without .gltf */
     const gn_scene *(*at)(uint32_t frame); /* the scene at that frame, valid until the next call */
 } golden_scene;
 

@@ -1,4 +1,6 @@
-/* One compiled scene, GOLDEN_SCENE, under names of its own, so that an image can hold several. */
+/* One compiled scene as golden_NAME of golden.h, where NAME is what the Makefile defines GOLDEN_SCENE as. All compiled
+ * scenes have the functions scene_frame and the like: these get names of their own, so that one image can hold several
+ * scenes. */
 #define JOIN_(a, b) a##_##b
 #define JOIN(a, b)  JOIN_(a, b)
 #define TEXT_(a)    #a

@@ -1,10 +1,11 @@
-/* A lit scene with a filtered shadow, 128 x 128 pixels, in 16 KB of RAM with everything. */
+/* Configuration of APP=pocket: a lit scene with a filtered shadow, 128 x 128 pixels, on a part with 16 KB of RAM.
+ * Atlas, screen tile, stack and all are counted in. docs/CONFIGURATION.md says what each knob does. */
 #ifndef GN_PRESET
 #define GN_PRESET GN_PRESET_TINY
 #endif
 #define GN_MAX_WIDTH        128
 #define GN_MAX_HEIGHT       128
-#define GN_MAX_TRIANGLES    56
+#define GN_MAX_TRIANGLES    56 /* capacities are what this scene takes: gn_render names the one that is too small */
 #define GN_MAX_TILE_REFS    488
 #define GN_MAX_LIGHTS       1
 #define GN_SURFACE_LIGHTS   1
@@ -13,11 +14,12 @@
 #define GN_VERTEX_CACHE     4
 #define GN_ATLAS_SIZE       64
 #define GN_DEPTH_BITS       16
-#define GN_PERSP_STEP       1 /* cells take 3.5 KB */
+#define GN_PERSP_STEP       1 /* every pixel exact: interpolated shading takes 3.5 KB more */
 #define GN_TILE_WIDTH       128
 #define GN_TILE_HEIGHT      2
-#define GN_FILTER_MAX       2
+#define GN_FILTER_MAX       2 /* hard, 2x2, 3x3 */
 
+/* What the scene does not use, and what only saves instructions, is not built. */
 #define GN_DEPTH_BLOCKS     0
 #define GN_BLENDED_CASCADES 0
 #define GN_DISK_FILTER      0

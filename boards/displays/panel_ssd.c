@@ -16,7 +16,7 @@ panel_status panel_ssd_show(panel *p, int on)
     return panel_send_1(p, on ? SSD_ON : SSD_OFF);
 }
 
-/* "Off" is this controller's sleep: panel_sleep() has said so already, and panel_wake() says "on". */
+/* "Off" is this controller's sleep: panel_sleep() has switched it off already, and panel_wake() switches it on. */
 panel_status panel_ssd_sleep(panel *p, int asleep)
 {
     (void)p;

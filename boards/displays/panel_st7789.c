@@ -1,9 +1,8 @@
-/* ST7789: 240x320, 16 bits per pixel. Voltages and gamma stay at their reset values, which suit the glasses that it is
- * sold with.
- */
+/* ST7789: a controller of colour LCDs, 240x320 pixels of RGB565. Voltages and gamma stay at their reset values, which
+ * suit the usual modules. panel_dcs.c has its commands; panel_driver.h says what each field is. */
 #include "panel_dcs.h"
 
-static const uint8_t nothing[] = {0};
+static const uint8_t nothing[] = {0}; /* a script without commands: see panel_send_script */
 
 static panel_status set_up(panel *p)
 {

@@ -1,4 +1,4 @@
-/* Boxes of objects. */
+/* Boxes of objects: axis-aligned bounds in the world, by which lights, views and tiles leave objects out. */
 #include "gn_internal.h"
 
 #include "base/gn_math.h"
@@ -8,7 +8,8 @@
 #include "light/gn_object.h"
 #include "scene/gn_scene.h"
 
-/* The centre and the half extents of the vertices' coordinates, posed by the skin; 0: a position is out of range. */
+/* Centre and half extents of the mesh's vertices, posed by the skin if it has one, in the mesh's own format. Returns 0
+ * if a position is out of range. */
 static int mesh_box(const gn_object *object, int32_t centre[3], int32_t half[3])
 {
     int32_t p[3], lo[3], hi[3];
@@ -38,13 +39,13 @@ gn_status gn_object_boxes(gn_frame *frame)
         int32_t centre[3], half[3];
         gn_xform xform;
         if (!mesh_box(object, centre, half)) return GN_FAIL_AT(frame, GN_ERR_VERTEX_RANGE, i, GN_FIELD_MESH_POS);
-        uint64_t farthest = 0;
+        uint64_t farthest = 0; /* OR of the largest coordinates: bit 31 and above tell that one is too large */
         gn_xform_compose(&xform, world, origin, object);
         for (int r = 0; r < 3; r++) {
             int64_t c = gn_shr64(gn_dot64(xform.m[r], centre), xform.shift) + xform.t_q16[r];
             uint64_t h = 0; /* three products of at most 2^60 */
             for (int k = 0; k < 3; k++) h += (uint64_t)gn_abs32(xform.m[r][k]) * (uint32_t)half[k];
-            h = (h >> xform.shift) + 2; /* outwards */
+            h = (h >> xform.shift) + 2; /* outwards by what the centre, this and the vertices are rounded by */
             farthest |= gn_abs64(c) + h;
             state->centre_q16[r] = (int32_t)c;
             state->half_q16[r] = (int32_t)h;

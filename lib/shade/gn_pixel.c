@@ -1,4 +1,5 @@
-/* Linear colour to output pixels. */
+/* From linear light to pixels of the picture's format. Colours are Q20 or Q24, 1 is white; encoded values are 0..65535,
+ * levels 0..31 or 0..63 of a channel of RGB565. */
 #include "gn_internal.h"
 
 #include "base/gn_q.h"
@@ -8,6 +9,7 @@
 
 #define GN_ONE_Q20 (1U << 20)
 
+/* The sRGB curve, 0..65535: linear between the entries of a table that has 64 per octave. */
 GN_HOT static inline uint32_t srgb_encode(uint32_t linear_q20)
 {
     if (linear_q20 >= GN_ONE_Q20) return 65535;
@@ -18,7 +20,7 @@ GN_HOT static inline uint32_t srgb_encode(uint32_t linear_q20)
     uint32_t i = ((uint32_t)octave << 6) + ((linear_q20 >> shift) & 63U), here = gn_srgb_entry(i),
              next = gn_srgb_entry(i + 1);
     uint32_t rest = linear_q20 & ((1U << shift) - 1);
-    return here + (((next - here) * rest + ((1U << shift) >> 1)) >> shift); /* 2^11 * 2^14 */
+    return here + (((next - here) * rest + ((1U << shift) >> 1)) >> shift); /* the product: below 2^11 * 2^14 */
 }
 
 /* round(levels * v / 65535): x / 65535 is (x + 1 + (x >> 16)) >> 16 below 2^32 - 2^16 */
@@ -33,6 +35,7 @@ GN_HOT uint32_t gn_srgb_encode(uint32_t linear_q20)
     return srgb_encode(linear_q20);
 }
 
+/* Without the curve: round(65535 * linear), at most 65535. */
 GN_HOT static uint32_t linear_encode(uint32_t linear_q20)
 {
     uint32_t limited = linear_q20 < GN_ONE_Q20 ? linear_q20 : GN_ONE_Q20;
@@ -53,25 +56,28 @@ GN_HOT static uint32_t luminance_q20(const uint32_t c[3])
     return (uint32_t)(((uint64_t)r * 13933U + (uint64_t)g * 46871U + (uint64_t)b * 4732U + 0x8000U) >> 16);
 }
 
+/* RGB565 by the curve: what the tables of pack_565() were made from, bit for bit. */
 GN_HOT static uint32_t by_curve_565(const gn_frame *frame, const uint32_t c[3])
 {
     return quantise(encode(frame, c[0]), 31) << 11 | quantise(encode(frame, c[1]), 63) << 5 |
            quantise(encode(frame, c[2]), 31);
 }
 
-/* The level of a colour below 1 is that at its cell's beginning, or the next: one less if the colour is below the
- * level's end. */
+/* One less than the level of a colour in 0 .. 1; the caller adds 1. `levels` has the level with which each interval of
+ * 2^shift colours begins. At most one level ends in an interval, so a single compare with that end tells whether the
+ * colour has this level or the next. */
 GN_HOT static inline uint32_t level_before(const uint8_t *levels, uint32_t v_q24, int shift)
 {
     uint32_t level = levels[v_q24 >> shift];
     return level - ((v_q24 - gn_level_end_q24[level]) >> 31);
 }
 
+/* RGB565 of a colour in 0 .. 1 by tables; bits from 16 on are not cleared. The table of 31 levels counts from 64. */
 GN_HOT static inline uint32_t pack_565(uint32_t r_q24, uint32_t g_q24, uint32_t b_q24)
 {
     uint32_t red = level_before(gn_level_31_table, r_q24, 15), green = level_before(gn_level_63_table, g_q24, 14);
     return (red << 11) + (green << 5) + level_before(gn_level_31_table, b_q24, 15) + (1U << 11) + (1U << 5) + 1 -
-           64; /* 64 << 11 lies above */
+           64; /* blue's 64; red's, 64 << 11, lies above the 16 bits */
 }
 
 GN_HOT static inline uint32_t limited_q24(int32_t v)
@@ -84,6 +90,7 @@ GN_HOT static inline uint32_t limit_and_pack_565(int32_t r_q24, int32_t g_q24, i
     return pack_565(limited_q24(r_q24), limited_q24(g_q24), limited_q24(b_q24));
 }
 
+/* RGB565 of any colour; what is above 1 becomes 1. */
 GN_HOT static uint32_t any_565(const gn_frame *frame, const uint32_t c[3])
 {
     if (GN_LEVEL_TABLES && GN_K(frame, srgb)) {
@@ -94,6 +101,7 @@ GN_HOT static uint32_t any_565(const gn_frame *frame, const uint32_t c[3])
     return by_curve_565(frame, c);
 }
 
+/* RGB565 in the byte order of the format. */
 GN_HOT static uint32_t pack_16(const gn_frame *frame, const uint32_t linear_q20[3])
 {
     uint32_t v = any_565(frame, linear_q20);
@@ -129,6 +137,8 @@ GN_HOT static uint32_t threshold(int32_t x, int32_t y)
     return 2 * rank + 1;
 }
 
+/* n pixels of a row of 1 bit each, the leftmost in the highest bit: `at` is the first's index in the row, (x, y) its
+ * place in the picture, luminance linear, 0..65535. */
 GN_HOT static void fill_mono(uint8_t *row, int32_t at, int32_t x, int32_t y, int32_t n, uint32_t luminance)
 {
     for (int32_t i = 0; i < n; i++) {
@@ -138,6 +148,7 @@ GN_HOT static void fill_mono(uint8_t *row, int32_t at, int32_t x, int32_t y, int
     }
 }
 
+/* n pixels of 4 bits, the left one of a byte in its high half. */
 GN_HOT static void fill_grey4(uint8_t *row, int32_t at, int32_t n, uint32_t level)
 {
     for (int32_t i = at; i < at + n; i++) {
@@ -179,6 +190,7 @@ GN_HOT size_t gn_pixel_bytes(const gn_frame *frame, int32_t width, int32_t heigh
 }
 
 #if GN_INTERPOLATES
+/* Whether pack_565() makes the picture's pixels. */
 GN_HOT static int has_levels(const gn_frame *frame)
 {
     return GN_LEVEL_TABLES && frame->picture.format == GN_FORMAT_RGB565 && GN_K(frame, srgb);
@@ -189,7 +201,8 @@ GN_HOT static uint16_t *pixel_565(const gn_pixel_rows *rows, int32_t x, int32_t 
     return rows->pixels->rgb565 + (y - rows->y0) * rows->width + x - rows->x0;
 }
 
-/* Pixels of `bits` between two nodes; `inside`: colours lie in 0 .. 1. */
+/* Stores the pixels whose bit is set, the lowest bit first, between two nodes (points of known colour: see
+ * gn_pixel_line). Colours go on by `step` per pixel; `inside`: all lie in 0 .. 1. */
 GN_HOT static inline void segment_565(uint16_t *out, uint32_t bits, const int32_t from_q24[3],
                                       const int32_t step_q24[3], int inside)
 {
@@ -200,6 +213,7 @@ GN_HOT static inline void segment_565(uint16_t *out, uint32_t bits, const int32_
     }
 }
 
+/* The same from node to node along a line. */
 GN_HOT static inline void line_565(uint16_t *out, uint32_t bits, const gn_pixel_line *line)
 {
     int32_t n = 1 << line->spacing_log2, step[3];
@@ -212,7 +226,7 @@ GN_HOT static inline void line_565(uint16_t *out, uint32_t bits, const gn_pixel_
     }
 }
 
-/* A pixel of any format, in a raw view a share of 65536. */
+/* Stores one pixel in any format; in a raw view of the host tool the first channel, 65536: 1. */
 GN_HOT static void store_colour(const gn_frame *frame, const gn_pixel_rows *rows, int32_t x, int32_t y,
                                 const int32_t colour_q24[3])
 {
@@ -226,7 +240,7 @@ GN_HOT static void store_colour(const gn_frame *frame, const gn_pixel_rows *rows
     gn_pixel_store(frame, rows, x, y, gn_pixel_pack(frame, q20));
 }
 
-/* A row's colour at pixel i. */
+/* A line's colour at its pixel i: linear between the nodes before and after it. */
 GN_HOT static inline void colour_at(const gn_pixel_line *line, int32_t i, int32_t colour_q24[3])
 {
     int32_t log2 = line->spacing_log2, k = i >> log2, t = i & ((1 << log2) - 1);
@@ -237,18 +251,19 @@ GN_HOT static inline void colour_at(const gn_pixel_line *line, int32_t i, int32_
 }
 
 #if GN_TEXTURES
-/* A texture's channel times a colour that lies in 0 .. 1: 65535 * 65535 < 2^32 */
+/* A texel's channel, 65535: 1, times a colour below 1, Q16: Q24. 65535 * 65535 < 2^32 */
 GN_INLINE uint32_t tinted_q24(uint32_t texel, uint32_t colour_uq16)
 {
     return texel * colour_uq16 >> 8;
 }
 
+/* A texel times a colour, as a pixel. */
 GN_INLINE uint16_t tinted_565(const uint16_t texel[3], uint32_t r_uq16, uint32_t g_uq16, uint32_t b_uq16)
 {
     return (uint16_t)pack_565(tinted_q24(texel[0], r_uq16), tinted_q24(texel[1], g_uq16), tinted_q24(texel[2], b_uq16));
 }
 
-/* Pixels of `bits` between two nodes; colours lie in 0 .. 1. */
+/* Stores textured pixels whose bit is set between two nodes; colours lie in 0 .. 1. */
 GN_HOT static inline void textured_565(uint16_t *out, uint32_t bits, const uint16_t (*texel)[3],
                                        const int32_t from_q24[3], const int32_t step_q24[3])
 {
@@ -267,7 +282,7 @@ GN_HOT static inline void textured_565(uint16_t *out, uint32_t bits, const uint1
 }
 
 #if GN_GLOW_APART
-/* Light that the surface emits, at the pixel of a texel: 2^27 * 2^16 */
+/* Channel c of the light that the surface emits at the pixel of `texel`, Q20; the product is below 2^27 * 2^16. */
 GN_HOT static uint32_t glow_q20(const gn_pixel_line *line, const uint16_t (*texel)[3], int c)
 {
     uint32_t glow_q24 = (uint32_t)line->glow_q24[c];
@@ -280,7 +295,7 @@ GN_HOT static uint32_t glow_q20(const gn_pixel_line *line, const uint16_t (*texe
 }
 #endif
 
-/* The same of any colours and formats. */
+/* The same for colours of any size, emitted light and all formats. */
 GN_HOT static void textured_any(const gn_frame *frame, const gn_pixel_rows *rows, int32_t x, int32_t y, uint32_t bits,
                                 const uint16_t (*texel)[3], const int32_t from_q24[3], const int32_t step_q24[3],
                                 const gn_pixel_line *line)
@@ -301,6 +316,7 @@ GN_HOT static void textured_any(const gn_frame *frame, const gn_pixel_rows *rows
     }
 }
 
+/* The textured pixels of a line, from node to node. */
 GN_HOT static GN_NOINLINE void textured_line(const gn_frame *frame, const gn_pixel_rows *rows, int32_t x, int32_t y,
                                              uint32_t bits, const gn_pixel_line *line)
 {

@@ -1,4 +1,4 @@
-/* Linear colour to output pixels. */
+/* From linear light to pixels of the picture's format. */
 #ifndef GN_PIXEL_H
 #define GN_PIXEL_H
 
@@ -19,30 +19,33 @@ size_t gn_pixel_bytes(const gn_frame *frame, int32_t width, int32_t height);
 /* Stores a packed pixel n times from (x, y) of the picture on, within one row. */
 void gn_pixel_fill(const gn_frame *frame, const gn_pixel_rows *rows, int32_t x, int32_t y, int32_t n, uint32_t packed);
 
-/* Pixels of a row whose colours are linear between nodes, and colours of a texture that they are multiplied by. */
+/* Part of a row of pixels. Its colours are known at nodes, points at equal distances, and linear between them; a
+ * textured surface multiplies each by the colour of a texel. */
 typedef struct {
-    const int32_t (*node)[3]; /* Q24, |.| < 2^29, from the row's first pixel on, 2^spacing_log2 pixels apart */
-    int32_t spacing_log2;
+    const int32_t (*node)[3];   /* colours, Q24, |.| < 2^29, the first at the part's first pixel */
+    int32_t spacing_log2;       /* nodes are 2^this pixels apart */
     int inside;                 /* all nodes are in 2^-18 .. 1: nothing needs a clamp */
     const uint16_t (*texel)[3]; /* of each pixel, 65535: 1; NULL: no texture */
 #if GN_GLOW_APART
 #if GN_GLOW_TEXTURES
-    const uint16_t (*glow)[3]; /* what that is multiplied by, pixel by pixel, or NULL */
+    const uint16_t (*glow)[3]; /* texels that glow_q24 is multiplied by, one per pixel, 65535: 1; NULL: none */
 #endif
-    int32_t glow_q24[3]; /* textured: what is added to the product, 0 .. 2^27 */
+    int32_t glow_q24[3]; /* textured: emitted light, added to the product of light and texel, 0 .. 2^27 */
 #endif
 } gn_pixel_line;
 
-/* Stores the pixels of `bits` from (x, y) of the picture on, the lowest first; at most 16. */
+/* Stores a line's pixels from (x, y) of the picture on: those whose bit in `bits` is set, bit i for pixel i; at
+ * most 16.
+ */
 void gn_pixel_store_line(const gn_frame *frame, const gn_pixel_rows *rows, int32_t x, int32_t y, uint32_t bits,
                          const gn_pixel_line *line);
 
-/* Stores n pixels from (x, y) of the picture on, the first of that colour, Q24; |.| < 2^30 from the first to one beyond
- * the last. */
+/* Stores n pixels from (x, y) of the picture on; colours begin with `from` and go on by `step`, and are within 2^30 up
+ * to the one behind the last. */
 void gn_pixel_store_run(const gn_frame *frame, const gn_pixel_rows *rows, int32_t x, int32_t y, int32_t n,
                         const int32_t from_q24[3], const int32_t step_q24[3]);
 
-/* Stores the pixels of `bits`, of a packed colour. */
+/* Stores one packed colour in the pixels whose bit in `bits` is set, bit i for pixel (x + i, y). */
 void gn_pixel_store_bits(const gn_frame *frame, const gn_pixel_rows *rows, int32_t x, int32_t y, uint32_t bits,
                          uint32_t packed);
 

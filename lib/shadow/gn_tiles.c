@@ -1,4 +1,5 @@
-/* Tile budgets. A tile is a run of T * T texels of its atlas, so tiles of any power-of-two sizes pack without waste. */
+/* Which light gets how many shadow tiles, and of which size (MODEL 6). A tile has T texels per side, and lies in its
+ * atlas as a run of T * T texels, not as a rectangle: so tiles of any sizes pack without waste. */
 #include "gn_internal.h"
 
 #include "base/gn_hint.h"
@@ -41,7 +42,7 @@ static uint32_t main_light(const gn_frame *frame)
     return best;
 }
 
-/* ceil(64 * min(1, range / distance to the camera)) */
+/* Importance of a light, 1..64: ceil(64 * min(1, range / distance to the camera)). */
 static uint8_t weight_of(const gn_frame *frame, const gn_light_state *light)
 {
 #if GN_PUNCTUAL_LIGHTS
@@ -49,10 +50,12 @@ static uint8_t weight_of(const gn_frame *frame, const gn_light_state *light)
     uint64_t d2 = 0;
     for (int k = 0; k < 3; k++) {
         int64_t d = (int64_t)light->position_q16[k] - frame->cam.eye_q16[k];
-        d2 += (uint64_t)(d * d); /* 3 * 2^62 */
+        d2 += (uint64_t)(d * d); /* in all below 3 * 2^62, Q32 */
     }
     if (d2 <= light->range2_q32) return 64;
-    uint8_t weight = 1; /* the smallest w with w * distance >= 64 * range: w^2 d2 >= 4096 range2, both scaled to fit */
+    /* The smallest w with w * distance >= 64 * range, that is w^2 d2 >= 2^12 range2. Both sides are compared over 2^12;
+     * six bits are dropped, so that w^2 times a part of d2 fits 64 bits. */
+    uint8_t weight = 1;
     uint64_t range2 = light->range2_q32 >> 6;
     d2 >>= 6;
     while (weight < 64 && (d2 >> 12) * weight * weight + (((d2 & 4095U) * weight * weight) >> 12) < range2) weight++;
@@ -63,7 +66,9 @@ static uint8_t weight_of(const gn_frame *frame, const gn_light_state *light)
 #endif
 }
 
-/* Tiles that each light requests: one per cascade of a directional light, six of a point light, else one. [P5] [D1] */
+/* Tiles that each light requests: a directional light one per cascade, a point light six, a spot one. With a main light
+ * the other directional lights request a single one, in the other atlas. n_drawn: without those of cascades that cover
+ * nothing, which take no texels. [P5] [D1] */
 static void request_tiles(gn_frame *frame, gn_tile_plan *plan)
 {
     const gn_scene *scene = frame->scene;
@@ -96,7 +101,7 @@ static uint32_t serve(gn_frame *frame, gn_tile_plan *plan, uint32_t in_other, ui
 {
     uint32_t n_tiles = 0, n_lights = 0, limit = capacity < GN_ATLAS_TILES_MAX ? capacity : GN_ATLAS_TILES_MAX;
     for (uint32_t l = 0; l < frame->scene->n_lights && l < GN_MAX_LIGHTS;
-         l++) { /* the second: always true, for the compiler */
+         l++) { /* the second condition always holds: for the compiler's bounds check */
         if (!plan[l].n_tiles || plan[l].in_other != in_other) continue;
         if (n_tiles + plan[l].n_tiles > limit || (!in_other && n_lights == GN_CASCADED_LIGHTS_MAX)) {
             plan[l].n_tiles = 0;
@@ -121,7 +126,7 @@ static void equal_sizes(const gn_frame *frame, gn_tile_plan *plan, uint32_t in_o
 
 static uint32_t texels_of(const gn_tile_plan *plan)
 {
-    return (uint32_t)plan->n_tiles << (2 * plan->tile_log2); /* 16 * 2^20 */
+    return (uint32_t)plan->n_tiles << (2 * plan->tile_log2); /* at most 16 * 2^20 */
 }
 
 /* Compares T / w of a and b: tiles that are too large for their light's importance come first. */
@@ -224,7 +229,8 @@ static void sides_by_worth(gn_frame *frame, const gn_tile_plan *plan, uint32_t i
 }
 #endif
 
-/* With the default capacities the tiles always fit the atlas. */
+/* Refuses tiles that take more texels than the atlas has (GN_ATLAS_TEXELS may be smaller than atlas_size squared). With
+ * the default capacities they always fit. */
 static gn_status texels_suffice(gn_frame *frame, const gn_tile_plan *plan, uint32_t in_other)
 {
     uint32_t needed = 0, available = in_other ? GN_OTHER_ATLAS_TEXELS : GN_ATLAS_TEXELS;

@@ -1,6 +1,8 @@
-/* Compact arithmetic against the reference: own scenes and random ones of what it can draw.
- * tests/oracle/test_compact.sh builds it beside the host's own library. compact_compare [--table] [-o PREFIX] PREFIX:
- * pictures of each scene's first view */
+/* Compact arithmetic (GN_COMPACT) against the reference: the project's scenes, reduced to what it can draw, and random
+ * ones. tests/oracle/test_compact.sh builds the compact library beside the host's own.
+ * usage: compact_compare [--table] [-o PREFIX]
+ * --table prints the table of docs/ACCURACY.md. -o writes PREFIXSCENE-compact.png and PREFIXSCENE-reference.png of each
+ * scene's first view. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -18,6 +20,7 @@ static const char *prefix;
 
 /* ---- Pictures ---------------------------------------------------------------------------------------------------- */
 
+/* 8-bit channels from RGB565, for the metrics: 5 bits are 0..31, 6 bits 0..63. */
 static void expand(engine_picture *p)
 {
     for (size_t i = 0; i < (size_t)(p->width * p->height); i++) {
@@ -28,6 +31,7 @@ static void expand(engine_picture *p)
     }
 }
 
+/* The compact library's picture: RGB565, triangles, and the light's attenuation. */
 static gn_status draw(engine_picture *out, const gn_scene *what)
 {
     const size_t n = WIDTH * HEIGHT;
@@ -54,6 +58,7 @@ static void write_pictures(const engine_picture *fixed, const engine_picture *re
     CHECK_EQ_INT(png_write_rgb8(path, WIDTH, HEIGHT, reference->rgb8, error, sizeof error), 0);
 }
 
+/* Metrics between the two engines' pictures of a scene. name: of the pictures that -o asks for, or NULL. */
 static gn_status compare(metrics *m, const scene *s, settings *set, const char *name)
 {
     char error[512] = "";
@@ -64,7 +69,7 @@ static gn_status compare(metrics *m, const scene *s, settings *set, const char *
     quantise_free(&f);
     if (!status) {
         if (engine_reference(&reference, s, set, WIDTH, HEIGHT, error, sizeof error)) abort();
-        expand(&reference); /* the same 8 bits of 5 or 6 for both */
+        expand(&reference); /* both pictures are compared after RGB565 */
         metrics_compute(m, &fixed, &reference);
         if (prefix && name) write_pictures(&fixed, &reference, name);
         engine_free(&reference);
@@ -86,8 +91,8 @@ static int ascending(const void *a, const void *b)
     return x < y ? -1 : x > y;
 }
 
-/* Those of the preset balanced, in every view; of random scenes, where a pixel more or less can be one of black and
- * white, 36 dB. */
+/* Figures of all views of a scene, and the floors that every view must reach: those of docs/ACCURACY.md. psnr_db is 41,
+ * but 36 for random scenes: there a single pixel on an edge may differ by as much as black and white do. */
 static void add(series *all, const metrics *m, double psnr_db, const char *what, int view)
 {
     int ok = m->identical >= 0.985 && m->within1 >= 0.998 && m->psnr_db >= psnr_db && m->shadow_mismatch <= 0.004;
@@ -100,6 +105,7 @@ static void add(series *all, const metrics *m, double psnr_db, const char *what,
     all->within1 = fmin(all->within1, m->within1);
 }
 
+/* Checks the medians over the views, and prints a row of the table. */
 static void report(series *all, const char *what)
 {
     int n = all->n;
@@ -114,6 +120,7 @@ static void report(series *all, const char *what)
 
 /* ---- Own scenes -------------------------------------------------------------------------------------------------- */
 
+/* What compact arithmetic has: one cascade, the hard filter, an atlas of a single tile. */
 static settings settings_for(scene *s)
 {
     static const char *const sets[] = {"filter=hard",   "cascades=1", "atlas_size=128",         "fit=stable",
@@ -127,7 +134,7 @@ static settings settings_for(scene *s)
     return set;
 }
 
-/* Flat, opaque and without highlights. */
+/* Takes away what compact arithmetic refuses: normals, colours and textures of vertices, alpha, highlights. */
 static void flatten(scene *s)
 {
     for (size_t i = 0; i < s->n_meshes; i++) {

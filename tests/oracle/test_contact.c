@@ -1,7 +1,8 @@
-/* Detachment at the contact, beside acne: the gap behind the foot of a wall, under the automatic bias (B6) and under
- * the defaults of B1 and B2 (constant and slope 0, normal 1), at every angle and for every kind of light. How wide a
- * gap is depends on where the wall stands in the light's grid, by a tenth of a texel or so either way: what is compared
- * are means over many places. "--table" prints docs/data/BIAS.md's table. */
+/* How far a wall's shadow is detached from its foot, and how much acne there is: under the automatic bias (B6), and
+ * under a normal bias of 1 texel alone (B2), at every angle and for every kind of light. The gap depends on where the
+ * wall stands between the shadow map's texels, by about a tenth of a texel either way: so means over many positions are
+ * compared.
+ * "--table" prints docs/data/BIAS.md's table. */
 #include "bias_scene.h"
 
 static const bias beside[] = {
@@ -13,11 +14,12 @@ enum { DEFAULT, DEPTH, NORMAL, N_BESIDE };
 
 /* ---- The gap ----------------------------------------------------------------------------------------------------- */
 
-#define EYE_HIGH 7.0
-#define FOCAL    8.8 /* four pixels to a texel */
-#define SEEN     0.9 /* behind the foot, of a shadow two units long */
+#define EYE_HIGH 7.0 /* of the camera above the ground, world units */
+#define FOCAL    8.8 /* so that a shadow texel is four pixels wide */
+#define SEEN     0.9 /* how far behind the foot light is counted, world units; the shadow is 2 long */
 
-/* The wall moves against the light's grid, which a directional light has in the world and others carry with them. */
+/* Moves the wall against the grid of the shadow map's texels. A directional light's grid is fixed in the world: wall
+ * and camera move; the grid of a spot or point light goes with the light: the light moves. */
 static void shift(fixture *f, scene_light_kind kind, const double by[3])
 {
     for (int k = 0; k < 3; k++) {
@@ -46,6 +48,7 @@ static void contact_scene(fixture *f, const cell *c, const bias *b, double degre
     shift(f, c->kind, by);
 }
 
+/* Width of a shadow texel at the wall's foot, world units. */
 static double texel_at_foot(const cell *c)
 {
     static const double distance[3] = {0, 12, 6};
@@ -55,7 +58,8 @@ static double texel_at_foot(const cell *c)
     return 2 * 65536.0 / view->fit.persp.focal2_q16 * distance[c->kind];
 }
 
-/* Light behind the foot, texels. */
+/* Width of the lit gap behind the wall's foot, in texels: the attenuation of all pixels behind the foot, 1 for a fully
+ * lit one, as an area of the ground, over the width of the strip that is counted. */
 static double gap_of(const cell *c, const bias *b, double degrees, double x, double z)
 {
     static fixture f;
@@ -80,7 +84,7 @@ static double gap_of(const cell *c, const bias *b, double degrees, double x, dou
     return sum * unit * unit / width / texel_at_foot(c);
 }
 
-/* Over places that fill a few texels evenly. */
+/* The mean gap over n positions of the wall, spread evenly over a few texels. */
 static double mean_gap(const cell *c, const bias *b, double degrees, int n)
 {
     double sum = 0;
@@ -91,7 +95,7 @@ static double mean_gap(const cell *c, const bias *b, double degrees, int n)
 
 /* ---- Acne -------------------------------------------------------------------------------------------------------- */
 
-/* Points of planes at that angle that are not wholly lit. */
+/* How many points of a plane, at that angle to the light and turned n ways, are not wholly lit: nothing else casts. */
 static long acne_of(const cell *wall, const bias *b, double degrees, int n)
 {
     static fixture f;
@@ -116,8 +120,8 @@ static long acne_of(const cell *wall, const bias *b, double degrees, int n)
 
 /* ---- Side by side ------------------------------------------------------------------------------------------------ */
 
-/* What the automatic bias may lose to one that has acne nowhere either: the mean of ten places is good to a hundredth
- * of a texel. */
+/* The automatic bias must have no acne, and a gap at most 0.02 texel wider than that of the normal bias: a mean over
+ * ten positions is good to 0.01 texel. */
 static void test_contact(void)
 {
     static const double degrees[] = {10, 30, 60};

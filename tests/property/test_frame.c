@@ -1,5 +1,6 @@
-/* The public interface: the same bytes whatever was drawn before, whatever the tiles, in whatever order; two renderers;
- * what a light's fields do to a frame. What is refused is in test_refused.c. */
+/* The public interface: a frame has the same bytes whatever was drawn before, however large the screen tiles are and in
+ * whatever order they are drawn; two renderers do not disturb each other; what fields of lights, meshes and masks do to
+ * a frame. test_refused.c has what is refused. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -11,6 +12,7 @@
 
 static gn_renderer one, two;
 
+/* The same scene gives the same bytes in every format, after other frames and on memory full of garbage. */
 static void test_same_again(void)
 {
     uint32_t first[3];
@@ -36,7 +38,8 @@ static void test_same_again(void)
     canvas_end(&c);
 }
 
-/* Slots of views are used again: an empty first cascade must not look like the spot light that was there before. */
+/* The array of views is used again each frame: an empty first cascade must not be taken for the spot light whose view
+ * had its index before. */
 static void test_empty_cascade(void)
 {
     gn_picture p = picture_of(48, 32, GN_FORMAT_RGB888);
@@ -54,7 +57,7 @@ static void test_empty_cascade(void)
     canvas_end(&c);
 }
 
-/* The scene is the caller's again after the last screen tile: what is asked of its lights later reads none of it. */
+/* The caller may free the scene after the last screen tile: what is asked about its lights later does not read it. */
 static void test_scene_gone(void)
 {
     gn_picture p = picture_of(48, 32, GN_FORMAT_RGB888);
@@ -75,8 +78,8 @@ static void test_scene_gone(void)
     canvas_end(&c);
 }
 
-/* A frame that is abandoned fits its views, but its tiles are not drawn: the next must not keep those of the frame
- * before. [A5] */
+/* A frame is begun and given up: its views are placed, but its shadow tiles never drawn. The next frame must not take
+ * what lies in these tiles, drawn by the frame before, for its own. [A5] */
 static void test_abandoned_frame(void)
 {
     gn_picture p = picture_of(48, 32, GN_FORMAT_RGB888);
@@ -110,7 +113,8 @@ static void test_colour_exponent(void)
     CHECK(crc[1] != crc[2]);
 }
 
-/* What a light without any bias has, until another bias of the receiver is set or it is told off. [B6] */
+/* A light whose biases are all 0 gets the automatic bias; not if a bias of the receiver is set, nor if the light
+ * switches it off. [B6] */
 static void test_automatic_by_default(void)
 {
     static const struct {
@@ -276,7 +280,8 @@ static void test_caster_moved_into_view(void)
     CHECK_EQ_INT(gn_get_stats(&one)->n_caster_triangles, 1);
 }
 
-/* Shadows of a flat ground and of one that counts as smooth, by normals a hair apart. */
+/* Draws the shadows on the ground, which is flat, or counts as smooth, as its vertices' normals differ by very little.
+ */
 static void ground_shadows(canvas *c, int smooth)
 {
     static int16_t nrm[12];
@@ -346,7 +351,8 @@ static void test_two_renderers(void)
     canvas_end(&cb);
 }
 
-/* Any order, each tile with whichever scratch, and the frame stays as it was. [R7] */
+/* Screen tiles may be drawn in any order, each with any of several scratch memories, as several cores would: the same
+ * pixels, and the frame's state is only read. [R7] */
 static void test_tile_order(void)
 {
     static gn_scratch scratch[3];
@@ -364,7 +370,7 @@ static void test_tile_order(void)
         canvas c;
         canvas_begin(&c, p.width, p.height, p.format);
         memset(scratch, 0x5A, sizeof scratch);
-        if (k % 2) /* or what another frame left in them */
+        if (k % 2) /* in place of 0x5A: what another frame left in the scratch */
             for (uint32_t i = 0; i < n; i++) gn_screen_tile(&two.frame, &scratch[i % 3], i, flush, &c);
         memset(c.times, 0, (size_t)p.width * p.height);
         for (uint32_t i = 0; i < n; i++)
@@ -376,7 +382,7 @@ static void test_tile_order(void)
     CHECK(demo_crc32(0, &one.frame, sizeof one.frame) == frame_crc);
 }
 
-/* A light takes no tile where nothing casts, nothing receives, or its strength is 0. [D1] */
+/* A light takes no shadow tile where nothing casts (kind 1), nothing receives (2), or its strength is 0 (3). [D1] */
 static void test_no_needless_tiles(void)
 {
     gn_picture p = picture_of(32, 24, GN_FORMAT_RGB565);
@@ -393,6 +399,7 @@ static void test_no_needless_tiles(void)
     }
 }
 
+/* Shadow tiles may be drawn in any order, and again: the same picture. */
 static void test_shadow_tile_order(void)
 {
     gn_light lights[4];
@@ -429,7 +436,7 @@ static int difference(const canvas *a, const canvas *b)
     return largest;
 }
 
-/* Share of bytes that differ by more than two levels. */
+/* Fraction of the bytes, 0..1, that differ by more than two levels. */
 static double share_apart(const canvas *a, const canvas *b)
 {
     long n = 0;

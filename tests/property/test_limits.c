@@ -1,5 +1,6 @@
-/* Scenes at the limits of their fields, with every preset and filter: drawn, each pixel once. Run under sanitizers this
- * is also the search for undefined behaviour. */
+/* Scenes at the limits of their fields, with every preset and filter: each is drawn without an error, and each pixel is
+ * flushed once. What the pixels show is left to other tests. Run under sanitizers (make sanitize) this is also the
+ * search for undefined behaviour. Each function sets one extreme of demo_scene; gnomon.h has the limits. */
 #include <stdlib.h>
 #include <string.h>
 
@@ -283,6 +284,7 @@ static const struct {
     EXTREME(all_flags),          EXTREME(huge_triangles),
 };
 
+/* Sets every quality knob to its value in a preset, by the lists of gn_knobs.h. */
 static void set_preset_knobs(gn_frame *frame, int preset)
 {
 #define PRESET_(name, MACRO, lo, hi, meaning, cost)                                                                    \
@@ -313,7 +315,8 @@ static void test_extremes(void)
     }
 }
 
-/* Settings and camera may change under a tile that is kept. [A5] */
+/* Filter, settings and camera change while the schedule (refresh) keeps a cascade's shadow tile for another frame: the
+ * tile and its fit are the old ones, and nothing may overflow. [A5] */
 static void test_changes_under_kept_tiles(void)
 {
     gn_picture p = picture_of(48, 32, GN_FORMAT_RGB888);
@@ -330,7 +333,7 @@ static void test_changes_under_kept_tiles(void)
         s->filter = kind < 2 ? GN_FILTER_DISK : GN_FILTER_HARD;
         if (kind == 2) limit_focal_high(&demo.scene), shadow_next_to_near(&demo.scene); /* the smallest texels */
         CHECK(gn_render(&one, &demo.scene, flush, &c) == GN_OK);
-        if (kind < 2) s->filter = GN_FILTER_3X3, s->disk_samples = kind ? UINT32_MAX : 0; /* are not looked at */
+        if (kind < 2) s->filter = GN_FILTER_3X3, s->disk_samples = kind ? UINT32_MAX : 0; /* ignored by 3x3 */
         if (kind == 2) limit_focal_low(&demo.scene), shadow_all_the_way(&demo.scene);
         CHECK(gn_render(&one, &demo.scene, flush, &c) == GN_OK);
     }

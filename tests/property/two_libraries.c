@@ -1,5 +1,7 @@
-/* One program, two configurations of the library (GN_PREFIX). Compiled with DRAW it is a source file of one of them: it
- * draws a triangle, and returns a checksum of the pixels. Without, it is the program. */
+/* One program with two configurations of the library: GN_PREFIX gives the functions of each other names, so that both
+ * can be linked. This file is compiled three times. With DRAW=draw_general or draw_compact it becomes a function of
+ * that name that draws a triangle with its library, and returns a checksum of the pixels. Without DRAW it is the
+ * program: it prints whether both drew, and whether both draw the same again. */
 #include <stdint.h>
 #include <stdio.h>
 

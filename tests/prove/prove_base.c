@@ -1,6 +1,10 @@
 /* Harnesses for Frama-C's value analysis (make prove): each calls functions of the library with all the operands that
  * their contracts allow. No alarm means that nothing is undefined for any of them: no overflow, no shift by too much,
- * no access out of bounds, no division by zero. An assertion that holds is a bound proved. */
+ * no access out of bounds, no division by zero. An assertion that holds is a bound proved.
+ *
+ * any_i32(lo, hi) and its like stand for every value of a range at once. A result goes into `sink` or `usink`, which
+ * are volatile, so that it is not left out. Where bounds get lost over a wide range, a loop cuts the range into pieces.
+ */
 #include "prove.h"
 
 #include "base/gn_curves.c"
@@ -59,7 +63,8 @@ void prove_scale(void)
     }
 }
 
-/* gn_mul_shr_inline, gn_mul_q30_inline, gn_mul_high, gn_umul_high, gn_mul_uq16: a factor of up to 2^30 */
+/* gn_mul_shr_inline, gn_mul_q30_inline, gn_mul_high, gn_umul_high, gn_mul_uq16: any number times one of at most 2^30;
+ * for gn_mul_q30_inline and gn_mul_uq16 both at most 1; for gn_mul_high and gn_umul_high any two */
 void prove_products(void)
 {
     for (int s = 1; s <= 62; s++)
@@ -75,7 +80,7 @@ void prove_products(void)
 /* ---- lib/base/gn_math.c --------------------------------------------------------------------------------------------
  */
 
-/* gn_recip_norm, gn_recip_step, gn_recip_norm2_inline: every mantissa */
+/* gn_recip_norm, gn_recip_step, gn_recip_norm2_inline: every mantissa 2^31 .. 2^32 - 1, one table entry at a time */
 void prove_recip(void)
 {
     for (uint32_t i = 0; i < 256; i++) {
@@ -86,14 +91,14 @@ void prove_recip(void)
     }
 }
 
-/* gn_rsqrt_norm: every mantissa from 2^30 on */
+/* gn_rsqrt_norm: every mantissa 2^30 .. 2^32 - 1, one table entry at a time; 1 and 2 Newton steps */
 void prove_rsqrt(void)
 {
     for (uint32_t i = 64; i < 256; i++)
         for (int steps = 1; steps <= 2; steps++) usink = gn_rsqrt_norm(any_u32(i << 24, (i << 24) + 0xFFFFFFU), steps);
 }
 
-/* gn_quotient_q30: every divisor but 0, numerators up to it */
+/* gn_quotient_q30: every divisor but 0, octave by octave; every numerator up to the octave's end */
 void prove_quotient(void)
 {
     for (int k = 0; k < 32; k++) {
@@ -102,7 +107,8 @@ void prove_quotient(void)
     }
 }
 
-/* gn_bf_bits, gn_bf_of_bits, gn_bf_from_u64_bits, gn_bf_recip_bits, gn_bf_mul_bits: exponents of 8 bits */
+/* gn_bf_bits, gn_bf_of_bits, gn_bf_from_u64_bits, gn_bf_recip_bits, gn_bf_mul_bits: gn_bfloat's of every u64 but 0,
+ * then every mantissa with exponents of -128 .. 127 */
 void prove_bfloat(void)
 {
     for (int k = 0; k < 64; k++) {

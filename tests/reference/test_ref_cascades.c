@@ -7,14 +7,16 @@ static const double origin[3] = {0, 0, 0};
 
 /* ---- light fit ---- */
 
-/* r^2 of the smallest sphere that is allowed to be centred at depth c. */
+/* r^2 of the smallest sphere that is allowed to be centred at depth c on the view axis, for the slice of the frustum
+ * from depth n to m (MODEL 4). k: tangent of the angle between the axis and the picture's corner; q = 1 - cascade fade:
+ * the near corners must lie within q r. */
 static double radius2_at(double c, double n, double m, double k, double q)
 {
     return fmax((m - c) * (m - c) + k * k * m * m, ((c - n) * (c - n) + k * k * n * n) / (q * q));
 }
 
-/* How far from the sphere's centre the point of the frustum at depth z is that the picture shows at (x, y), -1 ... 1.
- */
+/* A point of the frustum: at view depth z, shown at (x, y) of the picture, -1 .. 1 from edge to edge. Its distance to
+ * the centre of the view's sphere. */
 static double distance_to_centre(const fixture *f, const ref_light_view *view, double aspect, double x, double y,
                                  double z)
 {
@@ -27,10 +29,11 @@ static double distance_to_centre(const fixture *f, const ref_light_view *view, d
     return sqrt(dot(d, d));
 }
 
+/* 1 - cascade fade: from this fraction of its radius on, the last cascade fades. */
 static double inner_share(const fixture *f)
 {
     return fmax(1 - f->s.shadow.cascade_fade, 0.125);
-} /* q */
+} /* the q of radius2_at */
 
 /* The eight corners of the slice from depth n to m are inside, the near ones within q r. */
 static int corners_outside(const fixture *f, const ref_light_view *view, double aspect, double n, double m)
@@ -44,7 +47,7 @@ static int corners_outside(const fixture *f, const ref_light_view *view, double 
     return n_outside;
 }
 
-/* Around the corners; and no other centre up to the far plane does better. */
+/* The sphere holds the slice's corners, and no other centre up to the far plane allows a smaller one. */
 static void check_sphere(const fixture *f, const ref_light_view *view, int width, int height)
 {
     const double n = f->s.camera.near, m = f->s.shadow.max_distance, r = view->sphere_radius, q = inner_share(f);
@@ -53,7 +56,7 @@ static void check_sphere(const fixture *f, const ref_light_view *view, int width
     const double k = hypot(width, height) / (height * f->s.camera.focal);
     for (int step = 0; step <= 20000; step++) best2 = fmin(best2, radius2_at(m * step / 20000, n, m, k, q));
     if (n < q * m)
-        CHECK(r * r <= best2 * (1 + 1e-9)); /* a slice that is hardly deeper than near takes what is simple */
+        CHECK(r * r <= best2 * (1 + 1e-9)); /* for a slice of hardly any depth the engine takes a simpler sphere */
 }
 
 static void test_fit_sphere(void)
@@ -165,6 +168,7 @@ static void test_map_stability(void)
     end(&f);
 }
 
+/* Which lights get a shadow tile, and how large tiles are: 1, 4 or 16 equal ones fill the atlas of 64 x 64 texels. */
 static void test_tiles(void)
 {
     fixture f;
@@ -174,7 +178,8 @@ static void test_tiles(void)
     f.lights[1].strength = 0;
     f.lights[2].shadow = false;
     ref_picture p = render(&f, 8, 8, 64);
-    const bool active[7] = {true, false, false, true, true, true, false}; /* the first four that want one */
+    /* light 1 has no strength, light 2 no shadow; of the others the first four get tiles, the fifth finds none left */
+    const bool active[7] = {true, false, false, true, true, true, false};
     for (int l = 0; l < 7; l++) {
         CHECK_EQ_INT(p.view[l][0].active, active[l]);
         CHECK_EQ_INT(p.view[l][0].depth != NULL, active[l]);
@@ -209,7 +214,7 @@ static void test_tiles(void)
 
 /* ---- cascades ---- */
 
-/* 0 and 1, equal ones, and any. */
+/* Ascending ratios of the max distance; 0, 1 and equal ones, which make empty cascades, come often. */
 static void random_ratios(scene_shadow *shadow)
 {
     for (int i = 0; i < 3; i++) {
@@ -221,7 +226,7 @@ static void random_ratios(scene_shadow *shadow)
     }
 }
 
-/* A camera and shadow settings; width / height is the aspect. */
+/* Any camera, any shadow settings, and a size of the picture for its aspect. */
 static void random_frustum(fixture *f, int *width, int *height)
 {
     static const double fades[4] = {0.001, 0.1, 0.5, 1};

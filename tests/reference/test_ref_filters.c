@@ -40,7 +40,7 @@ static void test_linear_weights(void)
         }
 }
 
-/* The kernel is a matter of the three tents alone. */
+/* Knob `kernel` changes the filters 3x3, 5x5 and 7x7, and no other. */
 static void test_kernel_choice(void)
 {
     double depth[64];
@@ -301,7 +301,9 @@ static void test_caster_shrinks(void)
 
 /* ---- receiver bias ---- */
 
-/* The floor of begin_acne casts on itself. */
+/* A level floor that casts on itself, without bias: as nothing else casts, a shadowed pixel is acne. kind 0: a sun, 1:
+ * a spot, 2: a point light, both six units from what the camera looks at. The light comes `tilt` radians off the
+ * vertical, from the side that `azimuth` says. */
 static void begin_acne(fixture *f, int kind, double tilt, double azimuth)
 {
     const double from[3] = {0, 2, 0}, at[3] = {1, 0, -3};
@@ -318,6 +320,7 @@ static void begin_acne(fixture *f, int kind, double tilt, double azimuth)
     light->near = 0.1;
 }
 
+/* Pixels of sides that face the light that are not fully lit. */
 static int count_acne(const fixture *f)
 {
     ref_picture p = render(f, 48, 36, 512);
@@ -327,7 +330,7 @@ static int count_acne(const fixture *f)
     return n;
 }
 
-/* How many pixels near the camera are not quite dark. */
+/* Pixels near the camera where the plane is not fully in shadow. */
 static int count_light(const fixture *f)
 {
     ref_picture p = render(f, 48, 36, 512);
@@ -338,7 +341,7 @@ static int count_light(const fixture *f)
 }
 
 /* B5: against a plane itself the receiver's plane leaves nothing but rounding, whatever the filter, the angle and the
- * kind of light: a breath of bias decides between light and dark everywhere. Without it the plane is full of acne. */
+ * kind of light: a bias of 10^-6 decides between light and dark everywhere. Without it the plane is full of acne. */
 static void test_receiver_plane(void)
 {
     const double tilts[4] = {5, 40, 70, 82};
@@ -372,7 +375,7 @@ static void test_moved_past_light(void)
         look(&f, from, at, up);
         f.s.camera.focal = 12;
         scene_light *light = add_point(&f, 0, 0.5, 0);
-        light->bias_constant = -2;
+        light->bias_constant = -2;      /* stores the floor two texels nearer to the light: all of it shadows itself */
         light->bias_normal = c ? 6 : 0; /* the face is clamped: a texel is a quarter of the distance */
         ref_picture p = render(&f, 9, 9, 64);
         CHECK_EQ_INT(p.triangle[40] >> 32, 0);
@@ -382,14 +385,15 @@ static void test_moved_past_light(void)
     }
 }
 
-/* The gradient is limited to 16 depth ranges per tile: a plane that is steeper has acne again. */
+/* B5 limits the plane's gradient to 16 times the light's depth range over the width of a tile: a plane that is steeper
+ * has acne (texels of its own shadow) again. */
 static void test_receiver_plane_limit(void)
 {
     fixture f;
     begin_acne(&f, 0, 89.5 * PI / 180, 0.3);
     f.lights[0].receiver_plane = true;
     f.lights[0].bias_constant = 1e-6;
-    CHECK(count_acne(&f) > 10); /* 1 / tan(0.5 degrees) > 16 */
+    CHECK(count_acne(&f) > 10); /* tan(89.5 degrees) = 114 > 16 */
     end(&f);
 }
 
@@ -411,6 +415,7 @@ static void test_normal_bias_of_punctual(void)
             }
 }
 
+/* Both pictures have the same shadows, with at least n_least shadowed pixels on sides that face the light. */
 static void check_same_shadow(const fixture *a, const fixture *b, int n_least)
 {
     ref_picture p = render(a, 48, 36, 256), q = render(b, 48, 36, 256);

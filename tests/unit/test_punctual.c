@@ -1,5 +1,6 @@
 /* Spot and point lights: their arithmetic against double precision, within the bounds of NUMERICS 4.10; ties and edges
- * of the rules (P2, P5, P10); what kept tiles (A5) and culled casters (D8) must not miss. */
+ * of the rules for distance (P2), cube faces (P5) and early outs (P10); that a shadow tile is drawn again when a light
+ * changes (A5), and that no caster is left out whose shadow is seen (D8). */
 #include <stdlib.h>
 #include <string.h>
 
@@ -42,7 +43,8 @@ static double ratio_of(double error, double bound, worst *largest)
     return share;
 }
 
-/* Says what was seen, in units of the last place, and sees to it that the bound is not a lazy one. */
+/* Prints the largest error in units of `lsb`, and checks that the bound is not more than 8 times (LAZY) what was seen.
+ */
 static void report_worst(worst *w, double lsb, const char *what, int newton_steps)
 {
     if (table)
@@ -56,7 +58,7 @@ static void report_worst(worst *w, double lsb, const char *what, int newton_step
     w->error = w->share = 0;
 }
 
-/* The same of a light's kind: a bound that is lazy for one of them must not hide behind another. */
+/* The same for spot and point lights apart, as a bound may be tight for one kind and far too wide for the other. */
 static void report_kind(worst *w, double lsb, int is_point, const char *what, int newton_steps)
 {
     char text[160];
@@ -91,12 +93,12 @@ static void test_faces(void)
 
 /* ---- Attenuation against MODEL 8 ---------------------------------------------------------------------------- */
 
-/* A value and how far the library's may be from it. */
+/* An exact value v, and how far from it the library's result may lie: e. */
 typedef struct {
     double v, e;
 } approx;
 
-/* The product of two such, rounded to Q1.30. */
+/* The product of two such values, when the library rounds it to Q1.30. */
 static approx product_q30(approx a, approx b)
 {
     approx p = {a.v * b.v, a.e * b.v + a.v * b.e + a.e * b.e + q30 / 2};
@@ -108,7 +110,8 @@ static double clamp01(double v)
     return v < 0 ? 0 : v > 1 ? 1 : v;
 }
 
-/* Of the light at hand: a spot whose edge is narrower than 2^-6 has two steps in any case. */
+/* Relative error of the library's reciprocal square root for ls.light[0]: one or two Newton steps by the knob, but two
+ * in any case for a spot whose edge is narrower than 2^-6. */
 static double delta_root(void)
 {
     const gn_light *light = &ls.light[0];
@@ -117,8 +120,8 @@ static double delta_root(void)
     return GN_K(&fresh.frame, newton_steps) == 1 ? 0x1p-15 : 0x1p-28;
 }
 
-/* P2: square of the least distance, and how far off the library's is, relatively: 10^-4 is rounded, then its scaled
- * value. */
+/* P2 attenuates by no less than 10^-4 world units squared. least2: that in the scene's units; delta_least2: relative
+ * error of the library's value, which rounds 10^-4 and then the scaled value to Q32. */
 static double least2(void)
 {
     return 1e-4 * pow(4, ls.scene.unit_log2);
@@ -168,7 +171,7 @@ static approx angle_of(const gn_light *light, const double from[3], double d)
     return product_q30(share, share);
 }
 
-/* max(0, cos) factor / max(d^2, 10^-4), as it arrives for a colour of 1. */
+/* max(0, cos) * factor / max(d^2, 10^-4): irradiance of a light whose colour is 1. */
 static approx irradiance_of(approx factor, approx cosine, double d2)
 {
     double delta = delta_root() + 0x1p-31, floor2 = least2(), scale2 = fmax(d2, floor2);
@@ -401,7 +404,7 @@ static void init(gn_renderer *r)
     SET_KNOB(&r->frame, atlas_size, 128), SET_KNOB(&r->frame, other_atlas_size, 128);
 }
 
-/* The texels of a light, one tile behind the other. Returns how many bytes. */
+/* Copies the shadow texels of a light, one tile after the other. Returns how many bytes. */
 static size_t texels_of(const gn_renderer *r, uint32_t light_idx, uint8_t *out)
 {
     size_t n = 0;
@@ -416,8 +419,8 @@ static size_t texels_of(const gn_renderer *r, uint32_t light_idx, uint8_t *out)
     return n;
 }
 
-/* The long-lived renderer after a change against one that was just begun; the change must show in the light's texels.
- */
+/* A renderer that has drawn the scene before the change must get the same pixels as one that is new; and the change
+ * must show in the light's shadow texels, or the test says nothing. */
 static void check_changed(uint32_t light_idx, const char *what)
 {
     static uint8_t before[1 << 17], a[1 << 17], b[1 << 17];
@@ -488,9 +491,9 @@ static void test_kept_fields(void)
 
 /* ---- D8: a shadow that leaves its cascade ---------------------------------------------------------------------- */
 
-/* In a room around the camera, a ball close to it, inside the first cascade; light along y throws its shadow on the
- * floor far down (side -1) or on the ceiling far up (1), outside the first cascade: the shadow goes on past the middle
- * of the receivers' box. */
+/* The camera is in a room, with a ball close to it, inside the first cascade. Light along y throws the ball's shadow on
+ * the floor far below (side -1) or on the ceiling far above (1): outside the first cascade, and beyond the middle of
+ * the room's box. */
 static void far_shadow_scene(int side)
 {
     const int32_t eye[3] = {0, 0, 0}, target[3] = {0, side * GN_Q16(2), GN_Q16(-1)};
@@ -532,7 +535,7 @@ static void check_far_shadow(int side)
     int n_shadow = 0;
     for (int i = 0; i < W * H; i++) n_shadow += without[BYTES * i] > fresh_pixels[BYTES * i];
     CHECK(n_shadow >= 2);
-    /* were the shadow to end near the ball, it would be left out */
+    /* a ball whose shadow ended nearby would be left out of the second cascade */
     far_shadow_scene(side);
     for (int c = 0; c < 3; c++) ls.object[0].to_world.m_q30[1][c] /= 4;
     ls.scene.shadow.caster_culling = 1;
@@ -680,9 +683,10 @@ static void test_receivers(void)
 
 /* ---- Stored depth, and casters that shrink (B4) ---------------------------------------------------------------- */
 
+/* A square card as a spot light sees it: what its shadow tile must store follows from the card's plane. */
 typedef struct {
-    double p[4][3], normal[3]; /* corners along the light's axes, unit normal */
-    double vertex;             /* how far a corner's coordinate may be off */
+    double p[4][3], normal[3]; /* corners and unit normal along the light's axes, from the light */
+    double vertex;             /* how far the library's coordinates of a corner may be off */
 } plate;
 
 static void cross3(const double a[3], const double b[3], double out[3])
@@ -702,8 +706,9 @@ static void plate_normal(plate *q)
     for (int k = 0; k < 3; k++) q->normal[k] /= length;
 }
 
-/* B4. The normal is that of rounded corners, so it tilts by 2 sqrt(3) of their error over the triangle's smallest
- * altitude. */
+/* Moves the corners against the normal as a caster bias (B4) of `bias` texels does, and adds what that adds to their
+ * error. `side`: of the card. The library's normal is that of rounded corners, so it tilts by 2 sqrt(3) of their error
+ * over the triangle's smallest altitude. */
 static void plate_shrink(plate *q, const gn_light_view *view, double bias, double side)
 {
     double per_z = bias * 2 * 65536 / view->fit.persp.focal2_q16, most = 0;
@@ -712,12 +717,12 @@ static void plate_shrink(plate *q, const gn_light_view *view, double bias, doubl
         most = fmax(most, by);
         for (int k = 0; k < 3; k++) q->p[i][k] -= q->normal[k] * by;
     }
-    plate_normal(q); /* what is farther moves more: the plane turns */
+    plate_normal(q); /* a texel is wider farther from the light, so farther corners move more, and the plane turns */
     if (bias > 0)
         q->vertex += 0x1p-15 + most * (0x1p-26 + 2 * sqrt(3) * sqrt(2) * q->vertex / side) + per_z * q->vertex;
 }
 
-/* The card as the light sees it, exactly. */
+/* The card along the axes of the light's view, in double precision. */
 static void plate_of(plate *q, const gn_object *card, const gn_light_view *view)
 {
     double scale = ldexp(1, card->to_world.exp - 30), reach = 0;
@@ -735,6 +740,7 @@ static void plate_of(plate *q, const gn_object *card, const gn_light_view *view)
     plate_normal(q);
 }
 
+/* The stored depth of texel i, in the upper bits of 32. */
 static uint32_t stored_at(const gn_tile_info *tile, uint32_t i)
 {
     return tile->depth_bits == 8    ? (uint32_t)((const uint8_t *)tile->depth)[i] << 24
@@ -742,7 +748,7 @@ static uint32_t stored_at(const gn_tile_info *tile, uint32_t i)
                                     : ((const uint32_t *)tile->depth)[i];
 }
 
-/* Inside the card: it and its neighbours are drawn. */
+/* Whether a texel is surely inside the card: it and its four neighbours are drawn. */
 static int inside(const gn_tile_info *tile, uint32_t u, uint32_t v)
 {
     uint32_t t = tile->texels, i = v * t + u, empty = (uint32_t)(UINT32_MAX << (32 - tile->depth_bits));
@@ -753,6 +759,9 @@ static int inside(const gn_tile_info *tile, uint32_t u, uint32_t v)
 
 static worst stored_seen;
 
+/* Every texel inside the card must store 1 - near / z of the card's plane there, within the bound of NUMERICS 4.10:
+ * half an LSB of the depth; what steps along the row add up to; the corners' error, by how steeply the light sees the
+ * plane (kappa). h: distance of the plane from the light. Returns how many texels were checked. */
 static int check_stored(const plate *q, const gn_light_view *view, const gn_tile_info *tile)
 {
     double focal = view->fit.persp.focal2_q16 / 65536.0, h = fabs(dot3(q->normal, q->p[0])),
@@ -774,6 +783,7 @@ static int check_stored(const plate *q, const gn_light_view *view, const gn_tile
     return n;
 }
 
+/* Puts a square of any direction in front of the light, 1.5 to 6 units away, its sides 0.4 to 1.6 units. */
 static void random_plate(rng *r, gn_object *card, double *side)
 {
     gn_light *light = &ls.light[0];
@@ -786,6 +796,7 @@ static void random_plate(rng *r, gn_object *card, double *side)
     for (int k = 0; k < 3; k++) card->to_world.t_q16[k] = light->position_q16[k] + (int32_t)(axis[k] * far * 65536);
 }
 
+/* One random spot light and card: draws the light's tile, 64 x 64 texels, and checks the depths. bias: B4, texels. */
 static void check_plate(rng *r, int depth_bits, double bias, int *n_texels)
 {
     plate q;
@@ -804,11 +815,11 @@ static void check_plate(rng *r, int depth_bits, double bias, int *n_texels)
     CHECK_EQ_INT(gn_get_shadow_tile(&fresh, 0, 0, &tile), 64);
     plate_of(&q, &ls.object[1], view);
     plate_shrink(&q, view, bias, side);
-    if (fabs(dot3(q.normal, q.p[0])) < 0.2) return; /* edge on */
+    if (fabs(dot3(q.normal, q.p[0])) < 0.2) return; /* the light sees the card nearly edge on: hardly a texel */
     *n_texels += check_stored(&q, view, &tile);
 }
 
-/* Depths as they are stored, at 8, 16 and 32 bits. [A4] [B4] */
+/* Depths that shadow tiles store, of 8, 16 and 32 bits, with and without caster bias. [A4] [B4] */
 static void test_stored(void)
 {
     static const int bits[] = {8, 16, 32};
@@ -820,7 +831,7 @@ static void test_stored(void)
     ls.object[0].flags = GN_OBJECT_RECEIVES;
     ls.scene.n_objects = 2;
     init(&fresh);
-    if (!TAKES_KNOB(&fresh.frame, other_atlas_size, 64)) return; /* texels are counted */
+    if (!TAKES_KNOB(&fresh.frame, other_atlas_size, 64)) return; /* another size than check_plate's */
     for (int b = 0; b < 3; b++)
         for (int shrunk = 0; TAKES_KNOB(&fresh.frame, other_depth_bits, bits[b]) && shrunk < 2; shrunk++) {
             int n_texels = 0;
@@ -842,7 +853,7 @@ static double texel_of(const uint8_t *rgba, int size, int x, int y, int channel)
     return rgba[4 * (y * size + x) + channel] / 255.0;
 }
 
-/* Masks from an image. [M5] */
+/* Shadow masks from an image. [M5] */
 static void test_mask_image(void)
 {
     enum { SIZE = 8 };

@@ -1,7 +1,8 @@
-/* From the scene file to what is written: every step but the files. */
+/* The steps of gnomon compile from the scene file to the configuration and the data; other files write the C files. */
 #include "compile.h"
 
-/* Where the scene must fit; without a board, in --ram and --flash. 1: somewhere; 0: nowhere. */
+/* The memory that the scene must fit, from --board, --ram and --flash. Without a board a Cortex-M0 with 1 GB, so that
+ * only what is given limits. Returns 1 if anything was given, 0 if not, -1 on an error. */
 int compile_read_board(const tool_options *o, board *out, char *error, size_t bytes)
 {
     *out = (board){
