@@ -30,6 +30,7 @@ if [ -n "$MODELS" ]; then # meshes that are not the project's
     "$build/test_accuracy" --models --table >"$work/models"
     replace data/ACCURACY.md models "$work/models"
 fi
+sh docs/animation.sh "$tool" "$out"
 sh tests/oracle/test_compact.sh --table >"$work/compact"
 replace ACCURACY.md compact "$work/compact"
 "$build/test_bias" --table >"$work/bias"
