@@ -29,7 +29,7 @@ static bool load_any(loader *l)
     if (ends_with(l->path, ".obj")) return obj_load(l);
     if (ends_with(l->path, ".gltf")) return gltf_load(l);
     if (ends_with(l->path, ".glb")) return gltf_load_glb(l);
-    return loader_fail(l, "%s: not a scene: .obj, .gltf and .glb are known", l->path);
+    return loader_fail(l, "%s: not a scene: .gltf, .glb and .obj are read; export others as glTF", l->path);
 }
 
 int scene_load(scene *s, const char *path, const scene_options *options, char *error, size_t error_bytes)

@@ -17,7 +17,8 @@ const option options[] = {
      "two files without their endings (asset)"},
     {"--engine", BY_RENDER, "NAME", "fixed, reference or truth",
      "fixed, the library; reference, the same in double precision; truth, a ray tracer with exact shadows (fixed)"},
-    {"--with", BY_COMPARE, "NAME", "reference or truth", "what the library is compared with (reference)"},
+    {"--with", BY_COMPARE, "NAME", "reference or truth",
+     "reference or truth: what the library is compared with (reference)"},
     {"--samples", BY_RENDER | BY_COMPARE, "N", "samples from 1 to 16",
      "N x N samples per pixel of truth; 1: pixel centres, as the other engines (1)"},
     {"--size", BY_ALL, "WxH", "WxH, up to 2048x2048", "picture size (320x240)"},
@@ -39,7 +40,8 @@ const option options[] = {
     {"--outside", BY_ALL, NULL, NULL, "the scene may name files outside its folder"},
     {"--budget", BY_ALL, "N", "a number from 1 to 64",
      "load scenes N times as large as usual, in textures, vertices, triangles, materials and memory (1)"},
-    {"--triangles", BY_RENDER | BY_COMPARE | BY_INFO | BY_COMPILE | BY_ASSET, "N", "triangles from 1 to 100000000",
+    {"--triangles", BY_RENDER | BY_COMPARE | BY_INFO | BY_COMPILE | BY_ASSET, "N",
+     "a number of triangles from 1 to 100000000",
      "reduce the meshes to N triangles in all, where that keeps borders, seams and skins; says how far surfaces moved"},
     {"--csv", BY_SWEEP, "FILE", "a path", "every configuration as a table"},
     {"--svg", BY_SWEEP, "FILE", "a path", "every configuration as a plot"},
@@ -47,9 +49,9 @@ const option options[] = {
     {"--quick", BY_SWEEP | BY_ADVISE, NULL, NULL, "a few configurations only, for a first look"},
     {"--board", BY_COMPILE | BY_INFO, "NAME", "a folder of boards/",
      "must fit the memory of boards/NAME; or of --ram and --flash"},
-    {"--ram", BY_ADVISE | BY_COMPILE | BY_INFO, "BYTES", "bytes from 1 to 1000000000",
+    {"--ram", BY_ADVISE | BY_COMPILE | BY_INFO, "BYTES", "a number of bytes from 1 to 1000000000",
      "the most RAM: of the renderer (advise), of everything (compile, info)"},
-    {"--flash", BY_COMPILE | BY_INFO, "BYTES", "bytes from 1 to 1000000000", "the most flash"},
+    {"--flash", BY_COMPILE | BY_INFO, "BYTES", "a number of bytes from 1 to 1000000000", "the most flash"},
     {"--optimise", BY_COMPILE | BY_INFO, "-Os|-O2", "-Os, -O2, ...",
      "how the library is built, for the estimate of flash (as the board says)"},
     {"--margin", BY_COMPILE | BY_INFO, "PERCENT", "per cent from 0 to 1000",
@@ -232,6 +234,28 @@ static int check_truth(const tool_options *o, const char *engine)
     return o->samples && !truth ? options_usage_error(NULL, "--samples is for truth, not for", engine) : TOOL_OK;
 }
 
+static int ends_with_any(const char *path, const char *const *endings)
+{
+    const char *dot = strrchr(path, '.');
+    for (; dot && *endings; endings++)
+        if (strcmp(dot, *endings) == 0) return 1;
+    return 0;
+}
+
+/* What is written is of one kind, whatever its name: a name that says another is a mistake. */
+static int check_out_path(const tool_options *o, int command, const char *name)
+{
+    static const char *const pictures[] = {".jpg", ".jpeg", ".gif", ".bmp", ".ppm", ".tga", ".webp", ".svg", NULL},
+                             *const scenes[] = {".gltf", ".glb", NULL};
+    if (!o->out_path) return TOOL_OK;
+    if (command == BY_RENDER && ends_with_any(o->out_path, pictures))
+        return options_usage_error(name, "pictures are PNG files, so the name must not be", o->out_path);
+    if (command == BY_BAKE && !ends_with_any(o->out_path, scenes))
+        return options_usage_error(name, "a scene is written, so the name must end in .gltf or .glb, unlike",
+                                   o->out_path);
+    return TOOL_OK;
+}
+
 int options_parse(tool_options *o, int command, int argc, char **argv)
 {
     for (int i = 2; i < argc; i++) {
@@ -260,5 +284,6 @@ int options_parse(tool_options *o, int command, int argc, char **argv)
     if (command == BY_BAKE && !o->out_path) return options_usage_error(argv[1], "-o FILE is missing", NULL);
     if (command == BY_ASSET && !o->out_path) return options_usage_error(argv[1], "-o NAME is missing", NULL);
     if (command == BY_ADVISE && !o->ram) return options_usage_error(argv[1], "--ram BYTES is missing", NULL);
+    if (check_out_path(o, command, argv[1])) return TOOL_USAGE;
     return check_truth(o, command == BY_RENDER ? o->engine : o->with);
 }

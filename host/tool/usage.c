@@ -15,7 +15,7 @@ typedef struct {
 } command_help;
 
 static const command_help commands[] = {
-    {"render", BY_RENDER, "SCENE -o OUT.png", "one picture",
+    {"render", BY_RENDER, "SCENE -o OUT.png", "a picture, or an animated one with --frames",
      "Draws what firmware with the same settings draws, bit for bit. What the file lacks (camera, light, ground) is "
      "added, and named.",
      "gnomon render host/scenes/sundial.gltf -o sundial.png --frame 48 --set preset=accurate"},
@@ -52,7 +52,7 @@ static const command_help commands[] = {
      "gnomon bake host/scenes/room.gltf -o baked.gltf --texels 256"},
     {"knobs", 0, "", "every knob and setting, as docs/CONFIGURATION.md lists them",
      "Name, range, value in each preset, meaning and cost: what --set, scene files and the configuration header take.",
-     "gnomon knobs"},
+     "gnomon knobs | grep atlas"},
     {"help", 0, "[COMMAND]", "this text, or a command's own", NULL, "gnomon help render"},
 };
 enum { N_COMMANDS = sizeof commands / sizeof *commands, LINE_WIDTH = 100, COMMAND_COLUMN = 28, OPTION_COLUMN = 30 };

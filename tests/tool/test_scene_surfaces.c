@@ -155,7 +155,7 @@ static void test_image_places(void)
     } else puts(error);
     check_untextured(replaced(json, "%201", "_none"),
                      "texture 'test_scene_surfaces_none.png': "
-                     "build/tmp/test_scene_surfaces_none.png cannot be opened: it is drawn without");
+                     "build/tmp/test_scene_surfaces_none.png cannot be opened (no such file): it is drawn without");
     json = replaced(json, "\"uri\":\"test_scene_surfaces%201.png\"", "\"bufferView\":2,\"mimeType\":\"image/png\"");
     json =
         replaced(json, "\"byteLength\":12}", "\"byteLength\":12},{\"buffer\":1,\"byteOffset\":3,\"byteLength\":%zu}");

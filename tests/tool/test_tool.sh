@@ -294,6 +294,12 @@ bad 2 'truth, not for reference' compare "$cube" --samples 2
 bad 2 'info does not use --samples' info "$cube" --samples 2
 bad 2 xray render "$cube" -o "$tmp/a.png" --view xray
 bad 2 knobs knobs "$cube"
+bad 2 'PNG files, .*a.jpg' render "$cube" -o "$tmp/a.jpg"
+bad 2 'end in .gltf or .glb, .*a.png' bake "$cube" -o "$tmp/a.png"
+said render "$cube" -o "$tmp/a.png" --size 8x8 --frame 3
+grep -q 'nothing moves in the file: frame 3 is as frame 0' "$tmp/err" && pass || fail "a frame of a still scene: $(cat "$tmp/err")"
+said compare host/scenes/desk.gltf --size 8x8 --frame 900
+grep -q 'the animation ends with frame 48, which is drawn for frame 900' "$tmp/err" && pass || fail "a frame beyond the end: $(cat "$tmp/err")"
 for size in 0x0 99999x1 1x99999 -1x5 5x-1 1e3x4 '' x 10 10x 10x10x10 10X10 10.5x10 2049x1 1x2049 99999999999999999999x1 ' 5x5' '5x 5' +5x5; do
     bad 2 '--size' info "$cube" --size "$size"
 done
@@ -400,7 +406,7 @@ if cp "$cube" "$tmp/$wrong.obj" 2>/dev/null; then
     valid_json objects
     grep -q 'a\\ufffd\\ufffd(\\ufffd\\ufffd\\ufffdb\.obj' "$tmp/out" && pass || fail "no U+FFFD: $(head -c 200 "$tmp/out")"
 fi
-bad 1 '/a??(???b-é\.obj: cannot be opened$' info "$tmp/$wrong-é.obj"
+bad 1 '/a??(???b-é\.obj: cannot be opened (no such file)$' info "$tmp/$wrong-é.obj"
 [ "$(grep -c "$tmp.*$tmp" "$tmp/err")" = 0 ] && pass || fail "the path stands twice: $(head -n 1 "$tmp/err")"
 bad 1 'a??(???b' render "$cube" -o "$tmp/no/$wrong.png" --size 8x8
 bad 1 "unknown setting 'a?" info "$cube" --set "$(printf 'a\377')=1"

@@ -3,6 +3,7 @@
 #include "../../base/utf8.h"
 #include "vec.h"
 
+#include <errno.h>
 #include <math.h>
 #include <stdarg.h>
 #include <stdio.h>
@@ -162,7 +163,7 @@ static bool add_file(loader *l, const char *path)
 static const char *why_no_file(const char *path, size_t *n_bytes)
 {
     struct stat about;
-    if (stat(path, &about) != 0) return "cannot be opened";
+    if (stat(path, &about) != 0) return errno == ENOENT ? "cannot be opened (no such file)" : "cannot be opened";
     if (S_ISDIR(about.st_mode)) return "is a folder, not a file";
     if (!S_ISREG(about.st_mode)) return "is a device or a pipe, not a file";
     *n_bytes = (size_t)about.st_size;

@@ -168,7 +168,7 @@ static bool read_chunk(loader *l, const uint8_t *file, size_t n_bytes, size_t *a
 static bool check_glb_header(loader *l, const uint8_t *file, size_t n_file, size_t *n_bytes)
 {
     if (n_file < GLB_HEADER_BYTES || memcmp(file, "glTF", 4) != 0)
-        return loader_fail(l, "%s: not a .glb file", l->path);
+        return loader_fail(l, "%s: not a .glb file, or a damaged one: it does not begin with a glTF header", l->path);
     if (word_at(file + 4) != 2) return loader_fail(l, "%s: .glb version %zu is not 2", l->path, word_at(file + 4));
     *n_bytes = word_at(file + 8);
     if (*n_bytes > n_file || *n_bytes < GLB_HEADER_BYTES) {

@@ -26,6 +26,14 @@ void remarks_on_settings(const scene *s)
     for (size_t i = s->n_file_notes; i < s->n_notes; i++) tool_error("%s", s->notes[i]);
 }
 
+void remarks_on_frame(const scene *s, int frame)
+{
+    const double last = s->fps > 0 ? ceil(s->duration * s->fps - 1e-6) : 0;
+    if (frame <= last) return;
+    if (last > 0) tool_error("the animation ends with frame %.0f, which is drawn for frame %d", last, frame);
+    else tool_error("nothing moves in the file: frame %d is as frame 0", frame);
+}
+
 /* "0 'a', 3 'b'", cut off behind a name where there is no room for more */
 static void name_lights_without_room(const scene *s, const engine_picture *p, char *out, size_t bytes)
 {

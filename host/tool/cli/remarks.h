@@ -8,6 +8,7 @@
 /* To stderr, a line each: what settings came to nothing, which cones had to be others; what the library left out of a
  * picture of its own. */
 void remarks_on_settings(const scene *s);
+void remarks_on_frame(const scene *s, int frame); /* that lies beyond the end of the animation */
 void remarks_on_picture(const scene *s, const engine_picture *p);
 
 /* Adds a note for every pair of lights that one mask channel cannot serve (M5), and for baked lights without anything
