@@ -7,8 +7,11 @@
 
 #if GN_INTERPOLATES
 
+/* Verdict on a light's shadow over a whole cell: all of it is lit, or dark; it has an edge in it, so that it is looked
+ * up at nodes; or the cell has to be split to tell. */
 enum { GN_CELL_LIT, GN_CELL_DARK, GN_CELL_EDGE, GN_CELL_SPLIT };
 
+/* A share of a value: v * share, 65536: all of it. */
 GN_HOT static inline int32_t gn_cell_share(int32_t v_q24, uint32_t share_uq16)
 {
     return share_uq16 == 65536 ? v_q24 : (int32_t)gn_mul_uq16((uint32_t)v_q24, share_uq16);
@@ -16,7 +19,7 @@ GN_HOT static inline int32_t gn_cell_share(int32_t v_q24, uint32_t share_uq16)
 
 /* ---- Tolerances -------------------------------------------------------------------------------------------------- */
 
-/* What interpolation may be off by: a share of the light, 2^-this. */
+/* Light between corners may be off by 2^-this of what arrives; 0: by as much as arrives. */
 GN_HOT static inline int32_t gn_cell_light_log2(const gn_frame *frame)
 {
     (void)frame;
@@ -46,7 +49,7 @@ GN_HOT static inline int32_t gn_cell_finest_log2(const gn_frame *frame)
 }
 
 #if GN_SHADOWS
-/* Places in shadow maps, texels: 2^-this. */
+/* Places in shadow maps may be off by 2^-this texels. */
 GN_HOT static inline int32_t gn_cell_place_log2(const gn_frame *frame)
 {
     (void)frame;
@@ -55,7 +58,7 @@ GN_HOT static inline int32_t gn_cell_place_log2(const gn_frame *frame)
 #endif
 
 #if GN_TEXTURES
-/* Texture coordinates, texels: 2^-this. */
+/* Texture coordinates may be off by 2^-this texels. */
 GN_HOT static inline int32_t gn_cell_texture_log2(const gn_frame *frame)
 {
     (void)frame;
@@ -64,7 +67,8 @@ GN_HOT static inline int32_t gn_cell_texture_log2(const gn_frame *frame)
 #endif
 
 #if GN_SHADOWS
-/* Texels between lookups, Q16: what a filter does in between is close to linear. */
+/* At most so many texels lie between two lookups of a filter, Q16: in between it is close to linear (the last table row
+ * of NUMERICS 4.12). 0: every pixel is looked up. */
 GN_HOT static inline uint32_t gn_cell_lookup_texels_q16(const gn_frame *frame, const gn_light_view *view)
 {
     if (view->filter == GN_FILTER_HARD || view->filter == GN_FILTER_DISK) return 0;
@@ -75,6 +79,7 @@ GN_HOT static inline uint32_t gn_cell_lookup_texels_q16(const gn_frame *frame, c
 #endif
 
 #if GN_SHADOWS || GN_MASKS
+/* Largest less smallest of four values. */
 GN_HOT static inline uint32_t gn_cell_spread(int32_t a, int32_t b, int32_t c, int32_t d)
 {
     int32_t lo = gn_min32(gn_min32(a, b), gn_min32(c, d)), hi = gn_max32(gn_max32(a, b), gn_max32(c, d));
@@ -82,6 +87,7 @@ GN_HOT static inline uint32_t gn_cell_spread(int32_t a, int32_t b, int32_t c, in
 }
 #endif
 
+/* |b - a| */
 GN_HOT static inline uint32_t gn_cell_change(int32_t a, int32_t b)
 {
     return a < b ? (uint32_t)b - (uint32_t)a : (uint32_t)a - (uint32_t)b;

@@ -201,8 +201,7 @@ GN_HOT static uint16_t *pixel_565(const gn_pixel_rows *rows, int32_t x, int32_t 
     return rows->pixels->rgb565 + (y - rows->y0) * rows->width + x - rows->x0;
 }
 
-/* Stores the pixels whose bit is set, the lowest bit first, between two nodes (points of known colour: see
- * gn_pixel_line). Colours go on by `step` per pixel; `inside`: all lie in 0 .. 1. */
+/* Pixels of `bits` between two nodes; `inside`: colours lie in 0 .. 1. */
 GN_HOT static inline void segment_565(uint16_t *out, uint32_t bits, const int32_t from_q24[3],
                                       const int32_t step_q24[3], int inside)
 {
@@ -213,7 +212,6 @@ GN_HOT static inline void segment_565(uint16_t *out, uint32_t bits, const int32_
     }
 }
 
-/* The same from node to node along a line. */
 GN_HOT static inline void line_565(uint16_t *out, uint32_t bits, const gn_pixel_line *line)
 {
     int32_t n = 1 << line->spacing_log2, step[3];
@@ -226,7 +224,7 @@ GN_HOT static inline void line_565(uint16_t *out, uint32_t bits, const gn_pixel_
     }
 }
 
-/* Stores one pixel in any format; in a raw view of the host tool the first channel, 65536: 1. */
+/* A pixel of any format, in a raw view a share of 65536. */
 GN_HOT static void store_colour(const gn_frame *frame, const gn_pixel_rows *rows, int32_t x, int32_t y,
                                 const int32_t colour_q24[3])
 {
@@ -257,13 +255,12 @@ GN_INLINE uint32_t tinted_q24(uint32_t texel, uint32_t colour_uq16)
     return texel * colour_uq16 >> 8;
 }
 
-/* A texel times a colour, as a pixel. */
 GN_INLINE uint16_t tinted_565(const uint16_t texel[3], uint32_t r_uq16, uint32_t g_uq16, uint32_t b_uq16)
 {
     return (uint16_t)pack_565(tinted_q24(texel[0], r_uq16), tinted_q24(texel[1], g_uq16), tinted_q24(texel[2], b_uq16));
 }
 
-/* Stores textured pixels whose bit is set between two nodes; colours lie in 0 .. 1. */
+/* Pixels of `bits` between two nodes; colours lie in 0 .. 1. */
 GN_HOT static inline void textured_565(uint16_t *out, uint32_t bits, const uint16_t (*texel)[3],
                                        const int32_t from_q24[3], const int32_t step_q24[3])
 {
@@ -282,7 +279,7 @@ GN_HOT static inline void textured_565(uint16_t *out, uint32_t bits, const uint1
 }
 
 #if GN_GLOW_APART
-/* Channel c of the light that the surface emits at the pixel of `texel`, Q20; the product is below 2^27 * 2^16. */
+/* Light that the surface emits, at the pixel of a texel: 2^27 * 2^16 */
 GN_HOT static uint32_t glow_q20(const gn_pixel_line *line, const uint16_t (*texel)[3], int c)
 {
     uint32_t glow_q24 = (uint32_t)line->glow_q24[c];
@@ -295,7 +292,7 @@ GN_HOT static uint32_t glow_q20(const gn_pixel_line *line, const uint16_t (*texe
 }
 #endif
 
-/* The same for colours of any size, emitted light and all formats. */
+/* The same of any colours and formats. */
 GN_HOT static void textured_any(const gn_frame *frame, const gn_pixel_rows *rows, int32_t x, int32_t y, uint32_t bits,
                                 const uint16_t (*texel)[3], const int32_t from_q24[3], const int32_t step_q24[3],
                                 const gn_pixel_line *line)
@@ -316,7 +313,6 @@ GN_HOT static void textured_any(const gn_frame *frame, const gn_pixel_rows *rows
     }
 }
 
-/* The textured pixels of a line, from node to node. */
 GN_HOT static GN_NOINLINE void textured_line(const gn_frame *frame, const gn_pixel_rows *rows, int32_t x, int32_t y,
                                              uint32_t bits, const gn_pixel_line *line)
 {

@@ -19,18 +19,18 @@ size_t gn_pixel_bytes(const gn_frame *frame, int32_t width, int32_t height);
 /* Stores a packed pixel n times from (x, y) of the picture on, within one row. */
 void gn_pixel_fill(const gn_frame *frame, const gn_pixel_rows *rows, int32_t x, int32_t y, int32_t n, uint32_t packed);
 
-/* Part of a row of pixels. Its colours are known at nodes, points at equal distances, and linear between them; a
- * textured surface multiplies each by the colour of a texel. */
+/* Part of a row of pixels. Its colours are known at nodes, 2^spacing_log2 pixels apart, and linear in between; a
+ * textured surface multiplies each by the colour of a texel, 65535: 1. */
 typedef struct {
-    const int32_t (*node)[3];   /* colours, Q24, |.| < 2^29, the first at the part's first pixel */
-    int32_t spacing_log2;       /* nodes are 2^this pixels apart */
+    const int32_t (*node)[3]; /* Q24, |.| < 2^29, from the row's first pixel on, 2^spacing_log2 pixels apart */
+    int32_t spacing_log2;
     int inside;                 /* all nodes are in 2^-18 .. 1: nothing needs a clamp */
     const uint16_t (*texel)[3]; /* of each pixel, 65535: 1; NULL: no texture */
 #if GN_GLOW_APART
 #if GN_GLOW_TEXTURES
-    const uint16_t (*glow)[3]; /* texels that glow_q24 is multiplied by, one per pixel, 65535: 1; NULL: none */
+    const uint16_t (*glow)[3]; /* what that is multiplied by, pixel by pixel, or NULL */
 #endif
-    int32_t glow_q24[3]; /* textured: emitted light, added to the product of light and texel, 0 .. 2^27 */
+    int32_t glow_q24[3]; /* textured: what is added to the product, 0 .. 2^27 */
 #endif
 } gn_pixel_line;
 

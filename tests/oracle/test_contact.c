@@ -18,8 +18,7 @@ enum { DEFAULT, DEPTH, NORMAL, N_BESIDE };
 #define FOCAL    8.8 /* so that a shadow texel is four pixels wide */
 #define SEEN     0.9 /* how far behind the foot light is counted, world units; the shadow is 2 long */
 
-/* Moves the wall against the grid of the shadow map's texels. A directional light's grid is fixed in the world: wall
- * and camera move; the grid of a spot or point light goes with the light: the light moves. */
+/* The wall moves against the light's grid, which a directional light has in the world and others carry with them. */
 static void shift(fixture *f, scene_light_kind kind, const double by[3])
 {
     for (int k = 0; k < 3; k++) {
