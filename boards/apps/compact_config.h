@@ -1,4 +1,5 @@
-/* Compact arithmetic, so small that it runs on every board. */
+/* Configuration of APP=compact: the compact arithmetic (GN_COMPACT), with pictures and capacities so small that it runs
+ * on every board. */
 #define GN_COMPACT       1
 #define GN_VALIDATION    0
 #define GN_PRESET        GN_PRESET_TINY

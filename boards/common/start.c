@@ -1,22 +1,26 @@
+/* From reset to app_main() on boards without an operating system, how much RAM and stack were used, and what a fault
+ * says. Symbols board_... are addresses that link.ld defines; "fast" sections are code and data in the fastest memory.
+ * The stack grows downwards from board_stack_top to board_stack_bottom, and is painted with a pattern, so that what was
+ * used shows. */
 #include "start.h"
 
 #include "board.h"
 
-enum { CANARY_WORDS = 4 };
+enum { CANARY_WORDS = 4 }; /* the lowest words of the stack: if one has changed, the stack ran over */
 #define PAINT 0xC0DEFACEU
 
 extern uint32_t board_data_load[], board_data_start[], board_data_end[];
 extern uint32_t board_fast_load[], board_fast_start[], board_fast_end[];
 extern uint32_t board_bss_start[], board_bss_end[], board_fast_bss_start[], board_fast_bss_end[];
 
-/* Up to the caller's frame, less what this function may still push. */
+/* From the stack's bottom up to this function's frame, less 16 words that it may still push. */
 static void paint_stack(void)
 {
     uint32_t *end = (uint32_t *)__builtin_frame_address(0) - 16;
     for (volatile uint32_t *word = board_stack_bottom; word < end; word++) *word = PAINT;
 }
 
-/* Where the linker placed a section where it is stored, there is nothing to copy. */
+/* Copies a section from flash to RAM. A section that the linker left where it is stored needs no copy. */
 static void copy(uint32_t *to, const uint32_t *end, const uint32_t *from)
 {
     if (to == from) return;
@@ -42,7 +46,8 @@ int board_canary_ok(void)
     return 1;
 }
 
-/* From the first byte to the last: what alignment leaves between them is taken, too. */
+/* RAM in use: from the stack's bottom to the last variable, gaps of alignment included. Fast data, if in other memory,
+ * is added. */
 static uint32_t ram_bytes(void)
 {
     uintptr_t first = (uintptr_t)board_stack_bottom, end = (uintptr_t)board_bss_end,

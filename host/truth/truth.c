@@ -1,10 +1,12 @@
-/* The truth engine from scene to picture. */
+/* The truth engine from scene to picture: the reference's stages, with rays in place of shadow maps. */
 #include "truth.h"
 
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
+/* What the reference calls instead of a shadow lookup: the part of light l, 0..1, that casters let through to a point.
+ */
 static double trace_surface(const void *user, const ref_surface *at, size_t l)
 {
     const truth_tracer *tracer = user;
@@ -19,7 +21,8 @@ static double trace_surface(const void *user, const ref_surface *at, size_t l)
 
 /* ---- several samples per pixel ---- */
 
-/* Sums over the samples. */
+/* Sums over the samples of each pixel. Only samples that show the triangle of the pixel's centre count for its shadow.
+ */
 typedef struct {
     double *rgb;
     double *shadow[REF_MAX_LIGHTS];
@@ -51,6 +54,7 @@ static void free_sums(sums *sum)
     }
 }
 
+/* Adds the picture of one sample per pixel. */
 static void add_picture(sums *sum, const ref_picture *p)
 {
     const size_t n = (size_t)p->width * (size_t)p->height;
@@ -63,8 +67,8 @@ static void add_picture(sums *sum, const ref_picture *p)
         }
 }
 
-/* A pixel whose centre faces a light, and none of its samples, keeps its centre's shadow; where the centre does not,
- * the shadow is 0. */
+/* The picture becomes the mean of its samples. A pixel whose centre faces a light, but none of whose samples does,
+ * keeps the shadow at its centre; where the centre faces away, the shadow stays 0. */
 static void take_means(ref_picture *p, const sums *sum, int samples)
 {
     const size_t n = (size_t)p->width * (size_t)p->height;
@@ -76,8 +80,8 @@ static void take_means(ref_picture *p, const sums *sum, int samples)
                 p->shadow[l][i] = sum->shadow[l][i] / sum->n_shadows[l][i];
 }
 
-/* The sample (i, j) of every pixel: the picture moves under the grid of its centres, so the dither of a pixel is that
- * of all its samples. */
+/* Draws sample (i, j) of samples x samples in every pixel. The camera's picture is shifted by less than a pixel: the
+ * grid of pixels stays, so all samples of a pixel have its dither. */
 static void draw_sample(ref_frame *frame, int i, int j, int samples)
 {
     const ref_camera centred = frame->camera;
@@ -88,7 +92,8 @@ static void draw_sample(ref_frame *frame, int i, int j, int samples)
     frame->camera = centred;
 }
 
-/* Samples first, so that the last pass leaves what is the centre's. */
+/* A first pass at the centres tells each pixel's triangle. After the samples a last one leaves depth, normals and
+ * triangles of the centres in the picture; colours and shadows then become the means. */
 static const char *draw(ref_frame *frame, int samples)
 {
     sums sum;
@@ -107,7 +112,8 @@ static const char *draw(ref_frame *frame, int samples)
     return ok ? NULL : "out of memory for the samples";
 }
 
-/* Its tiles were assigned for what else hangs on them; they hold nothing. */
+/* Shadow tiles were assigned, as cascades and fades depend on them, but nothing was drawn into them: none is left in
+ * the result. */
 static void forget_views(ref_picture *p)
 {
     memset(p->grant, 0, sizeof p->grant);

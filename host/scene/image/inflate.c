@@ -1,4 +1,4 @@
-/* Inflate, for input that may be anything: every read and write is checked. */
+/* Inflate (RFC 1950, 1951), for input that may be anything: every read and write is checked. */
 #include "zlib_stream.h"
 
 #include <string.h>
@@ -7,12 +7,12 @@ enum { MAX_CODE_BITS = 15, N_LITERALS = 288, N_DISTANCES = 32, N_CODE_LENGTHS = 
 
 typedef struct {
     const uint8_t *bytes;
-    size_t n_bytes, at;
-    uint32_t bits;
+    size_t n_bytes, at; /* at: the next byte to be read */
+    uint32_t bits;      /* that were read and not taken yet, the lowest first */
     unsigned n_bits;
     uint8_t *out;
-    size_t n_out, filled;
-    const char *problem; /* the first one; reads give zeros from then on */
+    size_t n_out, filled; /* n_out: how many bytes there must be in the end */
+    const char *problem;  /* the first one; reads give zeros from then on */
 } inflater;
 
 /* Canonical Huffman code: how many codes have each length, and the symbols in the order of their codes. */
@@ -27,7 +27,7 @@ static bool fail(inflater *z, const char *problem)
     return false;
 }
 
-/* n <= 16 */
+/* The next n <= 16 bits, the first one lowest; 0 with z->problem set where there are none left. */
 static uint32_t take_bits(inflater *z, unsigned n)
 {
     while (z->n_bits < n) {
@@ -44,7 +44,8 @@ static uint32_t take_bits(inflater *z, unsigned n)
     return value;
 }
 
-/* Over-subscribed codes are refused. Incomplete ones only matter if a missing code turns up. */
+/* A code from the length in bits of each symbol's code, 0: no code. Lengths with more codes than there can be are
+ * refused. Where there are fewer, it only matters if a missing code turns up. */
 static bool build_code(inflater *z, huffman *h, const uint8_t *lengths, size_t n)
 {
     uint16_t first[MAX_CODE_BITS + 2] = {0};
@@ -63,7 +64,8 @@ static bool build_code(inflater *z, huffman *h, const uint8_t *lengths, size_t n
     return true;
 }
 
-/* Bit by bit: code - first is the rank among the codes of this length. */
+/* Reads a symbol bit by bit. Codes of one length are consecutive numbers: `first` is the smallest, idx the index of its
+ * symbol, so code - first is the rank among them. */
 static uint32_t take_symbol(inflater *z, const huffman *h)
 {
     uint32_t code = 0, first = 0, idx = 0;
@@ -80,6 +82,7 @@ static uint32_t take_symbol(inflater *z, const huffman *h)
     return 0;
 }
 
+/* A block without compression: its length, the complement of that, and the bytes. */
 static bool expand_stored(inflater *z)
 {
     z->bits = 0; /* to the next byte; less than one is ever held back here */
@@ -95,6 +98,7 @@ static bool expand_stored(inflater *z)
     return true;
 }
 
+/* A match: so many bytes as lie so far back are repeated; the two may overlap. length_code: from 0. */
 static bool copy_match(inflater *z, uint32_t length_code, const huffman *distances)
 {
     if (length_code >= ZLIB_LENGTH_CODES) return fail(z, "a match length is unknown");
@@ -110,6 +114,7 @@ static bool copy_match(inflater *z, uint32_t length_code, const huffman *distanc
     return true;
 }
 
+/* A compressed block: symbols below 256 are bytes, 256 ends it, larger ones begin a match. */
 static bool expand_coded(inflater *z, const huffman *literals, const huffman *distances)
 {
     for (;;) {
@@ -125,6 +130,7 @@ static bool expand_coded(inflater *z, const huffman *literals, const huffman *di
     }
 }
 
+/* The codes of blocks of type 1, which the format fixes. */
 static bool fixed_codes(inflater *z, huffman *literals, huffman *distances)
 {
     uint8_t lengths[N_LITERALS];
@@ -134,7 +140,7 @@ static bool fixed_codes(inflater *z, huffman *literals, huffman *distances)
     return build_code(z, distances, lengths, N_DISTANCES);
 }
 
-/* Symbols 16, 17 and 18 repeat a length. */
+/* Lengths of codes: 0 .. 15 are lengths; 16 repeats the last one, 17 and 18 repeat 0. */
 static bool take_lengths(inflater *z, const huffman *code, uint8_t *lengths, size_t n)
 {
     for (size_t i = 0; i < n;) {
@@ -154,6 +160,8 @@ static bool take_lengths(inflater *z, const huffman *code, uint8_t *lengths, siz
     return true;
 }
 
+/* The codes of blocks of type 2: their lengths come first, by a code whose own lengths come in an order of the
+ * format's. */
 static bool dynamic_codes(inflater *z, huffman *literals, huffman *distances)
 {
     static const uint8_t order[N_CODE_LENGTHS] = {16, 17, 18, 0, 8, 7, 9, 6, 10, 5, 11, 4, 12, 3, 13, 2, 14, 1, 15};

@@ -1,9 +1,11 @@
-/* A model's nodes and clips as C. */
+/* A model's nodes and animation clips as C: the arrays that a gn_rig (lib/gn_rig.h) points to. F(name) in the text that
+ * is written is a macro of the written file: ".name =" in C, nothing in C++11, which has no designated initialisers. */
 #include "compile_emit.h"
 #include "rig.h"
 
 #include <inttypes.h>
 
+/* The arrays of numbers of a channel: times of its keys, and vectors or quaternions. */
 static void write_numbers(FILE *f, const gn_rig_channel *c, const char *kind, size_t idx)
 {
     emit_array(f, EMIT_U16, kind, idx, "tick", c->tick, c->n_keys, 2 * EMIT_PER_LINE);
@@ -11,13 +13,15 @@ static void write_numbers(FILE *f, const gn_rig_channel *c, const char *kind, si
     emit_array(f, EMIT_I16, kind, idx, "quaternion", c->quaternion_q15, 4U * c->n_keys, EMIT_PER_LINE);
 }
 
+/* A field that points to such an array, or 0 where the channel has none. */
 static void write_name(FILE *f, const char *field, const char *kind, size_t idx, const char *name, const void *at)
 {
     if (at) fprintf(f, "F(%s) %s_%zu_%s, ", field, kind, idx, name);
     else fprintf(f, "F(%s) 0, ", field);
 }
 
-/* kind: of the arrays, which are numbered from `first` on */
+/* Channels with their arrays. kind, "rest" or "clip", begins the arrays' names, which are numbered from `first` on. C
+ * has no empty array: without channels there is one that nothing refers to. */
 static void write_channels(FILE *f, const gn_rig_channel *all, size_t n, const char *kind, size_t first)
 {
     for (size_t i = 0; i < n; i++) write_numbers(f, &all[i], kind, first + i);
@@ -35,6 +39,7 @@ static void write_channels(FILE *f, const gn_rig_channel *all, size_t n, const c
     fprintf(f, "};\n");
 }
 
+/* Transforms of nodes that no clip moves. */
 static void write_fixed(FILE *f, const fixed_rig *r)
 {
     if (!r->n_fixed) return;
@@ -47,6 +52,7 @@ static void write_fixed(FILE *f, const fixed_rig *r)
     fprintf(f, "};\n");
 }
 
+/* Nodes, and links: what stands on them. */
 static void write_nodes(FILE *f, const fixed_rig *r)
 {
     fprintf(f, "static const gn_rig_node rig_nodes[%u] = {\n", r->fixed.n_nodes);
@@ -66,6 +72,7 @@ static void write_nodes(FILE *f, const fixed_rig *r)
     fprintf(f, "};\n");
 }
 
+/* To whole words. */
 static long padded(long bytes)
 {
     return (bytes + 3) / 4 * 4;
@@ -77,7 +84,8 @@ static long channel_bytes(const gn_rig_channel *c)
     return 20 + (c->tick ? padded(2 * n) : 0) + (c->xyz ? 12 * n : 8 * n);
 }
 
-/* As 32-bit targets lay out the structures of gnomon.h. */
+/* Bytes of flash of all that rig_emit() writes, as 32-bit targets lay out the structures of gn_rig.h: a gn_rig and a
+ * gn_rig_channel have 20, a node and a clip 12, a link 6, a gn_affine 52. */
 long rig_flash_bytes(const fixed_rig *r)
 {
     long bytes =
