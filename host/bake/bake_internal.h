@@ -31,8 +31,8 @@ typedef struct {
 } baker;
 
 /* bake_light.c: at a point of a triangle, 1 lit: what arrives of the lights of each channel; and the irradiance of the
- * lights that are baked whole. bary: not negative. False, if asked to look: the point is inside something, where nobody
- * sees it. */
+ * lights that are baked whole. bary: not negative. False, with `look` alone: the point is inside something, where
+ * nobody sees it. */
 bool bake_masks_at(const baker *b, const ref_triangle *t, const double bary[3], bool look, double mask[BAKE_CHANNELS]);
 vec3 bake_light_at(const baker *b, const ref_triangle *t, const double bary[3]);
 
@@ -45,10 +45,10 @@ int bake_texels(baker *b, char *error, size_t error_bytes);
 /* bake_fit.c: a chart's masks, such that what is interpolated between its texels comes nearest to what the rays found.
  */
 typedef struct {
-    int w, h, n;    /* texels; points per side of a texel */
+    int w, h, n;    /* w x h texels, n x n points of each that rays were sent from */
     float *masks;   /* BAKE_CHANNELS per texel, 0..1: as first guessed, and then fitted */
     size_t *sample; /* of each texel: 1 + its place in samples; 0: its mask is right */
-    float *samples; /* BAKE_CHANNELS per point; NaN: it may be anything */
+    float *samples; /* BAKE_CHANNELS per point; NaN: nobody sees the point, so it may be anything */
     size_t n_sampled;
 } bake_fit;
 int bake_fit_masks(bake_fit *fit); /* 0, or -1: out of memory */

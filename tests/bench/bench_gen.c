@@ -45,6 +45,7 @@ static double signed_area(const candidate *c)
     return ((c->x[1] - c->x[0]) * (c->y[2] - c->y[0]) - (c->x[2] - c->x[0]) * (c->y[1] - c->y[0])) / 2;
 }
 
+/* Whether area and height over the longest side are within the limits. */
 static int shape_fits(const candidate *c, const shape *limits)
 {
     double area = fabs(signed_area(c)), longest = 0;
@@ -56,6 +57,7 @@ static int shape_fits(const candidate *c, const shape *limits)
     return area * 2 / longest >= longest * min_height;
 }
 
+/* From the screen to view space, counter-clockwise: x and y in the unit of z, y upwards. */
 static void unproject(bench_triangle *out, const candidate *c)
 {
     int clockwise = signed_area(c) > 0;

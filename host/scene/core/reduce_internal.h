@@ -12,6 +12,8 @@ typedef struct {
     double nn[6], nd[3], dd; /* nn: xx xy xz yy yz zz */
 } reduce_quadric;
 
+/* An edge that may be collapsed: point `from` would move onto `to`. It is stale if a point has got another stamp since.
+ */
 typedef struct {
     double cost;
     uint32_t from, to;             /* points */

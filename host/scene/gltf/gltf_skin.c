@@ -32,6 +32,7 @@ static bool read_binds(gltf *g, const json_value *json, size_t n, scene_joint *o
     return true;
 }
 
+/* Where each joint takes a vertex: now, and at rest (a node's transform without animation). */
 static bool read_joints(gltf *g, const json_value *list, gltf_skin *out)
 {
     const size_t n_nodes = g->nodes ? g->nodes->n_children : 0;
@@ -67,6 +68,7 @@ bool gltf_read_skin(gltf *g, size_t node_idx, gltf_skin *out)
     return out->joints && read_binds(g, json, list->n_children, out->joints) && read_joints(g, list, out);
 }
 
+/* Every vertex names joints that there are. */
 static bool check_indices(gltf *g, const json_value *where, const scene_mesh *mesh, size_t n_joints)
 {
     for (size_t i = 0; i < 4 * mesh->n_vertices; i++)
