@@ -373,7 +373,8 @@ bool compile_find_nearest(const compiled *c, const board *b, char *out, size_t b
     }
     if (found) return true;
     snprintf(out, bytes,
-             "no settings do: the least that was found, each by itself, is %ld bytes of RAM and %ld of flash",
+             "no settings do with 1/64 to spare: the least that was found, each by itself, is %ld bytes of RAM and %ld "
+             "of flash",
              s.min_ram, s.min_flash);
     return false;
 }
