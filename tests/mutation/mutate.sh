@@ -111,8 +111,10 @@ compact() {
     if [ "$1" = mutant ] && cmp -s compact/mutant.o compact/original.o && cmp -s compact/mutant.small.o compact/original.small.o; then echo "same code" && return; fi
     $one -std=c99 '-DGN_USER_CONFIG="compact_config.h"' -o "compact/golden" "compact/$1.o" boards/apps/compact.c boards/host/startup.c boards/common/print.c
     (ulimit -t "$seconds" && compact/golden 2>&1) | grep '^frame' | cmp -s - tests/oracle/compact_golden.txt || { echo "killed by compact_golden" && return; }
-    $one $small -DGN_ATLAS_SIZE=128 '-DLIBRARY="lib/gnomon.c"' -o compact/bounds tests/oracle/compact_bounds.c -lm
-    (ulimit -t "$seconds" && compact/bounds >/dev/null 2>&1) || { echo "killed by compact_bounds" && return; }
+    for stages in compact_exact compact_bounds; do
+        $one $small -DGN_ATLAS_SIZE=128 '-DLIBRARY="lib/gnomon.c"' -o compact/$stages tests/oracle/$stages.c -lm
+        (ulimit -t "$seconds" && compact/$stages >/dev/null 2>&1) || { echo "killed by $stages" && return; }
+    done
     $one $small -DGN_MAX_TRIANGLES=64 -DGN_MAX_HEIGHT=64 -fsanitize=undefined -fno-sanitize-recover=all -o compact/range tests/oracle/compact_range.c lib/gnomon.c -lm
     (ulimit -t "$seconds" && compact/range 5000 >/dev/null 2>&1) || { echo "killed by compact_range" && return; }
     echo SURVIVED
