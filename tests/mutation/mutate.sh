@@ -17,7 +17,7 @@ cd "$(dirname "$0")/../.." || exit 1
 root=$PWD/build/mutate tree=$PWD/build/mutate/tree
 : "${SEED:=$(date +%Y%m%d)}" "${N:=500}" "${MINUTES:=10000}"
 : "${FILES:=$(find lib -mindepth 2 -name 'gn_*.[ch]' | grep -v -e gn_tables -e lib/compact/ | sort | tr '\n' ' ')}"
-: "${TESTS:=test_golden test_kept test_frame}"
+: "${TESTS:=test_golden_random test_golden test_kept test_frame}"
 
 # The tree is copied: the sources stay as they are. Objects of before are kept where the sources are the same.
 mkdir -p "$tree"
@@ -58,7 +58,7 @@ slow() {
     lib/light/*) echo test_bias test_casters test_culling ;;
     lib/shadow/*) echo test_casters test_bias test_culling test_stages test_census ;;
     lib/visible/*) echo test_groups test_screen test_corner_cases test_stages ;;
-    lib/shade/*) echo test_radiance test_punctual test_corner_cases test_screen test_contact test_stages test_census ;;
+    lib/shade/*) echo test_facets test_radiance test_punctual test_corner_cases test_screen test_contact test_stages test_census ;;
     esac
 }
 tests_of() { # tests_of PASS FILE: each once, if there is such a test

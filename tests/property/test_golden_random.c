@@ -107,7 +107,10 @@ static struct {
     uint8_t texel[4 * TEXELS], glow[4 * TEXELS], mask_texel[4 * MASK_TEXELS], mask[4 * DEMO_BALL_VERTICES];
     uint16_t mask_uv[2 * DEMO_BALL_VERTICES], baked[3 * DEMO_BALL_VERTICES];
     int16_t uv[2 * DEMO_BALL_VERTICES];
+    uint8_t joint_idx[2 * DEMO_BALL_VERTICES], weight[2 * DEMO_BALL_VERTICES];
     gn_texture texture, glows, masks;
+    gn_affine joint[2];
+    gn_skin skin;
 } detail;
 
 static void random_images(void)
@@ -149,10 +152,26 @@ static void detailed(gn_object *o, gn_mesh *mesh)
     o->alpha_cutoff_uq16 = rnd() % 65537;
 }
 
+/* The ball's vertices between two joints. */
+static void random_pose(gn_object *o)
+{
+    for (int i = 0; i < 2 * DEMO_BALL_VERTICES; i++) {
+        detail.joint_idx[i] = (uint8_t)(i % 2);
+        if (i % 2) detail.weight[i] = (uint8_t)(255 - detail.weight[i - 1]);
+    }
+    for (int i = 0; i < 2; i++) {
+        gn_affine_rotation(&detail.joint[i], (uint16_t)(rnd() % 8000), (uint16_t)(rnd() % 8000), 0);
+        for (int k = 0; k < 3; k++) detail.joint[i].t_q16[k] = (int32_t)(rnd() % 30000);
+    }
+    detail.skin = (gn_skin){detail.joint, detail.joint_idx, detail.weight, 2, 2};
+    o->skin = one_in(3) ? &detail.skin : NULL;
+}
+
 static void random_details(rng *r)
 {
     random_images();
     ls_begin(&room);
+    random_pose(&room.object[2]);
     detailed(&room.object[0], &room.demo.ground);
     detailed(&room.object[2], &room.demo.ball);
     ls_add_random_objects(&room, r, 4);
