@@ -14,7 +14,7 @@
 #include "light_scene.h"
 #include "random_scene.h"
 
-enum { N_SUMS = 12, N_WILD = 60, N_ROOMS = 14, N_DETAILS = 20, WIDTH = 40, HEIGHT = 32 };
+enum { N_SUMS = 12, N_WILD = 60, N_ROOMS = 14, N_DETAILS = 36, WIDTH = 40, HEIGHT = 32 };
 
 static gn_renderer one;
 static random_scene wild;
