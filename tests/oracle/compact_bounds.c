@@ -270,7 +270,7 @@ static void shadows(void)
             const int x = tri->begin[0] + (int)(rnd() % (uint32_t)(tri->end[0] - tri->begin[0]));
             const int y = tri->begin[1] + (int)(rnd() % (uint32_t)(tri->end[1] - tri->begin[1]));
             const lit_place p = place_of(frame, tri, x, y);
-            int open = p.z > 1 << 27;
+            int open = p.z > 1 << 28;
             double tolerance = 1, expected = light_at(frame, &s, &p, &tolerance, &open);
             if (open || tolerance > 3000) continue;
             const double light = shadow_at(frame, &s, x, y);

@@ -262,6 +262,7 @@ static void random_corners(gn_compact_corner c[3], const gn_compact_view *view, 
 {
     double middle[2] = {uniform(0, view->size[0]), uniform(0, view->size[1])}, flat = rnd() % 8 ? 1 : 0;
     reach_px = any_size(0.01, 1400);
+    for (int k = 0; k < 2 && reach_px < 0.2; k++) middle[k] = floor(middle[k]) + 0.5; /* or it would cover no pixel */
     for (int i = 0; i < 3; i++) {
         for (int k = 0; k < 2; k++) {
             double at = fmax(fmin(middle[k] + uniform(-reach_px, reach_px), 1400), -1200);
@@ -370,6 +371,31 @@ static void drawings(void)
     CHECK(drawn > 100000);
 }
 
+/* Of more triangles than there is room for, all are counted, and none is kept behind the last place. */
+static void many(void)
+{
+    static const int32_t pos[9] = {-65536, -65536, -131072, 65536, -65536, -131072, 0, 65536, -131072};
+    static uint16_t idx[3 * (GN_MAX_TRIANGLES + 2)];
+    gn_mesh mesh = {pos, .idx = idx, .n_vertices = 3, .n_triangles = GN_MAX_TRIANGLES + 2, .pos_frac_bits = 16};
+    gn_object object = {.mesh = &mesh, .flags = GN_OBJECT_UNLIT};
+    gn_scene scene;
+    gn_light sun;
+    gn_frame *frame = &renderer.frame;
+    long wrong = 0;
+    for (int i = 0; i < 3 * mesh.n_triangles; i++) idx[i] = (uint16_t)(i % 3);
+    while (setup_frame(&scene, &sun, 64, 64)) continue;
+    gn_affine_identity(&object.to_world);
+    gn_affine_identity(&scene.camera.to_world);
+    scene.camera.near_q16 = 65536, scene.camera.focal_q24 = 1 << 25;
+    scene.n_lights = 0, scene.objects = &object, scene.n_objects = 1;
+    CHECK_EQ_INT(gn_begin(&renderer, &scene), GN_OK);
+    memset(frame->atlas, 0x55, sizeof frame->atlas);
+    CHECK_EQ_INT(gn_setup_triangles(frame, &renderer.scratch), GN_ERR_TRIANGLES_FULL);
+    CHECK_EQ_INT(frame->stats.n_triangles, GN_MAX_TRIANGLES + 2);
+    for (int i = 0; i < GN_ATLAS_SIZE * GN_ATLAS_SIZE; i++) wrong += frame->atlas[i] != 0x5555;
+    CHECK_EQ_INT(wrong, 0);
+}
+
 static void biases(void)
 {
     long wrong = 0;
@@ -431,6 +457,7 @@ int main(void)
     clips();
     setups();
     drawings();
+    many();
     biases();
     surfaces();
     return check_report();
