@@ -15,9 +15,9 @@ GN_HOT static void ray_planes(const gn_frame *frame, gn_light_state *light)
     const gn_cam *cam = &frame->cam;
     gn_bfloat per_px = cam->inv_focal2;
     per_px.exp += 16;
-    /* |ray| <= 1 + |x| + |y| over depth; tan_q16 bounds the two */
+    /* |ray| <= 1 + |x| + |y| over depth; tan_q16 bounds the two, that of y below 33 */
     uint32_t reach_q16 = 65536U + ((uint32_t)cam->tan_q16[0] > 1U << 30 ? 1U << 30 : (uint32_t)cam->tan_q16[0]) +
-                         ((uint32_t)cam->tan_q16[1] > 1U << 30 ? 1U << 30 : (uint32_t)cam->tan_q16[1]);
+                         (uint32_t)cam->tan_q16[1];
     light->ray_shift = 30 - (32 - gn_clz32(reach_q16) - 16);
     for (int i = 0; i < 3; i++) {
         gn_ray_plane *ray = &light->from_light[i];

@@ -17,7 +17,7 @@ cd "$(dirname "$0")/../.." || exit 1
 root=$PWD/build/mutate tree=$PWD/build/mutate/tree
 : "${SEED:=$(date +%Y%m%d)}" "${N:=500}" "${MINUTES:=10000}"
 : "${FILES:=$(find lib -mindepth 2 -name 'gn_*.[ch]' | grep -v -e gn_tables -e lib/compact/ | sort | tr '\n' ' ')}"
-: "${TESTS:=test_golden test_kept test_frame}"
+: "${TESTS:=test_golden_random test_golden test_kept test_frame}"
 
 # The tree is copied: the sources stay as they are. Objects of before are kept where the sources are the same.
 mkdir -p "$tree"
@@ -58,7 +58,7 @@ slow() {
     lib/light/*) echo test_bias test_casters test_culling ;;
     lib/shadow/*) echo test_casters test_bias test_culling test_stages test_census ;;
     lib/visible/*) echo test_groups test_screen test_corner_cases test_stages ;;
-    lib/shade/*) echo test_radiance test_punctual test_corner_cases test_screen test_contact test_stages test_census ;;
+    lib/shade/*) echo test_facets test_radiance test_punctual test_corner_cases test_screen test_contact test_stages test_census ;;
     esac
 }
 tests_of() { # tests_of PASS FILE: each once, if there is such a test
@@ -111,8 +111,10 @@ compact() {
     if [ "$1" = mutant ] && cmp -s compact/mutant.o compact/original.o && cmp -s compact/mutant.small.o compact/original.small.o; then echo "same code" && return; fi
     $one -std=c99 '-DGN_USER_CONFIG="compact_config.h"' -o "compact/golden" "compact/$1.o" boards/apps/compact.c boards/host/startup.c boards/common/print.c
     (ulimit -t "$seconds" && compact/golden 2>&1) | grep '^frame' | cmp -s - tests/oracle/compact_golden.txt || { echo "killed by compact_golden" && return; }
-    $one $small -DGN_ATLAS_SIZE=128 '-DLIBRARY="lib/gnomon.c"' -o compact/bounds tests/oracle/compact_bounds.c -lm
-    (ulimit -t "$seconds" && compact/bounds >/dev/null 2>&1) || { echo "killed by compact_bounds" && return; }
+    for stages in compact_exact compact_bounds; do
+        $one $small -DGN_ATLAS_SIZE=128 '-DLIBRARY="lib/gnomon.c"' -o compact/$stages tests/oracle/$stages.c -lm
+        (ulimit -t "$seconds" && compact/$stages >/dev/null 2>&1) || { echo "killed by $stages" && return; }
+    done
     $one $small -DGN_MAX_TRIANGLES=64 -DGN_MAX_HEIGHT=64 -fsanitize=undefined -fno-sanitize-recover=all -o compact/range tests/oracle/compact_range.c lib/gnomon.c -lm
     (ulimit -t "$seconds" && compact/range 5000 >/dev/null 2>&1) || { echo "killed by compact_range" && return; }
     echo SURVIVED

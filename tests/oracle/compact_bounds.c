@@ -2,40 +2,7 @@
  * whole library as one file, LIBRARY, of which it asks the stages. */
 #include LIBRARY
 
-#include <stdlib.h>
-
-#include "check.h"
-
-static gn_renderer renderer;
-
-static uint32_t rnd(void)
-{
-    static uint64_t state = 7;
-    state = state * 6364136223846793005U + 1442695040888963407U;
-    uint32_t x = (uint32_t)(state >> 32);
-    return x ^ x >> 15;
-}
-
-static double uniform(double lo, double hi)
-{
-    return lo + (hi - lo) * rnd() / 4294967296.0;
-}
-
-static double any_size(double lo, double hi)
-{
-    return lo * pow(hi / lo, uniform(0, 1));
-}
-
-static void most(double *worst, double error)
-{
-    *worst = fmax(*worst, fabs(error));
-}
-
-static void bounded(const char *what, double worst, double bound)
-{
-    if (!CHECK(worst <= bound)) printf("  %s: %g, at most %g\n", what, worst, bound);
-    if (getenv("SHOW")) printf("%s: %g of %g\n", what, worst, bound);
-}
+#include "compact_random.h"
 
 static void units(void)
 {
@@ -55,31 +22,6 @@ static void units(void)
 }
 
 /* ---- Points ------------------------------------------------------------------------------------------------------ */
-
-static gn_camera random_camera(void)
-{
-    gn_camera c = {.focal_q24 = (uint32_t)(uniform(1.6, 8) * 16777216),
-                   .near_q16 = (int32_t)any_size(65536, 1 << 22),
-                   .far_q16 = INT32_MAX};
-    gn_affine_rotation(&c.to_world, (uint16_t)rnd(), (uint16_t)rnd(), (uint16_t)rnd());
-    for (int i = 0; i < 3; i++) c.to_world.t_q16[i] = (int32_t)uniform(-268435456, 268435456);
-    return c;
-}
-
-/* Of a frame with this camera and a sun; returns its status. */
-static gn_status setup_frame(gn_scene *scene, gn_light *sun, int width, int height)
-{
-    const gn_picture picture = {(uint16_t)width, (uint16_t)height, GN_FORMAT_RGB565, GN_VIEW_COLOUR, 0};
-    *sun = (gn_light){.direction = {(int32_t)rnd() >> 1, (int32_t)rnd() >> 1, (int32_t)rnd() >> 1},
-                      .shadow_strength_uq16 = 65536,
-                      .bias_normal_q16 = (int32_t)uniform(1, 1 << 18)};
-    *scene = (gn_scene){.lights = sun, .n_lights = 1, .camera = random_camera()};
-    scene->shadow.max_distance_q16 = (int32_t)fmin(1 << 28, scene->camera.near_q16 * any_size(2, 1000));
-    scene->shadow.distance_fade_uq16 = 6554;
-    scene->shadow.cascade_fade_uq16 = (uint32_t)uniform(66, 20000);
-    gn_init(&renderer, &picture);
-    return gn_begin(&renderer, scene);
-}
 
 static void points(void)
 {
@@ -197,11 +139,185 @@ static void tiles(void)
     bounded("the tile's place, of its bound", middle, 1);
 }
 
+/* ---- The light's axes -------------------------------------------------------------------------------------------- */
+
+/* u, v, w of MODEL 4, and a face's normal along them, towards the viewer. */
+static void axes(void)
+{
+    double worst = 0, faces = 0;
+    for (int n = 0; n < 20000; n++) {
+        gn_scene scene;
+        gn_light sun;
+        int32_t v[3][3];
+        int16_t got[3];
+        if (setup_frame(&scene, &sun, 160, 120)) continue;
+        const gn_frame *frame = &renderer.frame;
+        const gn_compact_view *view = &frame->view[0].project, *cam = &frame->cam;
+        double w[3], u[3], m[3], size = 0, u_size = 0, normal[3], towards = 0, along = 0;
+        for (int i = 0; i < 3; i++) size += pow(sun.direction[i], 2);
+        for (int i = 0; i < 3; i++) w[i] = sun.direction[i] / sqrt(size);
+        if (fabs(fabs(w[1]) - 0.9375) < 1e-6) continue;
+        const double hint[3] = {fabs(w[1]) >= 0.9375, fabs(w[1]) < 0.9375, 0};
+        for (int i = 0; i < 3; i++) u[i] = hint[(i + 1) % 3] * w[(i + 2) % 3] - hint[(i + 2) % 3] * w[(i + 1) % 3];
+        for (int i = 0; i < 3; i++) u_size += u[i] * u[i];
+        for (int i = 0; i < 3; i++) u[i] /= sqrt(u_size);
+        for (int i = 0; i < 3; i++) m[i] = w[(i + 1) % 3] * u[(i + 2) % 3] - w[(i + 2) % 3] * u[(i + 1) % 3];
+        for (int i = 0; i < 3; i++) {
+            most(&worst, view->axis_q30[2][i] - w[i] * (1 << 30));
+            most(&worst, (view->axis_q30[0][i] - u[i] * (1 << 30)) / 4); /* shortest: 0.34 */
+            most(&worst, (view->axis_q30[1][i] - m[i] * (1 << 30)) / 4);
+        }
+        for (int i = 0; i < 9; i++) v[i / 3][i % 3] = (int32_t)uniform(-(1 << 28), 1 << 28);
+        compact_face_normal(got, frame, v);
+        double a[3], b[3], world[3] = {0}, length = 0;
+        for (int i = 0; i < 3; i++) a[i] = v[1][i] - v[0][i], b[i] = v[2][i] - v[0][i];
+        for (int i = 0; i < 3; i++) normal[i] = a[(i + 1) % 3] * b[(i + 2) % 3] - a[(i + 2) % 3] * b[(i + 1) % 3];
+        for (int i = 0; i < 3; i++) length += normal[i] * normal[i], towards -= normal[i] * v[0][i];
+        length = sqrt(length);
+        if (fabs(towards) < length || length < 1 << 30) continue;
+        for (int i = 0; i < 3; i++)
+            for (int k = 0; k < 3; k++) world[i] += cam->axis_q30[k][i] * normal[k] / length * (towards < 0 ? -1 : 1);
+        for (int k = 0; k < 3; k++, along = 0) {
+            for (int i = 0; i < 3; i++) along += ldexp(world[i], -60) * view->axis_q30[k][i];
+            most(&faces, got[k] - along * 16384);
+        }
+    }
+    bounded("axes of the light, LSB of Q30", worst, 8);
+    bounded("normals of faces, LSB of Q14", faces, 1.01);
+    const int32_t line[3][3] = {{65536, 0, 65536}, {131072, 0, 131072}, {262144, 0, 262144}};
+    int32_t v[3][3];
+    int16_t none[3] = {1, 1, 1};
+    memcpy(v, line, sizeof v);
+    compact_face_normal(none, &renderer.frame, v);
+    CHECK(!none[0] && !none[1] && !none[2]);
+}
+
+/* ---- Shadows ----------------------------------------------------------------------------------------------------- */
+
+typedef struct {
+    double z, at[3], error; /* view depth; U, V, D in Q16 texels, and how far off they may be */
+} lit_place;
+
+/* Where the light's tile has the point that a pixel shows. */
+static lit_place place_of(const gn_frame *frame, const gn_tri *tri, int x, int y)
+{
+    const gn_camera *camera = &frame->scene->camera;
+    const gn_compact_view *cam = &frame->cam, *view = &frame->view[0].project;
+    const double key = fmax((int32_t)gn_compact_key(tri, x, y), 1), scale = ldexp(view->scale, -view->shift);
+    lit_place p = {.z = ldexp(cam->near_q16 / key, 30)};
+    const double f2 = ldexp((double)camera->focal_q24 * frame->picture.height, -24);
+    const double v[3] = {p.z * (2 * x + 1 - cam->size[0]) / f2, p.z * (cam->size[1] - 2 * y - 1) / f2, -p.z};
+    for (int k = 0; k < 3; k++) {
+        for (int i = 0; i < 3; i++) {
+            double world = cam->eye_q16[i] - (double)view->eye_q16[i];
+            for (int j = 0; j < 3; j++) world += ldexp(camera->to_world.m_q30[i][j], -30) * v[j];
+            p.at[k] += ldexp(view->axis_q30[k][i], -30) * world * scale;
+        }
+        p.error += (fabs(v[k]) * ldexp(1, -20) + 4) * scale;
+        if (k < 2) p.at[k] += GN_ATLAS_SIZE << 15;
+    }
+    p.error += 2;
+    return p;
+}
+
+/* The light that the atlas leaves at a place: 65536 or less; `open` where a texel or a depth is too close to say. */
+static double light_at(const gn_frame *frame, const surface *s, const lit_place *p, double *tolerance, int *open)
+{
+    const gn_scene *scene = frame->scene;
+    const double max = scene->shadow.max_distance_q16,
+                 fade = fmax(floor(max * scene->shadow.distance_fade_uq16 / 65536), 1);
+    double rest = ldexp((double)frame->radius2_q32, -16), strength = fmin(fmax((max - p->z) / fade, 0), 1);
+    int at[2];
+    for (int k = 0; k < 3; k++) rest -= pow(p->at[k] - frame->centre_q16[k], 2) / 65536;
+    const double radius = sqrt(ldexp((double)frame->radius2_q32, -16)) * 256, error = p->error * 8 * radius / 65536;
+    const double depth = (p->at[2] + s->offset_q16[2]) / (1 << (GN_COMPACT_STEP_SHIFT - 2));
+    for (int k = 0; k < 2; k++) {
+        const double texel = (p->at[k] + s->offset_q16[k]) / 65536;
+        at[k] = (int)fmax(fmin(floor(texel), GN_ATLAS_SIZE - 1), 0);
+        *open |= fabs(texel - floor(texel + 0.5)) < p->error / 65536 && texel > -1 && texel < GN_ATLAS_SIZE + 1;
+    }
+    strength *= fmin(fmax(rest / frame->sphere.width, 0), 1);
+    *tolerance = 4 + 65536 * (error / frame->sphere.width + (2 + ldexp(p->z, -20)) / fade);
+    const double stored = frame->atlas[at[1] * GN_ATLAS_SIZE + at[0]];
+    *open |= fabs(depth - stored) < 2 + p->error && stored < 65535;
+    return fmin(depth, 65535) <= stored ? 65536 : 65536 - strength * scene->lights->shadow_strength_uq16;
+}
+
+static void shadows(void)
+{
+    double worst = 0;
+    long dark = 0, faded = 0, decided = 0;
+    for (int n = 0; n < 4000; n++) {
+        gn_scene scene;
+        gn_light sun;
+        gn_compact_corner c[3];
+        gn_frame *frame = &renderer.frame;
+        gn_tri *tri = &frame->tri[0];
+        surface s = {0};
+        if (setup_frame(&scene, &sun, 160, 120)) continue;
+        sun.shadow_strength_uq16 = rnd() % 65537;
+        for (int i = 0; i < 3; i++) {
+            for (int k = 0; k < 2; k++) c[i].at_q16[k] = (int32_t)uniform(-100, 260) * 65536;
+            c[i].key = (int32_t)ldexp(scene.camera.near_q16 / (scene.shadow.max_distance_q16 * uniform(0.01, 1.1)), 30);
+            if (c[i].key <= 0) c[i].key = 1 << 30;
+            tri->normal_q14[i] = (int16_t)uniform(-9000, 9000);
+        }
+        if (!setup(tri, c, &frame->cam, GN_OBJECT_TWO_SIDED)) continue;
+        for (int i = 0; i < GN_ATLAS_SIZE * GN_ATLAS_SIZE; i++)
+            frame->atlas[i] = (uint16_t)(rnd() % 4 == 0 ? rnd() : rnd() % 3 == 0 ? 65535 : 0);
+        move_receiver(frame, &s, tri);
+        for (int i = 0; i < 20; i++) {
+            const int x = tri->begin[0] + (int)(rnd() % (uint32_t)(tri->end[0] - tri->begin[0]));
+            const int y = tri->begin[1] + (int)(rnd() % (uint32_t)(tri->end[1] - tri->begin[1]));
+            const lit_place p = place_of(frame, tri, x, y);
+            int open = p.z > 1 << 28;
+            double tolerance = 1, expected = light_at(frame, &s, &p, &tolerance, &open);
+            if (open || tolerance > 3000) continue;
+            const double light = shadow_at(frame, &s, x, y);
+            most(&worst, (light - expected) / tolerance);
+            decided++, dark += light < 60000,
+                faded += light < 65000 && light > 65536.0 - sun.shadow_strength_uq16 + 500;
+        }
+    }
+    CHECK(decided > 10000 && dark > 1000 && faded > 1000);
+    if (getenv("SHOW")) printf("%ld decided, %ld dark, %ld faded\n", decided, dark, faded);
+    bounded("light at a pixel, of its bound", worst, 1);
+}
+
+/* How far receivers move, and where shadows fade [B2, B6, D5, D6]; Q16 texels. */
+static void settings(void)
+{
+    double offset = 0, sphere = 0;
+    for (int n = 0; n < 10000; n++) {
+        gn_scene scene;
+        gn_light sun;
+        if (setup_frame(&scene, &sun, 160, 120)) continue;
+        const gn_frame *frame = &renderer.frame;
+        const double keep = 1 - scene.shadow.cascade_fade_uq16 / 65536.0, r2 = ldexp((double)frame->radius2_q32, -16);
+        most(&offset, frame->offset_q16 - sqrt(2) * sun.bias_normal_q16);
+        most(&sphere, (frame->sphere.width - r2 * (1 - keep * keep)) / (2 + r2 * ldexp(1, -28)));
+        CHECK_EQ_INT(frame->flat_offset_q16, 0);
+        CHECK_EQ_INT(frame->distance.width, (int64_t)scene.shadow.max_distance_q16 * 6554 >> 16);
+        sun.bias_normal_q16 = 0;
+        if (!GN_AUTO_BIAS || gn_begin(&renderer, &scene)) continue;
+        const double per_q16 = ldexp(frame->view[0].project.scale, -frame->view[0].project.shift);
+        const double m = scene.shadow.max_distance_q16 * per_q16, f2 = 120 * ldexp(scene.camera.focal_q24, -24);
+        const double epsilon = 512 + 8 * per_q16 + m / f2 / 128;
+        most(&offset, (frame->offset_q16 - (32768 + 138 + epsilon)) / 2);
+        most(&offset, (frame->flat_offset_q16 - (GN_ATLAS_SIZE * (1 + 1 / 64.0) + 11 + epsilon)) / 2);
+    }
+    bounded("offsets of receivers, LSB", offset, 2);
+    bounded("width of the sphere's fade, of its bound", sphere, 1);
+}
+
 int main(void)
 {
     units();
     points();
     planes();
     tiles();
+    axes();
+    shadows();
+    settings();
     return check_report();
 }

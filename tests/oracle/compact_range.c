@@ -80,12 +80,14 @@ static void check_named(const char *change)
                                            {"pos[", "object.mesh->pos"},
                                            {"idx[", "object.mesh->idx"},
                                            {"sun.", "light."},
+                                           {"scene.background_", "scene.background_"},
+                                           {"scene.draw_", "scene.draw_"},
                                            {"sun.bias_normal_q16 = 0", "light.auto_bias"},
                                            {"mesh.pos_frac_bits", "object.to_world"}};
     char expected[100] = "";
     for (size_t k = 0; k < sizeof names / sizeof *names; k++) {
         const char *at = strstr(change, names[k][0]), *tail = at ? at + strlen(names[k][0]) : "";
-        const int whole = names[k][1][strlen(names[k][1]) - 1] != '.';
+        const int whole = !strchr("._", names[k][1][strlen(names[k][1]) - 1]);
         if (at)
             snprintf(expected, sizeof expected, "%s%.*s", names[k][1], whole ? 0 : (int)strcspn(tail, " .=[,"), tail);
     }
@@ -150,6 +152,41 @@ static void refusals(void)
     REFUSED(scene.shadow.cascade_fade_uq16 = 32769, GN_ERR_SHADOW_FADE);
     REFUSED(scene.shadow.filter = GN_FILTER_2X2, GN_ERR_SHADOW_FILTER);
     REFUSED(scene.shadow.n_cascades = 2, GN_ERR_SHADOW_CASCADES);
+}
+
+static void paint(void *user, int x, int y, int w, int h, void *pixels)
+{
+    (void)user, (void)x, (void)y, (void)w, (void)h, (void)pixels;
+}
+
+/* The last value that is drawn, and the first that is refused. */
+static void limits(void)
+{
+    ACCEPTED(scene.camera.near_q16 = 256; scene.shadow.max_distance_q16 = 260000);
+    ACCEPTED(scene.camera.near_q16 = GN_Q16(2048); scene.shadow.max_distance_q16 = GN_Q16(4096));
+    REFUSED(scene.camera.near_q16 = GN_Q16(2048);
+            scene.shadow.max_distance_q16 = GN_Q16(4096) + 1, GN_ERR_SHADOW_DISTANCE);
+    REFUSED(scene.camera.near_q16 = GN_Q16(2048) + 1, GN_ERR_CAMERA_DEPTH);
+    ACCEPTED(scene.shadow.max_distance_q16 = GN_Q16(1024) + 1023);
+    REFUSED(scene.shadow.max_distance_q16 = GN_Q16(1024) + 1024, GN_ERR_SHADOW_DISTANCE);
+    REFUSED(scene.shadow.max_distance_q16 = GN_Q16(1), GN_ERR_SHADOW_DISTANCE);
+    ACCEPTED(scene.shadow.cascade_fade_uq16 = 32768);
+    ACCEPTED(scene.shadow.distance_fade_uq16 = 65536);
+    REFUSED(scene.shadow.distance_fade_uq16 = 65537, GN_ERR_SHADOW_FADE);
+    ACCEPTED(scene.shadow.n_cascades = 1);
+    ACCEPTED(sun.bias_constant_q16 = GN_Q16(64) - 1);
+    REFUSED(sun.bias_constant_q16 = GN_Q16(64), GN_ERR_LIGHT_BIAS);
+    REFUSED(sun.bias_constant_q16 = -1, GN_ERR_LIGHT_BIAS);
+    ACCEPTED(sun.bias_slope_q16 = GN_Q16(64) - 1);
+    REFUSED(sun.bias_slope_q16 = GN_Q16(64), GN_ERR_LIGHT_BIAS);
+    ACCEPTED(sun.bias_normal_q16 = GN_Q16(8) - 1);
+    for (int i = 0; i < 3; i++) REFUSED(sun.bias_receiver_q16[i] = 1, GN_ERR_LIGHT_BIAS);
+    ACCEPTED(object[1].to_world.t_q16[2] = GN_Q16(-4096); scene.shadow.max_distance_q16 = GN_Q16(1000));
+    REFUSED(object[1].to_world.t_q16[2] = GN_Q16(-4096) - 1, GN_ERR_OBJECT_TRANSFORM);
+    REFUSED(scene.camera.half_height_q16 = 1, GN_ERR_CAMERA_FOCAL);
+    REFUSED(scene.background_gradient = 1, GN_ERR_BACKGROUND);
+    REFUSED(scene.draw_behind = paint, GN_ERR_BACKGROUND);
+    REFUSED(scene.draw_over = paint, GN_ERR_BACKGROUND);
 }
 
 static void many_triangles(void)
@@ -346,6 +383,7 @@ static void campaign(long n)
 int main(int argc, char **argv)
 {
     refusals();
+    limits();
     many_triangles();
     after_a_refusal();
     fill_rule();

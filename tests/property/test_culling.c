@@ -5,6 +5,7 @@
 #include "../host/tool/fixed/quantise.h"
 #include "check.h"
 #include "light_scene.h"
+#include "shadow/gn_cull.h"
 
 #define W     64
 #define H     48
@@ -28,6 +29,48 @@ static void render(gn_scene *s, uint32_t culling, int atlas_size, uint8_t *pixel
     CHECK_EQ_INT(gn_render(&renderer, s, ls_flush, &canvas), GN_OK);
 }
 
+static double length_of(const double v[3])
+{
+    return sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]);
+}
+
+/* A sphere around an object, swept along the light until it has passed all receivers, in units of Q16: whether it lies
+ * in a nearer cascade. The library's sphere is larger by what filters and biases reach. */
+static int sweep_is_inside(const gn_frame *frame, const gn_light_view *view, const gn_object_state *object, int cascade)
+{
+    const double r =
+        sqrt((double)frame->cascade[cascade].radius2_q32) * (0.8 - frame->scene->shadow.cascade_fade_uq16 / 65536.0);
+    double half[3], from[3], to[3], way = -1;
+    for (int k = 0; k < 3; k++) half[k] = (double)object->half_q16[k];
+    for (int k = 0; k < 3; k++) {
+        const double w = ldexp(view->axis_q30[2][k], -30), c = (double)object->centre_q16[k];
+        const double last = (double)frame->receivers_q16[w > 0][k];
+        const double steps = fmax((w > 0 ? last - c : c - last) + length_of(half), 0) / fabs(w);
+        if (fabs(w) > ldexp(1, -14) && (way < 0 || steps < way)) way = steps;
+    }
+    for (int k = 0; k < 3; k++) {
+        from[k] = (double)object->centre_q16[k] - frame->cam.eye_q16[k] -
+                  (double)frame->cascade[cascade].centre_q16 * ldexp(frame->cam.axis_q30[2][k], -30);
+        to[k] = from[k] + way * ldexp(view->axis_q30[2][k], -30);
+    }
+    return fmax(length_of(from), length_of(to)) + length_of(half) <= r + 16;
+}
+
+/* What is left out lies in a nearer cascade, and so does its shadow. */
+static void check_shown_nearer(const gn_frame *frame)
+{
+    for (uint32_t v = 0; v < frame->n_views; v++) {
+        const gn_light_view *view = &frame->view[v];
+        if (frame->scene->lights[view->light_idx].kind != GN_LIGHT_DIRECTIONAL) continue;
+        for (uint32_t i = 0; i < frame->scene->n_objects; i++) {
+            int inside = 0;
+            if (!gn_cull_shown_nearer(frame, view, i)) continue;
+            for (int c = 0; c < view->cascade_idx; c++) inside |= sweep_is_inside(frame, view, &frame->object[i], c);
+            CHECK(inside);
+        }
+    }
+}
+
 static int check_culling(gn_scene *s, int atlas_size, tally *t)
 {
     static uint8_t without[W * H * BYTES], with[W * H * BYTES];
@@ -35,6 +78,7 @@ static int check_culling(gn_scene *s, int atlas_size, tally *t)
     CHECK_EQ_INT(gn_get_stats(&renderer)->n_casters_culled, 0);
     t->drawn_without += gn_get_stats(&renderer)->n_caster_triangles;
     render(s, 1, atlas_size, with);
+    check_shown_nearer(&renderer.frame);
     t->pictures++;
     t->culled += gn_get_stats(&renderer)->n_casters_culled;
     t->drawn += gn_get_stats(&renderer)->n_caster_triangles;
@@ -223,6 +267,23 @@ static void test_random(void)
            t.drawn, t.drawn_without);
 }
 
+/* The same rule, without pictures, in more scenes. */
+static void test_shown_nearer(void)
+{
+    const gn_picture p = {W, H, GN_FORMAT_RGB888, GN_VIEW_COLOUR, 0};
+    rng r = {79};
+    for (int i = 0; i < 1500; i++) {
+        random_scene(&r);
+        if (i & 1) shadows_ahead(&r);
+        ls.scene.shadow.caster_culling = 1;
+        ls.scene.shadow.cascade_fade_uq16 = 700;
+        for (uint32_t l = 0; l < ls.scene.n_lights; l++) ls.light[l].receiver_plane = 0;
+        CHECK_EQ_INT(gn_init(&renderer, &p), GN_OK);
+        CHECK_EQ_INT(gn_begin(&renderer, &ls.scene), GN_OK);
+        check_shown_nearer(&renderer.frame);
+    }
+}
+
 /* The first of two cascades ends anywhere: where the second is not needed, shadows do not fade at the end of the first
  * (D6). */
 static void test_last(void)
@@ -247,6 +308,7 @@ int main(void)
 {
     test_avenue();
     test_random();
+    test_shown_nearer();
     test_last();
     return check_report();
 }

@@ -6,6 +6,7 @@
 #include "check.h"
 #include "knobs.h"
 #include "light_scene.h"
+#include "shadow/gn_static_layer.h"
 
 #define W     48
 #define H     36
@@ -695,8 +696,26 @@ static void test_thousands_of_frames(void)
     }
 }
 
+/* A layer's copy has as many texels as the tile, and nothing behind them changes. */
+static void test_layer_copy(void)
+{
+    static uint32_t layer[40], tile[40];
+    gn_light_view view = {.tile_texels = 8, .tile_rows = 4};
+    memset(layer, 0x11, sizeof layer);
+    for (int bits = 8; bits <= 32; bits *= 2) {
+        const size_t n_bytes = (size_t)(8 * 4 * bits / 8);
+        const uint8_t *bytes = (const uint8_t *)tile;
+        memset(tile, 0x77, sizeof tile);
+        view.depth_bits = (uint8_t)bits;
+        view.depth = (gn_texels){.d32 = tile};
+        gn_static_layer_copy(&view, (gn_texels){.d32 = layer});
+        CHECK(bytes[0] == 0x11 && bytes[n_bytes - 1] == 0x11 && bytes[n_bytes] == 0x77);
+    }
+}
+
 int main(void)
 {
+    test_layer_copy();
     test_script();
     test_glide();
     test_random();

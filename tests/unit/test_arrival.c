@@ -243,6 +243,24 @@ static void test_rim(void)
 }
 #endif
 
+/* [A6] Vertex normals of length 0 point nowhere: 512 along each axis. */
+static void test_no_normal(void)
+{
+    static uint32_t normal[W * H];
+    const gn_picture p = {W, H, GN_FORMAT_RAW32, GN_VIEW_NORMAL, 0};
+    int n_nowhere = 0;
+    ls_begin(&ls);
+    memset(ls.demo.ball_nrm, 0, sizeof ls.demo.ball_nrm);
+    ls.scene.objects = &ls.object[2];
+    ls.scene.n_objects = 1;
+    CHECK_EQ_INT(gn_init(&fresh, &p), GN_OK);
+    CHECK_EQ_INT(ls_prepare(&fresh, &ls.scene), GN_OK);
+    CHECK_EQ_INT(ls_screen(&fresh, normal, 4), GN_OK);
+    for (int i = 0; i < W * H; i++)
+        if (normal[i] != UINT32_MAX) n_nowhere += CHECK_EQ_INT(normal[i], 512U << 20 | 512U << 10 | 512U);
+    CHECK(n_nowhere > 50);
+}
+
 int main(void)
 {
     surface.n_lights = surface.n_punctual = surface.shadowed = 1;
@@ -250,5 +268,6 @@ int main(void)
     test_ends();
     test_places();
     test_rim();
+    test_no_normal();
     return check_report();
 }
