@@ -22,7 +22,7 @@ grep -v '^#' boards/packages/list | while read -r how from to; do
     copy) cp -r "$from" "$out/$name/$to" ;;
     fill) sed "s/@VERSION@/$version/g" "$from" >"$out/$name/$to" ;;
     one) awk -f boards/packages/one_file.awk -v root=lib "$from" >"$out/$name/$to" ;;
-    options | header) sh boards/packages/kconfig.sh "$how" >"$out/$name/$to" ;;
+    options | header | wizard) sh boards/packages/kconfig.sh "$how" >"$out/$name/$to" ;;
     keywords) keywords >"$out/$name/$to" ;;
     *) false ;;
     esac || { echo "list: $how $from $to" >&2; exit 1; }

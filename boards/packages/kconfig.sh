@@ -1,5 +1,6 @@
 #!/bin/sh
-# Knobs as Kconfig options, from lib/gn_knobs.h and what lib/gn_config.h makes of them. usage: kconfig.sh options|header
+# Knobs as Kconfig options, or as a header with annotations of the CMSIS Configuration Wizard, from lib/gn_knobs.h and what
+# lib/gn_config.h makes of them. usage: kconfig.sh options|header|wizard
 # Capacities, features and the preset, which sets the quality knobs: one of those alone is set by a definition, as anywhere.
 cd "$(dirname "$0")/../.." || exit 1
 work=$(mktemp -d) || exit 1
@@ -36,5 +37,12 @@ header)
     awk -F '|' '
         $2 == 0 && $3 == 1 { printf "#ifdef CONFIG_GNOMON_%s\n#define GN_%s 1\n#else\n#define GN_%s 0\n#endif\n", $1, $1, $1; next }
         { printf "#define GN_%s CONFIG_GNOMON_%s\n", $1, $1 }' "$work/knobs" ;;
+wizard)
+    printf '/* Knobs of Gnomon: GN_USER_CONFIG of the CMSIS-Pack. */\n// <<< Use Configuration Wizard in Context Menu >>>\n'
+    awk -F '|' '
+        { text = $5; gsub(/[<>]/, "", text); costs = $6; gsub(/[<>]/, "", costs); is_switch = $2 == 0 && $3 == 1 }
+        { printf "// %s %s: %s%s\n// <i> Costs: %s.\n", is_switch ? "<q>" : "<o>", $1, text, is_switch ? "" : " <" $2 "-" $3 ">", costs }
+        { printf "#define GN_%s %s\n", $1, $4 }' "$work/knobs"
+    echo '// <<< end of configuration section >>>' ;;
 *) exit 2 ;;
 esac

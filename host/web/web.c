@@ -39,7 +39,8 @@ static double pivot_depth(const scene *s, const double *eye, const double *back)
 {
     bounds b;
     const double reach = s->shadow.max_distance;
-    if (!bounds_of_scene(&b, s, NULL)) return reach / 2;
+    if (s->stage.radius > 0) memcpy(b.centre, s->stage.centre, sizeof b.centre); /* the same in every frame */
+    else if (!bounds_of_scene(&b, s, NULL)) return reach / 2;
     vec_sub(b.centre, eye, b.centre);
     const double depth = vec_dot(b.centre, back);
     return fmin(fmax(depth, reach / 5), fmax(reach / 2, depth < reach ? depth : 0));

@@ -105,6 +105,22 @@ for bias in bias_constant=64 bias_slope=9 bias_caster=4 auto_bias=off bias_norma
 done
 good info "$cube" --size 64x48 --ram 100000
 grep -q 'of flash (Cortex-M0), no --flash given$' "$tmp/out" && pass || fail "info without --flash: $(tail -n 1 "$tmp/out")"
+# who set what: a preset sets what belongs to it anew, and a later one of the same name wins
+settings() { # WANTED ARGS: the row of info
+    wanted=$1
+    shift
+    good info "$@" --size 32x24
+    grep -q -x "  settings: $wanted" "$tmp/out" && pass || fail "info $*: $(grep '^  settings:' "$tmp/out"), not: $wanted"
+}
+own='file: cascades=2 max_distance=9 atlas_size=512'
+sed '/"fps"/s/"gnomon": {[^}]*}/"gnomon": {"cascades": 2, "max_distance": 9, "atlas_size": 512}/' host/scenes/cube.gltf >"$tmp/own.gltf"
+settings 'preset=balanced (default)' "$glb"
+settings "preset=balanced (default); $own" "$tmp/own.gltf"
+settings "preset=balanced (default); file: cascades=2 (overruled) max_distance=9 atlas_size=512; command line: cascades=3" "$tmp/own.gltf" --set cascades=3
+settings "$own (overruled); command line: preset=tiny bias_normal@0=2" "$tmp/own.gltf" --set preset=tiny --set bias_normal@0=2
+settings "$own (overruled); command line: preset=tiny (overruled) preset=fast atlas_size=256" "$tmp/own.gltf" --set preset=tiny --set preset=fast --set atlas_size=256
+good info "$tmp/own.gltf" --size 32x24 --json --set cascades=3
+grep -q '{"key": "cascades", "value": "2", "by": "file", "overruled": 1}' "$tmp/out" && pass || fail "info --json does not say who set cascades"
 good compare "$cube" --size 32x24
 good render "$glb" -o "$tmp/a.png" --size 32x24
 grep -q -x "$tmp/a.png: 32x24, 2 objects, 3 triangles, 1 light; added: ground, camera, light" "$tmp/out" && pass || fail "render says: $(head -n 1 "$tmp/out")"
@@ -265,7 +281,7 @@ for scene in "$cube" "$odd"; do
     n=$(grep -o '"shadow_mismatch": [^,]*, "coverage_mismatch"' "$tmp/out" | wc -l)
     [ "$n" = 3 ] && pass || fail "compare --with truth --json has $n objects of metrics"
     good info "$scene" --size 32x24 --json
-    valid_json objects triangles lights light_list textures alpha casters needs surface_lights shadow_tiles other_tiles ram_bytes notes
+    valid_json objects triangles lights light_list textures alpha casters needs surface_lights shadow_tiles other_tiles ram_bytes settings notes
 done
 : >"$tmp/empty"
 "$tmp/json" <"$tmp/empty" >/dev/null && fail "the JSON checker takes nothing for JSON" || pass

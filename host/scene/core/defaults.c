@@ -35,12 +35,24 @@ static bool check_object(loader *l, const scene_object *object)
     return true;
 }
 
-static bool find_bounds(loader *l, bounds *b)
+static bool check_objects(loader *l)
 {
     for (size_t i = 0; i < l->s->n_objects; i++) {
         if (!check_object(l, &l->s->objects[i])) return false;
     }
-    return bounds_of_scene(b, l->s, NULL) || loader_fail(l, "%s: the scene has no triangles", l->path);
+    return true;
+}
+
+/* Of the whole animation: what is made from it stands still. */
+static bool find_bounds(loader *l, bounds *b)
+{
+    if (!check_objects(l)) return false;
+    for (size_t i = 0; i < l->poses.n; i++) {
+        poses_apply(&l->poses, i, l->s);
+        if (!check_objects(l)) return false;
+    }
+    poses_apply(&l->poses, l->poses.n, l->s);
+    return bounds_of_poses(b, l->s, &l->poses, NULL) || loader_fail(l, "%s: the scene has no triangles", l->path);
 }
 
 /* Adds up the up-facing area near the lowest point, as seen from above: what lies there like a floor. *lies: some
@@ -63,9 +75,12 @@ static void add_floor_triangle(floor_parts *parts, const scene_object *object, d
     if ((is_up || object->two_sided) && height < ground_below_radii * b->radius) parts->coplanar = true;
 }
 
-static floor_parts find_floor(const scene *s, const bounds *b)
+/* As the first frame has it. */
+static floor_parts find_floor(loader *l, const bounds *b)
 {
+    scene *s = l->s;
     floor_parts parts = {0};
+    poses_apply(&l->poses, 0, s);
     for (size_t i = 0; i < s->n_objects; i++) {
         const scene_object *object = &s->objects[i];
         const scene_mesh *mesh = &s->meshes[object->mesh_idx];
@@ -75,6 +90,7 @@ static floor_parts find_floor(const scene *s, const bounds *b)
             add_floor_triangle(&parts, object, p, b);
         }
     }
+    poses_apply(&l->poses, l->poses.n, s);
     return parts;
 }
 
@@ -86,34 +102,6 @@ static bool decide_ground(const loader *l, const bounds *b, const floor_parts *p
     if (l->file_has_camera && s->n_lights > 0) return false;
     double footprint = (b->high[0] - b->low[0]) * (b->high[2] - b->low[2]);
     return !(parts->area > 0 && parts->area >= floor_cover * footprint);
-}
-
-static void swap_pose(scene *s)
-{
-    for (size_t i = 0; i < s->n_objects; i++) {
-        scene_affine now = s->objects[i].to_world;
-        s->objects[i].to_world = s->objects[i].at_rest;
-        s->objects[i].at_rest = now;
-        for (size_t k = 0; k < s->objects[i].n_joints; k++) {
-            scene_joint *joint = &s->objects[i].joints[k];
-            now = joint->now;
-            joint->now = joint->rest;
-            joint->rest = now;
-        }
-    }
-}
-
-/* Where a ground belongs, and what lies there. Of what moves, as it is at rest: a ground that follows it would move,
- * too. */
-static void find_place(scene *s, const bounds *now, bounds *place, floor_parts *parts)
-{
-    *place = *now;
-    if (s->fps > 0) swap_pose(s);
-    bool fits = s->fps > 0 && bounds_of_scene(place, s, NULL);
-    for (int k = 0; k < 3; k++) fits = fits && fmax(-place->low[k], place->high[k]) <= LOADER_MAX_COORDINATE;
-    if (!fits) *place = *now;
-    *parts = find_floor(s, place);
-    if (s->fps > 0) swap_pose(s);
 }
 
 /* At the height of the lowest point; below it where a surface lies there: two in one plane would flicker. */
@@ -143,7 +131,7 @@ static void direction_of(double azimuth, double elevation, double *out)
 }
 
 /* Distance from the centre at which every vertex projects into the middle `fill` of the smaller picture dimension. */
-static double fit_distance(const scene *s, const bounds *b, const scene_affine *camera, double focal_over_half)
+static double fit_pose(const scene *s, const bounds *b, const scene_affine *camera, double focal_over_half)
 {
     double distance = 1.25 * b->radius; /* at least outside the sphere */
     for (size_t i = 0; i < s->n_objects; i++) {
@@ -159,6 +147,17 @@ static double fit_distance(const scene *s, const bounds *b, const scene_affine *
             distance = fmax(distance, fmax(fabs(local[0]), fabs(local[1])) * focal_over_half + local[2]);
         }
     }
+    return distance;
+}
+
+static double fit_distance(loader *l, const bounds *b, const scene_affine *camera, double focal_over_half)
+{
+    double distance = 0;
+    for (size_t i = 0; i < (l->poses.n ? l->poses.n : 1); i++) {
+        poses_apply(&l->poses, i, l->s);
+        distance = fmax(distance, fit_pose(l->s, b, camera, focal_over_half));
+    }
+    poses_apply(&l->poses, l->poses.n, l->s);
     return distance;
 }
 
@@ -194,8 +193,7 @@ static void make_camera(loader *l, const bounds *b)
     turn_camera(camera, azimuth, elevation);
     camera->focal = 1 / tan(half_fov);
     double smaller = fmin(options->width, options->height);
-    double distance =
-        fit_distance(l->s, b, &camera->to_world, camera->focal * options->height / (camera_fill * smaller));
+    double distance = fit_distance(l, b, &camera->to_world, camera->focal * options->height / (camera_fill * smaller));
     for (int i = 0; i < 3; i++) camera->to_world.m[i][3] = b->centre[i] + distance * camera->to_world.m[i][2];
     if (options->orbit) camera->focal *= options->zoom; /* as a lens: the camera stays outside */
     camera->far = distance + sqrt(2) * ground_half_size_radii * b->radius;
@@ -204,28 +202,40 @@ static void make_camera(loader *l, const bounds *b)
     camera->near = fmax(near, camera->far / 1000);
 }
 
-/* For the default camera: the depth up to which objects, and their shadows on the ground if there is one, are to be
- * seen whole. The fade starts behind it. No farther: the texels of the shadow map spread over this distance. */
-static double find_shadow_distance(const loader *l, const bounds *b, double ground)
+/* How deep behind the middle objects are, and their shadows on the ground if there is one. */
+static double find_depth(const loader *l, const bounds *b, const double *back)
 {
     const scene *s = l->s;
-    const scene_affine *camera = &s->camera.to_world;
     const double *light = s->lights[0].direction;
-    double deepest = 0, farthest = shadow_extent_radii * b->radius, back[3], eye[3];
-    affine_column(back, camera, 2);
-    affine_column(eye, camera, 3);
+    double deepest = 0, farthest = shadow_extent_radii * b->radius;
     for (size_t i = 0; i < s->n_objects; i++) {
         const scene_mesh *mesh = &s->meshes[s->objects[i].mesh_idx];
         for (size_t v = 0; v < mesh->n_vertices; v++) {
             double p[3];
             scene_vertex(p, s, &s->objects[i], v);
-            double fall = l->wants_ground && light[1] < 0 ? (ground - p[1]) / light[1] : 0;
+            double fall = l->wants_ground && light[1] < 0 ? (b->low[1] - p[1]) / light[1] : 0;
             vec_sub(p, p, b->centre);
             double depth = -vec_dot(p, back);
             deepest = fmax(deepest, fmax(depth, fmin(depth - fall * vec_dot(light, back), farthest)));
         }
     }
+    return deepest;
+}
+
+/* For the default camera: the depth up to which they are to be seen whole. The fade starts behind it. No farther: the
+ * texels of the shadow map spread over this distance. */
+static double find_shadow_distance(loader *l, const bounds *b)
+{
+    const scene_affine *camera = &l->s->camera.to_world;
+    double deepest = 0, back[3], eye[3];
+    affine_column(back, camera, 2);
+    affine_column(eye, camera, 3);
     vec_sub(eye, eye, b->centre);
+    for (size_t i = 0; i < (l->poses.n ? l->poses.n : 1); i++) {
+        poses_apply(&l->poses, i, l->s);
+        deepest = fmax(deepest, find_depth(l, b, back));
+    }
+    poses_apply(&l->poses, l->poses.n, l->s);
     return (vec_dot(eye, back) + deepest) / (1 - shadow_fade);
 }
 
@@ -263,18 +273,22 @@ bool loader_add_defaults(loader *l)
 {
     static const double ambient[3] = {0.18, 0.18, 0.18}, background[3] = {0.35, 0.45, 0.6};
     scene *s = l->s;
-    bounds b, place;
-    floor_parts parts;
+    bounds b, now;
     if (!find_bounds(l, &b)) return false;
-    find_place(s, &b, &place, &parts);
-    l->wants_ground = decide_ground(l, &place, &parts);
+    const floor_parts parts = find_floor(l, &b);
+    l->wants_ground = decide_ground(l, &b, &parts);
     s->added = (scene_added){.ground = l->wants_ground, .camera = !l->has_camera, .light = s->n_lights == 0};
     memcpy(s->ambient, ambient, sizeof ambient);
     memcpy(s->background, background, sizeof background);
     default_shadow(l, &s->shadow);
-    if (!l->has_camera) make_camera(l, &b);
+    if (!l->has_camera) {
+        make_camera(l, &b);
+        s->stage.camera = s->camera.to_world;
+    }
     if (s->n_lights == 0 && !lights_add(l, "default", SCENE_LIGHT_DIRECTIONAL)) return false;
-    lights_set_near(s, b.low, b.high);
-    if (!l->has_camera) s->shadow.max_distance = find_shadow_distance(l, &b, place.low[1]);
-    return !l->wants_ground || add_ground(l, &place, parts.coplanar);
+    /* As the frame has it: a lamp of the file may move, too. */
+    if (bounds_of_scene(&now, s, NULL)) lights_set_near(s, now.low, now.high);
+    if (!l->has_camera) s->shadow.max_distance = find_shadow_distance(l, &b);
+    lights_find_stage(l);
+    return !l->wants_ground || add_ground(l, &b, parts.coplanar);
 }

@@ -59,10 +59,15 @@ static bool is_caster(const scene *s, const scene_object *object, const double *
     return object->caster != SCENE_CASTER_OFF;
 }
 
+static const scene_affine *view_of(const scene *s)
+{
+    return s->stage.moves ? &s->stage.camera : &s->camera.to_world;
+}
+
 /* Whose shadow has a chance to be in the picture. Its sides are not known here: a picture wider than tall is taken. */
 static bool is_seen_caster(const scene *s, const scene_object *object, const double *point)
 {
-    const scene_affine *camera = &s->camera.to_world;
+    const scene_affine *camera = view_of(s);
     double eye[3], axis[3], out[3], local[3];
     affine_column(eye, camera, 3);
     vec_sub(out, point, eye);
@@ -76,11 +81,22 @@ static bool is_seen_caster(const scene *s, const scene_object *object, const dou
 }
 
 /* What casts; not the ground, which mostly does not, and is far larger than what stands on it. */
-static void find_subject(const scene *s, bounds *out)
+static void find_subject(scene *s, const scene_poses *p, bounds *out)
 {
-    if (bounds_of_scene(out, s, is_seen_caster) || bounds_of_scene(out, s, is_caster) || bounds_of_scene(out, s, NULL))
+    if (bounds_of_poses(out, s, p, is_seen_caster) || bounds_of_poses(out, s, p, is_caster) ||
+        bounds_of_poses(out, s, p, NULL))
         return;
     *out = (bounds){.radius = 1}; /* an empty scene */
+}
+
+void lights_find_stage(loader *l)
+{
+    scene_stage *stage = &l->s->stage;
+    bounds subject;
+    if (!stage->moves) return;
+    find_subject(l->s, &l->poses, &subject);
+    memcpy(stage->centre, subject.centre, sizeof stage->centre);
+    stage->radius = subject.radius;
 }
 
 static double azimuth_of(const scene *s, scene_light_kind kind)
@@ -88,8 +104,8 @@ static double azimuth_of(const scene *s, scene_light_kind kind)
     size_t n_before = 0;
     for (size_t i = 0; i < s->n_lights; i++) n_before += s->lights[i].kind == kind;
     double back[3];
-    affine_column(back, &s->camera.to_world, 2);
-    if (hypot(back[0], back[2]) < 1e-9) affine_column(back, &s->camera.to_world, 1); /* looking straight up or down */
+    affine_column(back, view_of(s), 2);
+    if (hypot(back[0], back[2]) < 1e-9) affine_column(back, view_of(s), 1); /* looking straight up or down */
     double turn_deg = fmod(first_azimuth_deg + next_azimuth_deg * (double)n_before, 360);
     return atan2(back[0], back[2]) + turn_deg * VEC_PI / 180;
 }
@@ -104,11 +120,11 @@ static double whole_steps(double half_angle)
     return round(half_angle / VEC_PI * angle_steps) / angle_steps;
 }
 
-static void place_lamp(scene_light *light, const bounds *subject, const double *towards)
+static void place_lamp(scene_light *light, const double *centre, double radius, const double *towards)
 {
     bool spot = light->kind == SCENE_LIGHT_SPOT;
-    double radii = spot ? spot_distance_radii : point_distance_radii, distance = radii * subject->radius;
-    for (int i = 0; i < 3; i++) light->position[i] = subject->centre[i] + distance * towards[i];
+    double radii = spot ? spot_distance_radii : point_distance_radii, distance = radii * radius;
+    for (int i = 0; i < 3; i++) light->position[i] = centre[i] + distance * towards[i];
     light->range = fmax(range_distances * distance, LIGHT_MIN_RANGE);
     double ratio = distance * distance / (light->range * light->range), window = 1 - ratio * ratio;
     set_white(light, lamp_light * fmax(distance * distance, 1e-4) / (window * window)); /* MODEL 8, on the axis */
@@ -132,8 +148,12 @@ bool lights_add(loader *l, const char *name, scene_light_kind kind)
     for (int i = 0; i < 3; i++) light->direction[i] = -towards[i];
     set_white(light, directional_intensity);
     if (kind == SCENE_LIGHT_DIRECTIONAL) return true;
-    find_subject(s, &subject);
-    place_lamp(light, &subject, towards);
+    if (s->stage.radius > 0) {
+        place_lamp(light, s->stage.centre, s->stage.radius, towards);
+        return true;
+    }
+    find_subject(s, &l->poses, &subject);
+    place_lamp(light, subject.centre, subject.radius, towards);
     return true;
 }
 

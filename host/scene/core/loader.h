@@ -9,6 +9,7 @@
 #include "../../base/arena.h"
 #include "../image/picture.h"
 #include "model.h"
+#include "poses.h"
 
 #if defined(__GNUC__)
 #define LOADER_PRINTF(format_idx, first_idx) __attribute__((format(printf, format_idx, first_idx)))
@@ -51,6 +52,7 @@ typedef struct {
     size_t spent[BUDGET_COUNT];
     char over[160];            /* what was too much */
     mesh_light *light_of_mesh; /* beside s->meshes */
+    scene_poses poses;         /* if the file is animated: of its frames */
     bool has_camera;           /* the file brought one, and it is used */
     bool file_has_camera;
     bool wants_ground;
@@ -156,6 +158,8 @@ void light_set_defaults(scene_light *light);
  * box's farthest corner. A range far beyond the scene says nothing of what is in it. */
 void lights_set_near(scene *s, const double *low, const double *high);
 bool lights_add(loader *l, const char *name, scene_light_kind kind);
+/* For those that settings add: around what, if something moves. */
+void lights_find_stage(loader *l);
 
 /* defaults.c: completes what the file lacks; the last step of a load. */
 bool loader_add_defaults(loader *l);

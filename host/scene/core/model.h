@@ -222,6 +222,13 @@ typedef struct {
     bool ground, camera, light;
 } scene_added;
 
+/* What lights that are added light: it stands still while the scene moves. */
+typedef struct {
+    bool moves;               /* the rest is of the whole animation; else the scene itself tells */
+    scene_affine camera;      /* in the first frame */
+    double centre[3], radius; /* around what casts into the picture; radius 0: not known yet */
+} scene_stage;
+
 typedef struct {
     size_t n_meshes, n_objects, n_lights, n_textures;
     scene_mesh *meshes;
@@ -235,6 +242,7 @@ typedef struct {
     bool gradient;               /* R11 */
     scene_shadow shadow;
     scene_added added; /* what the file lacked */
+    scene_stage stage;
     scene_rig *rig;    /* if scene_options.rig requested it, of glTF; else NULL */
     size_t n_settings; /* extras.gnomon of the glTF scene, in file order: applied like --set, before it */
     scene_setting *settings;

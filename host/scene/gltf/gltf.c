@@ -109,7 +109,7 @@ static bool place_and_animate(gltf *g, const json_value *used_scene)
         if (!gltf_place_nodes(g, used_scene)) return false;
         gltf_keep_rest(g);
     }
-    return gltf_animate(g) && gltf_place_nodes(g, used_scene);
+    return gltf_read_animations(g) && gltf_pose(g, g->l->options->frame) && gltf_place_nodes(g, used_scene);
 }
 
 static bool load_json(loader *l, const char *text, size_t n_bytes, gltf_bytes glb)
@@ -121,7 +121,8 @@ static bool load_json(loader *l, const char *text, size_t n_bytes, gltf_bytes gl
     const json_value *used_scene;
     bool ok = check_asset(&g) && find_arrays(&g) && spend_arrays(&g, &doc) && gltf_load_buffers(&g) &&
               find_scene(&g, &used_scene) && gltf_scene_knobs(&g, used_scene) && gltf_read_nodes(&g) &&
-              gltf_begin_rig(&g) && place_and_animate(&g, used_scene) && emit_nodes(&g) && gltf_end_rig(&g);
+              gltf_begin_rig(&g) && place_and_animate(&g, used_scene) && emit_nodes(&g) && gltf_end_rig(&g) &&
+              gltf_keep_poses(&g, used_scene);
     json_free(&doc);
     return ok;
 }

@@ -46,6 +46,13 @@ typedef struct {
     size_t image_idx, scene_idx; /* SCENE_NONE: ignored, with a note */
 } gltf_texture;
 
+/* A property of a node that is animated. */
+typedef struct {
+    scene_curve curve;
+    double *property;
+    const json_value *sampler;
+} gltf_played;
+
 typedef struct {
     loader *l;
     const json_value *root;
@@ -59,6 +66,9 @@ typedef struct {
     gltf_texture *texture;      /* two per texture: as a picture, as data; made on first use */
     bool has_mask_texture;      /* some material or node names one */
     double fps;
+    gltf_played *played;
+    size_t n_played;
+    size_t camera_node; /* of the camera that is used, if loader.has_camera */
 } gltf;
 
 /* gltf_json.c. Readers leave *out alone where the member is absent, and fail where it has the wrong type. */
@@ -128,12 +138,17 @@ bool gltf_read_nodes(gltf *g);
 bool gltf_place_nodes(gltf *g, const json_value *used_scene);
 void gltf_keep_rest(gltf *g); /* placed nodes are at rest */
 bool gltf_emit_camera(gltf *g, size_t node_idx);
+/* Scale and shear do not belong to a camera: forward is kept, up made orthogonal to it, right follows. */
+bool gltf_camera_axes(gltf *g, const gltf_node *node, scene_affine *out);
 
 /* gltf_light.c */
 bool gltf_emit_light(gltf *g, size_t node_idx);
 
-/* gltf_animation.c: writes the frame's translation, rotation and scale into the nodes. */
-bool gltf_animate(gltf *g);
+/* gltf_animation.c. gltf_pose writes a frame's translation, rotation and scale into the nodes; gltf_keep_poses, when
+ * all is there, keeps where all frames take the objects: loader.poses, scene.stage. */
+bool gltf_read_animations(gltf *g);
+bool gltf_pose(gltf *g, double frame);
+bool gltf_keep_poses(gltf *g, const json_value *used_scene);
 
 /* gltf_animation.c, gltf_rig.c: scene.rig. The nodes before the animation moves them, the rest when all is there. */
 bool gltf_keep_clips(gltf *g);

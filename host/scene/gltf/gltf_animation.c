@@ -1,6 +1,6 @@
-/* glTF animation of node translation, rotation and scale, at one moment: time = frame / fps, clamped to the ends of
- * each sampler. All animations of the file play at once; where two move the same property of a node, the first in the
- * file wins. */
+/* glTF animation of node translation, rotation and scale, at one moment or at all: time = frame / fps, clamped to the
+ * ends of each sampler. All animations of the file play at once; where two move the same property of a node, the first
+ * in the file wins. */
 #include "gltf.h"
 
 #include <math.h>
@@ -8,6 +8,7 @@
 #include <string.h>
 
 #include "../core/curve.h"
+#include "../core/vec.h"
 
 typedef struct {
     curve_kind kind;
@@ -112,14 +113,12 @@ static bool play_channel(gltf *g, const channel *c, const char *animation, unsig
                            animation);
     }
     *moved = (unsigned char)(*moved | c->bit);
-    arena_block *mark = g->l->memory.blocks;
-    bool ok = read_sampler(g, c->sampler, &s);
-    if (ok) note_duration(g, &s.times);
-    const scene_curve curve = curve_of(&s);
-    if (ok && !curve_at(&curve, g->l->options->frame / g->fps, c->property))
-        ok = gltf_fail(g, c->sampler, "a rotation is zero");
-    arena_release(&g->l->memory, mark);
-    return ok;
+    if (!read_sampler(g, c->sampler, &s)) return false;
+    note_duration(g, &s.times);
+    g->played = loader_grow(g->l, g->played, g->n_played, sizeof *g->played);
+    if (!g->played) return false;
+    g->played[g->n_played++] = (gltf_played){curve_of(&s), c->property, c->sampler};
+    return true;
 }
 
 static bool play_animation(gltf *g, const json_value *json, unsigned char *moved)
@@ -137,7 +136,7 @@ static bool play_animation(gltf *g, const json_value *json, unsigned char *moved
     return true;
 }
 
-bool gltf_animate(gltf *g)
+bool gltf_read_animations(gltf *g)
 {
     size_t n_nodes = g->nodes ? g->nodes->n_children : 0;
     unsigned char *moved = loader_alloc(g->l, n_nodes + 1, 1);
@@ -145,6 +144,64 @@ bool gltf_animate(gltf *g)
     for (size_t i = 0; g->animations && i < g->animations->n_children; i++) {
         if (!play_animation(g, g->animations->children[i], moved)) return false;
     }
+    return true;
+}
+
+bool gltf_pose(gltf *g, double frame)
+{
+    for (size_t i = 0; i < g->n_played; i++) {
+        const gltf_played *p = &g->played[i];
+        if (!curve_at(&p->curve, frame / g->fps, p->property)) return gltf_fail(g, p->sampler, "a rotation is zero");
+    }
+    return true;
+}
+
+/* ---- All frames, for what is fitted to them ---------------------------------------------------------------------- */
+
+/* What all poses together may cost, in vertices: some tenths of a second. Of longer animations of larger models frames
+ * are left out, evenly. */
+enum { POSE_VERTICES = 2000000, AFFINE_VERTICES = 8 };
+
+static size_t count_poses(const gltf *g, double n_frames)
+{
+    const scene *s = g->l->s;
+    size_t n = AFFINE_VERTICES * (poses_count_affines(s) + g->n_played + (g->nodes ? g->nodes->n_children : 0)) + 1;
+    for (size_t i = 0; i < s->n_objects; i++) n += s->meshes[s->objects[i].mesh_idx].n_vertices;
+    return (size_t)fmin(n_frames, fmax(2, (double)POSE_VERTICES / (double)n));
+}
+
+static void pose_objects(const gltf *g, scene *s)
+{
+    for (size_t i = 0; i < s->n_objects; i++) {
+        scene_object *o = &s->objects[i];
+        if (o->node_idx != SCENE_NONE) o->to_world = g->node[o->node_idx].world;
+        for (size_t k = 0; k < o->n_joints; k++)
+            o->joints[k].now = affine_multiply(&g->node[o->joints[k].node_idx].world, &o->joints[k].bind);
+    }
+}
+
+bool gltf_keep_poses(gltf *g, const json_value *used_scene)
+{
+    scene *s = g->l->s;
+    if (g->n_played == 0) return true;
+    const double last = ceil(s->duration * s->fps - 1e-6), n_frames = fmax(last, 0) + 1;
+    scene_poses p = {count_poses(g, n_frames), poses_count_affines(s), NULL};
+    p.affines = loader_alloc(g->l, (p.n + 1) * p.n_affines, sizeof *p.affines);
+    if (!p.affines) return false;
+    poses_store(&p, p.n, s);
+    s->stage = (scene_stage){.moves = true, .camera = s->camera.to_world};
+    for (size_t i = 0; i < p.n; i++) {
+        arena_block *mark = g->l->memory.blocks;
+        const double frame = p.n > 1 ? floor((n_frames - 1) * (double)i / (double)(p.n - 1)) : 0;
+        if (!gltf_pose(g, frame) || !gltf_place_nodes(g, used_scene)) return false;
+        arena_release(&g->l->memory, mark);
+        pose_objects(g, s);
+        poses_store(&p, i, s);
+        if (i == 0 && g->l->has_camera && !gltf_camera_axes(g, &g->node[g->camera_node], &s->stage.camera))
+            return false;
+    }
+    poses_apply(&p, p.n, s);
+    g->l->poses = p;
     return true;
 }
 

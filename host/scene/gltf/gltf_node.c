@@ -166,8 +166,7 @@ void gltf_keep_rest(gltf *g)
     for (size_t i = 0; i < n; i++) g->node[i].rest = g->node[i].world;
 }
 
-/* Scale and shear do not belong to a camera: forward is kept, up made orthogonal to it, right follows. */
-static bool camera_axes(gltf *g, const gltf_node *node, scene_affine *out)
+bool gltf_camera_axes(gltf *g, const gltf_node *node, scene_affine *out)
 {
     double right[3], up[3], back[3];
     affine_column(up, &node->world, 1);
@@ -247,5 +246,7 @@ bool gltf_emit_camera(gltf *g, size_t node_idx)
     if (g->l->options->orbit) return loader_note(g->l, "camera '%s' ignored: --orbit takes its place", name);
     if (g->l->has_camera) return loader_note(g->l, "camera '%s' ignored: the first camera is used", name);
     g->l->has_camera = true;
-    return camera_axes(g, node, &g->l->s->camera.to_world) && read_lens(g, camera, is_orthographic, &g->l->s->camera);
+    g->camera_node = node_idx;
+    return gltf_camera_axes(g, node, &g->l->s->camera.to_world) &&
+           read_lens(g, camera, is_orthographic, &g->l->s->camera);
 }

@@ -3,6 +3,7 @@
 #include <stdlib.h>
 
 #include "info_memory.h"
+#include "info_settings.h"
 #include "../cli/remarks.h"
 #include "../cli/tool.h"
 
@@ -179,6 +180,7 @@ static void print_json(const report *r)
         printf("%s\"%s\": %ld", i ? ", " : "", settings_preset_name[i], r->ram[i].total);
     printf("}");
     info_memory_json(&r->memory);
+    info_settings_json(s, r->options);
     printf(", \"notes\": [");
     for (size_t i = 0; i < s->n_notes; i++) {
         if (i) printf(", ");
@@ -317,6 +319,7 @@ static void print_text(const report *r)
            stats->n_caster_triangles);
     if (stats->n_lights_left_out) printf("  lights left out of objects' lists: %u\n", stats->n_lights_left_out);
     if (stats->n_reach_clamped) printf("  views whose filter does not fit their tile: %u\n", stats->n_reach_clamped);
+    info_settings_text(s, o);
     text_ram(r);
     info_memory_text(&r->memory);
     for (size_t i = 0; i < s->n_notes; i++) printf("  %s%s\n", i < r->n_ignored ? "ignored: " : "note: ", s->notes[i]);

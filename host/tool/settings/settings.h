@@ -27,6 +27,9 @@ void settings_preset(settings *out, int preset);  /* quality knobs of a preset; 
 void settings_preset_scene(scene *s, int preset); /* what of a scene belongs to a preset: fit and tiles */
 void settings_init(settings *out); /* balanced, every feature; capacities 0: as much as the scene needs */
 
+/* Whether preset sets it, too. */
+bool settings_of_preset(const char *key);
+
 /* What a rendered picture needed. */
 typedef struct {
     int width, height;

@@ -81,6 +81,13 @@ void settings_preset(settings *out, int preset)
 }
 
 /* As gn_scene_default. */
+bool settings_of_preset(const char *key)
+{
+    for (size_t i = 0; i < groups[QUALITY].n; i++)
+        if (strcmp(key, quality_knobs[i].name) == 0) return true;
+    return strcmp(key, "preset") == 0 || strcmp(key, "fit") == 0 || strcmp(key, "tiles") == 0;
+}
+
 void settings_preset_scene(scene *s, int preset)
 {
     s->shadow.fit = preset == SETTINGS_ACCURATE ? SCENE_FIT_STABLE : SCENE_FIT_TIGHT;

@@ -1,0 +1,21 @@
+/* Where an animation takes objects and joints, frame by frame: what a tool adds to a scene stands still in all of it.
+ */
+#ifndef GNOMON_HOST_POSES_H
+#define GNOMON_HOST_POSES_H
+
+#include "model.h"
+
+typedef struct {
+    size_t n; /* 0: nothing moves */
+    size_t n_affines;
+    scene_affine
+        *affines; /* per pose, object by object: its to_world and its joints; behind the last pose the scene's */
+} scene_poses;
+
+/* Of one pose of this scene. */
+size_t poses_count_affines(const scene *s);
+void poses_store(const scene_poses *p, size_t pose_idx, const scene *s);
+/* pose_idx n: the scene's own. */
+void poses_apply(const scene_poses *p, size_t pose_idx, scene *s);
+
+#endif
