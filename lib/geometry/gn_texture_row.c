@@ -181,6 +181,12 @@ GN_INLINE uint64_t blend_kind(const row_source *s, int kind, const uint8_t *at, 
     return kind == TEXELS_PALETTE ? blend_palette(s, at, u_q17, v_q17) : blend_grey(s, at, u_q17, v_q17);
 }
 
+GN_INLINE void store_both(uint64_t rgb, gn_texel_rgb *out)
+{
+    out->red_green = (uint32_t)rgb;
+    out->blue = (uint32_t)(rgb >> 32);
+}
+
 GN_INLINE void one_pixel(const row_source *s, int kind, int bilinear, uint32_t u, uint32_t v, gn_texel_rgb *out)
 {
     const uint8_t *at = texel_place(s, kind, u, v);
@@ -190,6 +196,15 @@ GN_INLINE void one_pixel(const row_source *s, int kind, int bilinear, uint32_t u
         return;
     }
     GN_KEEP(at); /* computed once */
+    if (IS_565(kind)) {
+        uint32_t both = gn_texel_word(at);
+        if (both == (both >> 16 | both << 16) && both == gn_texel_word(at + s->stride)) {
+            store_texel(kind, both & 0xFFFFU, out);
+            return;
+        }
+        store_both(blend_kind(s, kind, at, u, v), out);
+        return;
+    }
     read_pair(s, kind, at, x, upper);
     if (upper[0] == upper[1]) { /* seldom where no texel is like the next: the others are read only then */
         read_pair(s, kind, at + s->stride, x, lower);
@@ -198,9 +213,7 @@ GN_INLINE void one_pixel(const row_source *s, int kind, int bilinear, uint32_t u
             return;
         }
     }
-    uint64_t both = blend_kind(s, kind, at, u, v);
-    out->red_green = (uint32_t)both;
-    out->blue = (uint32_t)(both >> 32);
+    store_both(blend_kind(s, kind, at, u, v), out);
 }
 
 GN_INLINE void pixels(const row_source *s, int kind, int bilinear, const gn_texture_line *line, uint32_t bits,
