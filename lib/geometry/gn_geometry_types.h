@@ -68,11 +68,6 @@ typedef struct {
     int32_t exp[2];
 } gn_bary;
 
-/* A colour in linear light, 65535: 1; red is the lower half of its word. */
-typedef struct {
-    uint32_t red_green, blue;
-} gn_texel_rgb;
-
 /* Texture coordinates of a triangle: vertex 0, then differences of vertices 1 and 2 to it. */
 typedef struct {
     int64_t uv_q16[3][2];

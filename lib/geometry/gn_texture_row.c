@@ -102,18 +102,18 @@ GN_INLINE void read_pair(const row_source *s, int kind, const uint8_t *row, uint
     out[1] = read_texel(s, kind, row, x + 1);
 }
 
-/* The four texels around a place. Of whole bytes the first one's address is found once. */
-GN_INLINE void read_four(const row_source *s, int kind, uint32_t u_q17, uint32_t v_q17, uint32_t out[4])
+/* Where a place's row begins; of whole bytes its texel. */
+GN_INLINE const uint8_t *texel_place(const row_source *s, int kind, uint32_t u_q17, uint32_t v_q17)
 {
-    const uint8_t *at = s->texels + (v_q17 >> 17) * s->stride;
-    uint32_t x = u_q17 >> 17;
-    if (kind == TEXELS_RGBA || IS_565(kind)) {
-        at += kind == TEXELS_RGBA ? 4 * x : 2 * x;
-        x = 0;
-        GN_KEEP(at);
-    }
-    read_pair(s, kind, at, x, out);
-    read_pair(s, kind, at + s->stride, x, out + 2);
+    const uint8_t *row = s->texels + (v_q17 >> 17) * s->stride;
+    if (kind == TEXELS_RGBA) return row + 4 * (u_q17 >> 17);
+    return IS_565(kind) ? row + 2 * (u_q17 >> 17) : row;
+}
+
+/* The texel's column from there on. */
+GN_INLINE uint32_t texel_column(int kind, uint32_t u_q17)
+{
+    return kind == TEXELS_RGBA || IS_565(kind) ? 0 : u_q17 >> 17;
 }
 
 /* Red, green or blue of it in linear light. */
@@ -145,10 +145,11 @@ GN_INLINE void store_texel(int kind, uint32_t texel, gn_texel_rgb *out)
 
 /* Red and green in the lower word, blue in the upper one: two registers. Between four texels; a function of its own, so
  * that pixels between equal ones keep their registers. */
-GN_INLINE uint64_t blend_texels(const row_source *s, int kind, uint32_t u_q17, uint32_t v_q17)
+GN_INLINE uint64_t blend_texels(const row_source *s, int kind, const uint8_t *at, uint32_t u_q17, uint32_t v_q17)
 {
-    uint32_t t[4], weight[4];
-    read_four(s, kind, u_q17, v_q17, t);
+    uint32_t t[4], weight[4], x = texel_column(kind, u_q17);
+    read_pair(s, kind, at, x, t);
+    read_pair(s, kind, at + s->stride, x, t + 2);
     find_weights(u_q17, v_q17, weight);
     uint32_t red = weigh(weight, red_of(kind, t[0]), red_of(kind, t[1]), red_of(kind, t[2]), red_of(kind, t[3])),
              green = red, blue = red;
@@ -160,9 +161,10 @@ GN_INLINE uint64_t blend_texels(const row_source *s, int kind, uint32_t u_q17, u
 }
 
 #define BLEND_(kind, of)                                                                                               \
-    GN_HOT static GN_NOINLINE uint64_t blend_##of(const row_source *s, uint32_t u_q17, uint32_t v_q17)                 \
+    GN_HOT static GN_NOINLINE uint64_t blend_##of(const row_source *s, const uint8_t *at, uint32_t u_q17,              \
+                                                  uint32_t v_q17)                                                      \
     {                                                                                                                  \
-        return blend_texels(s, kind, u_q17, v_q17);                                                                    \
+        return blend_texels(s, kind, at, u_q17, v_q17);                                                                \
     }
 BLEND_(TEXELS_RGBA, rgba)
 BLEND_(TEXELS_565, 565)
@@ -171,28 +173,47 @@ BLEND_(TEXELS_PALETTE, palette)
 BLEND_(TEXELS_GREY, grey)
 #undef BLEND_
 
-GN_INLINE uint64_t blend_kind(const row_source *s, int kind, uint32_t u_q17, uint32_t v_q17)
+GN_INLINE uint64_t blend_kind(const row_source *s, int kind, const uint8_t *at, uint32_t u_q17, uint32_t v_q17)
 {
-    if (kind == TEXELS_RGBA) return blend_rgba(s, u_q17, v_q17);
-    if (kind == TEXELS_565) return blend_565(s, u_q17, v_q17);
-    if (kind == TEXELS_565A1) return blend_565a1(s, u_q17, v_q17);
-    return kind == TEXELS_PALETTE ? blend_palette(s, u_q17, v_q17) : blend_grey(s, u_q17, v_q17);
+    if (kind == TEXELS_RGBA) return blend_rgba(s, at, u_q17, v_q17);
+    if (kind == TEXELS_565) return blend_565(s, at, u_q17, v_q17);
+    if (kind == TEXELS_565A1) return blend_565a1(s, at, u_q17, v_q17);
+    return kind == TEXELS_PALETTE ? blend_palette(s, at, u_q17, v_q17) : blend_grey(s, at, u_q17, v_q17);
+}
+
+GN_INLINE void store_both(uint64_t rgb, gn_texel_rgb *out)
+{
+    out->red_green = (uint32_t)rgb;
+    out->blue = (uint32_t)(rgb >> 32);
 }
 
 GN_INLINE void one_pixel(const row_source *s, int kind, int bilinear, uint32_t u, uint32_t v, gn_texel_rgb *out)
 {
-    uint32_t t[4];
+    const uint8_t *at = texel_place(s, kind, u, v);
+    uint32_t upper[2], lower[2], x = texel_column(kind, u);
     if (!bilinear) {
-        store_texel(kind, read_texel(s, kind, s->texels + (v >> 17) * s->stride, u >> 17), out);
+        store_texel(kind, read_texel(s, kind, at, x), out);
         return;
     }
-    read_four(s, kind, u, v, t);
-    if (t[0] == t[1] && t[0] == t[2] && t[0] == t[3]) store_texel(kind, t[0], out);
-    else {
-        uint64_t both = blend_kind(s, kind, u, v);
-        out->red_green = (uint32_t)both;
-        out->blue = (uint32_t)(both >> 32);
+    GN_KEEP(at); /* computed once */
+    if (IS_565(kind)) {
+        uint32_t both = gn_texel_word(at);
+        if (both == (both >> 16 | both << 16) && both == gn_texel_word(at + s->stride)) {
+            store_texel(kind, both & 0xFFFFU, out);
+            return;
+        }
+        store_both(blend_kind(s, kind, at, u, v), out);
+        return;
     }
+    read_pair(s, kind, at, x, upper);
+    if (upper[0] == upper[1]) { /* seldom where no texel is like the next: the others are read only then */
+        read_pair(s, kind, at + s->stride, x, lower);
+        if (upper[0] == lower[0] && upper[0] == lower[1]) {
+            store_texel(kind, upper[0], out);
+            return;
+        }
+    }
+    store_both(blend_kind(s, kind, at, u, v), out);
 }
 
 GN_INLINE void pixels(const row_source *s, int kind, int bilinear, const gn_texture_line *line, uint32_t bits,

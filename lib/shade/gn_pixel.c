@@ -265,17 +265,23 @@ GN_HOT static inline void evenly_lit_565(uint16_t *out, uint32_t bits, const gn_
     }
 }
 
-/* Pixels of `bits` from a node on, and between it and the next if that is further; colours lie in 0 .. 1. */
+/* Pixels of `bits`, each with a node of its own. */
+GN_HOT static inline void apart_lit_565(uint16_t *out, uint32_t bits, const gn_texel_rgb *texel,
+                                        const int32_t (*node)[3])
+{
+    for (; bits; bits >>= 1, out++, texel++, node++)
+        if (bits & 1U)
+            *out = (uint16_t)tinted_565(*texel, (uint32_t)(*node)[0] >> 8, (uint32_t)(*node)[1] >> 8,
+                                        (uint32_t)(*node)[2] >> 8);
+}
+
+/* Pixels of `bits` between two nodes; colours lie in 0 .. 1. */
 GN_HOT static inline void textured_565(uint16_t *out, uint32_t bits, const gn_texel_rgb *texel,
                                        const int32_t (*node)[3], int32_t log2)
 {
     uint32_t r = (uint32_t)node[0][0], g = (uint32_t)node[0][1], b = (uint32_t)node[0][2];
-    int32_t r_step = 0, g_step = 0, b_step = 0;
-    if (log2) {
-        r_step = (node[1][0] - node[0][0]) >> log2;
-        g_step = (node[1][1] - node[0][1]) >> log2;
-        b_step = (node[1][2] - node[0][2]) >> log2;
-    }
+    int32_t r_step = (node[1][0] - node[0][0]) >> log2, g_step = (node[1][1] - node[0][1]) >> log2,
+            b_step = (node[1][2] - node[0][2]) >> log2;
     if (!(r_step | g_step | b_step)) {
         evenly_lit_565(out, bits, texel, r >> 8, g >> 8, b >> 8);
         return;
@@ -343,6 +349,10 @@ GN_HOT static GN_NOINLINE void textured_line(const gn_frame *frame, const gn_pix
     const int32_t log2 = line->spacing_log2, n = 1 << log2;
     const gn_texel_rgb *texel = line->texel;
     uint16_t *out = pixel_565(rows, x, y);
+    if (!log2) {
+        apart_lit_565(out, bits, texel, line->node);
+        return;
+    }
     for (const int32_t(*node)[3] = line->node; bits; bits >>= n, out += n, texel += n, node++) {
         uint32_t part = bits & ((1U << n) - 1);
         if (part) textured_565(out, part, texel, node, log2);

@@ -2,6 +2,7 @@
 #ifndef GN_PIXEL_H
 #define GN_PIXEL_H
 
+#include "base/gn_base_types.h"
 #include "base/gn_q.h"
 #include "gnomon.h"
 
