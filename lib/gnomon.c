@@ -136,6 +136,8 @@
 #include "shade/gn_arrival.c"
 #include "shade/gn_exact.c"
 #include "shade/gn_facet.c"
+#include "shade/gn_facet_screen.c"
+#include "shade/gn_facet_texture.c"
 #if GN_INTERPOLATES
 #include "shade/gn_corner.c"
 #include "shade/gn_corner_cascade.c"

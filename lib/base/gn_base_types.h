@@ -16,4 +16,9 @@ typedef struct {
     int32_t x0, y0, x1, y1;
 } gn_rect;
 
+/* A colour in linear light, 65535: 1; red is the lower half of its word. */
+typedef struct {
+    uint32_t red_green, blue;
+} gn_texel_rgb;
+
 #endif

@@ -78,14 +78,16 @@ int32_t gn_texture_coord(const gn_texture_triangle *triangle, const gn_texture *
 /* Red, green, blue in linear light, 0..65536 each: texels are decoded before they are filtered. */
 void gn_texture_colour(const gn_texture *texture, int32_t u_q20, int32_t v_q20, uint32_t rgb_uq16[3]);
 
+#define GN_TEXEL_WHITE ((gn_texel_rgb){0xFFFFFFFFU, 65535U})
+
 /* Coordinates along a row of pixels, in texels: a quadratic from its first pixel on; |.| < 2^14. A bilinear texture's
  * are half a texel less, and 1/512 more, for weights of 8 bits. */
 typedef struct {
     int32_t at_q17[2], step_q17[2], step_change_q17[2];
 } gn_texture_line;
 
-/* Red, green, blue in linear light, 65535: 1, of the pixels `bits`, the lowest first; at most 16. */
-void gn_texture_row(const gn_texture *texture, const gn_texture_line *line, uint32_t bits, uint16_t (*rgb)[3]);
+/* Colours of the pixels `bits`, the lowest first; at most 16. */
+void gn_texture_row(const gn_texture *texture, const gn_texture_line *line, uint32_t bits, gn_texel_rgb *texel);
 
 /* ---- Common to the files of textures ----------------------------------------------------------------------------- */
 

@@ -43,17 +43,25 @@ GN_HOT static void find_pair(const gn_texture *t, int axis, int32_t *at_q17, uin
     pair[1] = (uint32_t)next;
 }
 
-GN_HOT static GN_NOINLINE void any_pixel(const gn_texture *t, int32_t *u_q17, int32_t *v_q17, uint16_t rgb[3])
+GN_HOT static gn_texel_rgb texel_of_channels(const uint16_t rgb[3])
+{
+    gn_texel_rgb out = {rgb[0] | (uint32_t)rgb[1] << 16, rgb[2]};
+    return out;
+}
+
+GN_HOT static GN_NOINLINE void any_pixel(const gn_texture *t, int32_t at_q17[2], gn_texel_rgb *out)
 {
     uint32_t x[2], y[2], weight[4];
     uint16_t texel[4][3];
-    find_pair(t, 0, u_q17, x);
-    find_pair(t, 1, v_q17, y);
-    gn_texture_texel(t, x[0], y[0], rgb);
-    if (!(t->flags & GN_TEXTURE_BILINEAR)) return;
-    for (int i = 0; i < 4; i++) gn_texture_texel(t, x[i & 1], y[i >> 1], texel[i]);
-    find_weights((uint32_t)*u_q17, (uint32_t)*v_q17, weight);
-    for (int c = 0; c < 3; c++) rgb[c] = weigh(weight, texel[0][c], texel[1][c], texel[2][c], texel[3][c]);
+    find_pair(t, 0, &at_q17[0], x);
+    find_pair(t, 1, &at_q17[1], y);
+    gn_texture_texel(t, x[0], y[0], texel[0]);
+    if (t->flags & GN_TEXTURE_BILINEAR) {
+        for (int i = 1; i < 4; i++) gn_texture_texel(t, x[i & 1], y[i >> 1], texel[i]);
+        find_weights((uint32_t)at_q17[0], (uint32_t)at_q17[1], weight);
+        for (int c = 0; c < 3; c++) texel[0][c] = weigh(weight, texel[0][c], texel[1][c], texel[2][c], texel[3][c]);
+    }
+    *out = texel_of_channels(texel[0]);
 }
 
 /* ---- Pixels whose texels lie inside ------------------------------------------------------------------------------ */
@@ -94,6 +102,20 @@ GN_INLINE void read_pair(const row_source *s, int kind, const uint8_t *row, uint
     out[1] = read_texel(s, kind, row, x + 1);
 }
 
+/* Where a place's row begins; of whole bytes its texel. */
+GN_INLINE const uint8_t *texel_place(const row_source *s, int kind, uint32_t u_q17, uint32_t v_q17)
+{
+    const uint8_t *row = s->texels + (v_q17 >> 17) * s->stride;
+    if (kind == TEXELS_RGBA) return row + 4 * (u_q17 >> 17);
+    return IS_565(kind) ? row + 2 * (u_q17 >> 17) : row;
+}
+
+/* The texel's column from there on. */
+GN_INLINE uint32_t texel_column(int kind, uint32_t u_q17)
+{
+    return kind == TEXELS_RGBA || IS_565(kind) ? 0 : u_q17 >> 17;
+}
+
 /* Red, green or blue of it in linear light. */
 GN_INLINE uint32_t red_of(int kind, uint32_t texel)
 {
@@ -114,52 +136,100 @@ GN_INLINE uint32_t blue_of(int kind, uint32_t texel)
     return gn_srgb_decode_table[texel >> 16 & 255U];
 }
 
-GN_INLINE void store_texel(int kind, uint32_t texel, uint16_t rgb[3])
+GN_INLINE void store_texel(int kind, uint32_t texel, gn_texel_rgb *out)
 {
-    rgb[0] = rgb[1] = rgb[2] = (uint16_t)red_of(kind, texel);
-    if (kind == TEXELS_GREY) return;
-    rgb[1] = (uint16_t)green_of(kind, texel);
-    rgb[2] = (uint16_t)blue_of(kind, texel);
+    uint32_t red = red_of(kind, texel);
+    out->red_green = red | (kind == TEXELS_GREY ? red : green_of(kind, texel)) << 16;
+    out->blue = kind == TEXELS_GREY ? red : blue_of(kind, texel);
 }
 
-/* Between four texels. */
-GN_INLINE void store_blend(int kind, uint32_t u_q17, uint32_t v_q17, const uint32_t t[4], uint16_t rgb[3])
+/* Red and green in the lower word, blue in the upper one: two registers. Between four texels; a function of its own, so
+ * that pixels between equal ones keep their registers. */
+GN_INLINE uint64_t blend_texels(const row_source *s, int kind, const uint8_t *at, uint32_t u_q17, uint32_t v_q17)
 {
-    uint32_t weight[4];
+    uint32_t t[4], weight[4], x = texel_column(kind, u_q17);
+    read_pair(s, kind, at, x, t);
+    read_pair(s, kind, at + s->stride, x, t + 2);
     find_weights(u_q17, v_q17, weight);
-    rgb[0] = weigh(weight, red_of(kind, t[0]), red_of(kind, t[1]), red_of(kind, t[2]), red_of(kind, t[3]));
-    if (kind == TEXELS_GREY) {
-        rgb[1] = rgb[2] = rgb[0];
-        return;
+    uint32_t red = weigh(weight, red_of(kind, t[0]), red_of(kind, t[1]), red_of(kind, t[2]), red_of(kind, t[3])),
+             green = red, blue = red;
+    if (kind != TEXELS_GREY) {
+        green = weigh(weight, green_of(kind, t[0]), green_of(kind, t[1]), green_of(kind, t[2]), green_of(kind, t[3]));
+        blue = weigh(weight, blue_of(kind, t[0]), blue_of(kind, t[1]), blue_of(kind, t[2]), blue_of(kind, t[3]));
     }
-    rgb[1] = weigh(weight, green_of(kind, t[0]), green_of(kind, t[1]), green_of(kind, t[2]), green_of(kind, t[3]));
-    rgb[2] = weigh(weight, blue_of(kind, t[0]), blue_of(kind, t[1]), blue_of(kind, t[2]), blue_of(kind, t[3]));
+    return red | green << 16 | (uint64_t)blue << 32;
 }
 
-GN_INLINE void one_pixel(const row_source *s, int kind, int bilinear, uint32_t u, uint32_t v, uint16_t rgb[3])
+#define BLEND_(kind, of)                                                                                               \
+    GN_HOT static GN_NOINLINE uint64_t blend_##of(const row_source *s, const uint8_t *at, uint32_t u_q17,              \
+                                                  uint32_t v_q17)                                                      \
+    {                                                                                                                  \
+        return blend_texels(s, kind, at, u_q17, v_q17);                                                                \
+    }
+BLEND_(TEXELS_RGBA, rgba)
+BLEND_(TEXELS_565, 565)
+BLEND_(TEXELS_565A1, 565a1)
+BLEND_(TEXELS_PALETTE, palette)
+BLEND_(TEXELS_GREY, grey)
+#undef BLEND_
+
+GN_INLINE uint64_t blend_kind(const row_source *s, int kind, const uint8_t *at, uint32_t u_q17, uint32_t v_q17)
 {
-    const uint8_t *upper = s->texels + (v >> 17) * s->stride;
+    if (kind == TEXELS_RGBA) return blend_rgba(s, at, u_q17, v_q17);
+    if (kind == TEXELS_565) return blend_565(s, at, u_q17, v_q17);
+    if (kind == TEXELS_565A1) return blend_565a1(s, at, u_q17, v_q17);
+    return kind == TEXELS_PALETTE ? blend_palette(s, at, u_q17, v_q17) : blend_grey(s, at, u_q17, v_q17);
+}
+
+GN_INLINE void store_both(uint64_t rgb, gn_texel_rgb *out)
+{
+    out->red_green = (uint32_t)rgb;
+    out->blue = (uint32_t)(rgb >> 32);
+}
+
+GN_INLINE void one_pixel(const row_source *s, int kind, int bilinear, uint32_t u, uint32_t v, gn_texel_rgb *out)
+{
+    const uint8_t *at = texel_place(s, kind, u, v);
+    uint32_t upper[2], lower[2], x = texel_column(kind, u);
     if (!bilinear) {
-        store_texel(kind, read_texel(s, kind, upper, u >> 17), rgb);
+        store_texel(kind, read_texel(s, kind, at, x), out);
         return;
     }
-    const uint8_t *lower = upper + s->stride;
-    uint32_t t[4], x = u >> 17;
-    read_pair(s, kind, upper, x, t);
-    read_pair(s, kind, lower, x, t + 2);
-    if (t[0] == t[1] && t[0] == t[2] && t[0] == t[3]) store_texel(kind, t[0], rgb);
-    else store_blend(kind, u, v, t, rgb);
+    GN_KEEP(at); /* computed once */
+    if (IS_565(kind)) {
+        uint32_t both = gn_texel_word(at);
+        if (both == (both >> 16 | both << 16) && both == gn_texel_word(at + s->stride)) {
+            store_texel(kind, both & 0xFFFFU, out);
+            return;
+        }
+        store_both(blend_kind(s, kind, at, u, v), out);
+        return;
+    }
+    read_pair(s, kind, at, x, upper);
+    if (upper[0] == upper[1]) { /* seldom where no texel is like the next: the others are read only then */
+        read_pair(s, kind, at + s->stride, x, lower);
+        if (upper[0] == lower[0] && upper[0] == lower[1]) {
+            store_texel(kind, upper[0], out);
+            return;
+        }
+    }
+    store_both(blend_kind(s, kind, at, u, v), out);
 }
 
 GN_INLINE void pixels(const row_source *s, int kind, int bilinear, const gn_texture_line *line, uint32_t bits,
-                      uint16_t (*rgb)[3])
+                      gn_texel_rgb *out)
 {
     int32_t u = line->at_q17[0], v = line->at_q17[1], u_step = line->step_q17[0], v_step = line->step_q17[1];
-    for (; bits; bits >>= 1, rgb++) {
+    for (; bits; bits >>= 1, out++) {
         if (bits & 1U) {
             if ((uint32_t)u < s->end_q17[0] && (uint32_t)v < s->end_q17[1])
-                one_pixel(s, kind, bilinear, (uint32_t)u, (uint32_t)v, *rgb);
-            else any_pixel(s->texture, &u, &v, *rgb);
+                one_pixel(s, kind, bilinear, (uint32_t)u, (uint32_t)v, out);
+            else {
+                int32_t at[2] = {u, v}; /* not u and v themselves: they stay in registers */
+                any_pixel(s->texture, at, out);
+                u = at[0];
+                v = at[1];
+            }
         }
         u += u_step;
         v += v_step;
@@ -168,32 +238,31 @@ GN_INLINE void pixels(const row_source *s, int kind, int bilinear, const gn_text
     }
 }
 
-GN_INLINE void row_of_kind(const row_source *s, int kind, const gn_texture_line *line, uint32_t bits,
-                           uint16_t (*rgb)[3])
+GN_INLINE void row_of_kind(const row_source *s, int kind, const gn_texture_line *line, uint32_t bits, gn_texel_rgb *out)
 {
-    if (s->texture->flags & GN_TEXTURE_BILINEAR) pixels(s, kind, 1, line, bits, rgb);
-    else pixels(s, kind, 0, line, bits, rgb);
+    if (s->texture->flags & GN_TEXTURE_BILINEAR) pixels(s, kind, 1, line, bits, out);
+    else pixels(s, kind, 0, line, bits, out);
 }
 
-GN_HOT void gn_texture_row(const gn_texture *t, const gn_texture_line *line, uint32_t bits, uint16_t (*rgb)[3])
+GN_HOT void gn_texture_row(const gn_texture *t, const gn_texture_line *line, uint32_t bits, gn_texel_rgb *out)
 {
     uint32_t border = t->flags & GN_TEXTURE_BILINEAR ? 1 : 0;
     row_source s = {t, t->rgba, gn_texel_stride(t), gn_texel_bits_log2(t), {0, 0}};
     for (int i = 0; i < 2; i++) s.end_q17[i] = (gn_texture_size(t, i) - border) << 17;
-    if (GN_TEXEL_IS(t, GN_TEXTURE_RGBA8888)) row_of_kind(&s, TEXELS_RGBA, line, bits, rgb);
-    else if (GN_TEXEL_IS(t, GN_TEXTURE_RGB565)) row_of_kind(&s, TEXELS_565, line, bits, rgb);
-    else if (GN_TEXEL_IS(t, GN_TEXTURE_RGB565A1)) row_of_kind(&s, TEXELS_565A1, line, bits, rgb);
-    else if (GN_TEXEL_IS_PALETTE(t)) row_of_kind(&s, TEXELS_PALETTE, line, bits, rgb);
-    else if (GN_TEXEL_IS_GREY(t)) row_of_kind(&s, TEXELS_GREY, line, bits, rgb);
+    if (GN_TEXEL_IS(t, GN_TEXTURE_RGBA8888)) row_of_kind(&s, TEXELS_RGBA, line, bits, out);
+    else if (GN_TEXEL_IS(t, GN_TEXTURE_RGB565)) row_of_kind(&s, TEXELS_565, line, bits, out);
+    else if (GN_TEXEL_IS(t, GN_TEXTURE_RGB565A1)) row_of_kind(&s, TEXELS_565A1, line, bits, out);
+    else if (GN_TEXEL_IS_PALETTE(t)) row_of_kind(&s, TEXELS_PALETTE, line, bits, out);
+    else if (GN_TEXEL_IS_GREY(t)) row_of_kind(&s, TEXELS_GREY, line, bits, out);
     else
-        for (; bits; bits >>= 1, rgb++) (*rgb)[0] = (*rgb)[1] = (*rgb)[2] = 65535U;
+        for (; bits; bits >>= 1, out++) *out = GN_TEXEL_WHITE;
 }
 #else
-GN_HOT void gn_texture_row(const gn_texture *t, const gn_texture_line *line, uint32_t bits, uint16_t (*rgb)[3])
+GN_HOT void gn_texture_row(const gn_texture *t, const gn_texture_line *line, uint32_t bits, gn_texel_rgb *out)
 {
     gn_texture_line at = *line;
-    for (; bits; bits >>= 1, rgb++) {
-        if (bits & 1U) any_pixel(t, &at.at_q17[0], &at.at_q17[1], *rgb);
+    for (; bits; bits >>= 1, out++) {
+        if (bits & 1U) any_pixel(t, at.at_q17, out);
         for (int i = 0; i < 2; i++) {
             at.at_q17[i] += at.step_q17[i];
             at.step_q17[i] += at.step_change_q17[i];

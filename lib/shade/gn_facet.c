@@ -6,6 +6,8 @@
 #include "base/gn_q.h"
 #include "shade/gn_exact.h"
 #include "shade/gn_facet.h"
+#include "shade/gn_facet_screen.h"
+#include "shade/gn_facet_texture.h"
 #include "shade/gn_lattice_cell.h"
 #include "shade/gn_levels.h"
 #include "shade/gn_pixel.h"
@@ -29,87 +31,22 @@ enum { PIXEL_LIGHTS = 2, EDGE_PX = 32 /* with more, windows pay */ };
 typedef struct {
     gn_shading *s;
     const gn_rect *box;
-    int32_t along_q24[2][2]; /* the change per pixel, right and down, of what is 1 more at vertex 1, or at vertex 2 */
-    int32_t to_first_q9[2];  /* pixels from vertex 0 to the centre of the box's first pixel, right and down */
+    gn_facet_screen screen; /* if has_slopes > 0 */
     int32_t n_px;
-    int has_slopes, steep;
+    int has_slopes;
     int32_t colour_q24[3][3]; /* at the vertices, without light that pixels ask for */
     int32_t n_lights;
     pixel_light light[PIXEL_LIGHTS];
+#if GN_TEXTURES
+    gn_facet_texture texture; /* where the surface is textured */
+#endif
 } facet;
-
-/* ---- The triangle on the screen ---------------------------------------------------------------------------------- */
-
-/* Half pixels from the picture's centre, as rays have them, Q8. Returns 0 far outside. */
-GN_HOT static int vertex_on_screen(const gn_frame *frame, const int32_t v_q16[3], int32_t p_q8[2])
-{
-    int32_t z = v_q16[2], clz = gn_clz32((uint32_t)z), focal2 = (int32_t)frame->cam.focal2_px_q16;
-    if (clz < 2 || gn_abs32(v_q16[0]) >> 1 >= (uint32_t)z || gn_abs32(v_q16[1]) >> 1 >= (uint32_t)z) return 0;
-    int32_t half = (int32_t)(gn_recip_norm((uint32_t)z << clz, GN_K(frame, newton_steps)) >> 1);
-    for (int i = 0; i < 2; i++) /* (x / z)_q28 times 2 F */
-        p_q8[i] = (int32_t)((int64_t)gn_mul_high(v_q16[i] * (1 << (clz - 2)), half) * focal2 >> 36);
-    return 1;
-}
-
-enum { SIZE_PX = 16 };
-
-/* Returns 0 if the triangle is large, deep, or narrower than half a pixel. */
-GN_HOT static GN_NOINLINE int find_slopes(facet *f)
-{
-    const gn_frame *frame = f->s->frame;
-    const gn_surface *s = &f->s->surface;
-    int32_t p[3][2], d[3][2];
-    uint32_t longest = 0;
-    if (s->z_max_q16 - s->z_min_q16 > s->z_min_q16 >> 3 || frame->cam.focal2_px_q16 >> 31) return 0;
-    for (int k = 0; k < 3; k++) {
-        if (s->v_q16[k][2] < frame->cam.near_q16 || !vertex_on_screen(frame, s->v_q16[k], p[k])) return 0;
-        for (int i = 0; i < 2; i++) {
-            d[k][i] = p[k][i] - p[0][i];
-            longest = gn_abs32(d[k][i]) > longest ? gn_abs32(d[k][i]) : longest;
-        }
-    }
-    if (longest > SIZE_PX << 9) return 0;
-    int32_t area = d[1][0] * d[2][1] - d[1][1] * d[2][0]; /* 2^27 */
-    uint32_t size = gn_abs32(area);
-    if (size >> 8 < longest || !size) return 0;
-    int32_t clz = gn_clz32(size), recip = (int32_t)(gn_recip_norm(size << clz, 1) >> 1);
-    if (area < 0) recip = -recip;
-    for (int i = 0; i < 2; i++) { /* 2 d / area */
-        f->along_q24[i][0] = (int32_t)((int64_t)d[2][1 - i] * recip >> (29 - clz));
-        f->along_q24[i][1] = -(int32_t)((int64_t)d[1][1 - i] * recip >> (29 - clz));
-    }
-    f->to_first_q9[0] = (2 * f->box->x0 + 1 - frame->picture.width) * 256 - p[0][0];
-    f->to_first_q9[1] = p[0][1] - (frame->picture.height - 1 - 2 * f->box->y0) * 256;
-    return 1;
-}
 
 /* Once, when something varies. */
 GN_HOT static int use_slopes(facet *f)
 {
-    if (!f->has_slopes) f->has_slopes = find_slopes(f) ? 1 : -1;
+    if (!f->has_slopes) f->has_slopes = gn_facet_screen_find(&f->screen, f->s->frame, &f->s->surface, f->box) ? 1 : -1;
     return f->has_slopes > 0;
-}
-
-/* What slopes may be: all pixels of the box, and as many before it, stay within 32 bits. */
-#define STEEP (1 << 23)
-
-/* Through values at the vertices, |.| <= 2^30. */
-GN_HOT static GN_NOINLINE void set_slope(facet *f, gn_slope *out, int32_t at0, int32_t at1, int32_t at2)
-{
-    int32_t slope[2], a = at1 - at0, b = at2 - at0;
-    for (int i = 0; i < 2; i++) {
-        int64_t v = ((int64_t)a * f->along_q24[i][0] + (int64_t)b * f->along_q24[i][1]) >> 24;
-        if (v >= STEEP || v <= -STEEP) v = 0, f->steep = 1;
-        slope[i] = (int32_t)v;
-    }
-    out->at = at0 + (int32_t)(((int64_t)slope[0] * f->to_first_q9[0] + (int64_t)slope[1] * f->to_first_q9[1]) >> 9);
-    out->dx = slope[0];
-    out->dy = slope[1];
-}
-
-GN_HOT static inline int32_t slope_at(const gn_slope *s, int32_t right, int32_t down)
-{
-    return s->at + s->dx * right + s->dy * down;
 }
 
 /* ---- Shadows ----------------------------------------------------------------------------------------------------- */
@@ -225,17 +162,17 @@ GN_HOT static int find_vertex_shadow(facet *f, uint32_t slot, pixel_light *out)
     if (said != GN_CELL_EDGE) return said;
     if (f->n_px > EDGE_PX || !use_slopes(f) || !vertex_places_hold(f, &p)) return GN_CELL_SPLIT;
     out->view = view;
-    set_slope(f, &out->u_q16, p.at[0][0], p.at[1][0], p.at[2][0]);
-    set_slope(f, &out->v_q16, p.at[0][1], p.at[1][1], p.at[2][1]);
-    set_slope(f, &out->depth_q30, p.at[0][2], p.at[1][2], p.at[2][2]);
+    gn_facet_slope(&f->screen, &out->u_q16, p.at[0][0], p.at[1][0], p.at[2][0]);
+    gn_facet_slope(&f->screen, &out->v_q16, p.at[0][1], p.at[1][1], p.at[2][1]);
+    gn_facet_slope(&f->screen, &out->depth_q30, p.at[0][2], p.at[1][2], p.at[2][2]);
     return said;
 }
 
 GN_HOT static uint32_t attenuation_at(const facet *f, const pixel_light *light, int32_t right, int32_t down)
 {
-    int32_t depth_q30 = gn_max32(0, gn_min32(slope_at(&light->depth_q30, right, down), (1 << 30) - 1));
-    gn_receiver r = {slope_at(&light->u_q16, right, down),
-                     slope_at(&light->v_q16, right, down),
+    int32_t depth_q30 = gn_max32(0, gn_min32(gn_facet_at(&light->depth_q30, right, down), (1 << 30) - 1));
+    gn_receiver r = {gn_facet_at(&light->u_q16, right, down),
+                     gn_facet_at(&light->v_q16, right, down),
                      (uint32_t)depth_q30 << 2,
                      {light->slope_q28[0], light->slope_q28[1]},
                      f->box->x0 + right,
@@ -306,7 +243,7 @@ GN_HOT static int add_vertex_light(facet *f, uint32_t slot)
         return 1;
     }
     if (!use_slopes(f)) return 0;
-    set_slope(f, &out->cosine_q24, e[0], e[1], e[2]);
+    gn_facet_slope(&f->screen, &out->cosine_q24, e[0], e[1], e[2]);
     out->radiance_uq16 = light->radiance_uq16;
     out->lit_uq16 = share;
     out->dark_uq16 = lattice_light->dark_uq16;
@@ -334,7 +271,7 @@ GN_HOT static void add_pixel_lights(const facet *f, int32_t right, int32_t down,
 {
     for (int32_t i = 0; i < f->n_lights; i++) {
         const pixel_light *light = &f->light[i];
-        int32_t e = slope_at(&light->cosine_q24, right, down);
+        int32_t e = gn_facet_at(&light->cosine_q24, right, down);
         if (e <= 0) continue;
         uint32_t share = light->lit_uq16;
         if (light->view) {
@@ -348,6 +285,15 @@ GN_HOT static void add_pixel_lights(const facet *f, int32_t right, int32_t down,
     }
 }
 
+/* The colours of a pixel's lights, times the vertices' if they are not in them yet. */
+GN_HOT static void light_pixel(const facet *f, const gn_slope *tint_q16, int32_t right, int32_t down,
+                               int32_t colour_q24[3])
+{
+    add_pixel_lights(f, right, down, colour_q24);
+    for (int c = 0; tint_q16 && c < 3; c++)
+        colour_q24[c] = (int32_t)((int64_t)colour_q24[c] * gn_facet_at(&tint_q16[c], right, down) >> 16);
+}
+
 GN_HOT static void draw_span(const facet *f, const gn_slope base_q24[3], const gn_slope *tint_q16,
                              const gn_run_span *span)
 {
@@ -355,7 +301,7 @@ GN_HOT static void draw_span(const facet *f, const gn_slope base_q24[3], const g
     const gn_shading *s = f->s;
     int32_t right = span->x - f->box->x0, down = span->y - f->box->y0, at[3], step[3];
     for (int c = 0; c < 3; c++) {
-        at[c] = slope_at(&base_q24[c], right, down);
+        at[c] = gn_facet_at(&base_q24[c], right, down);
         step[c] = base_q24[c].dx;
     }
     if (!f->n_lights) {
@@ -364,12 +310,54 @@ GN_HOT static void draw_span(const facet *f, const gn_slope base_q24[3], const g
     }
     for (int32_t i = 0; i < span->n_px; i++) {
         int32_t colour[3] = {at[0], at[1], at[2]};
-        add_pixel_lights(f, right + i, down, colour);
-        for (int c = 0; tint_q16 && c < 3; c++)
-            colour[c] = (int32_t)((int64_t)colour[c] * slope_at(&tint_q16[c], right + i, down) >> 16);
+        light_pixel(f, tint_q16, right + i, down, colour);
         gn_pixel_store_run(s->frame, &s->rows, span->x + i, span->y, 1, colour, none);
         for (int c = 0; c < 3; c++) at[c] += step[c];
     }
+}
+
+#if GN_TEXTURES
+/* The same of a textured surface: nodes are two, or all pixels. */
+GN_HOT static void draw_textured_span(const facet *f, const gn_slope base_q24[3], const gn_slope *tint_q16,
+                                      const gn_run_span *span)
+{
+    gn_lattice *l = &f->s->lattice;
+    int32_t(*node)[3] = l->by.node[0];
+    int32_t right = span->x - f->box->x0, down = span->y - f->box->y0, n = f->n_lights ? span->n_px : 2;
+    for (int32_t i = 0; i < n; i++) {
+        int32_t x = f->n_lights ? i : i * (span->n_px - 1);
+        for (int c = 0; c < 3; c++) node[i][c] = gn_facet_at(&base_q24[c], right + x, down);
+        if (f->n_lights) light_pixel(f, tint_q16, right + x, down, node[i]);
+    }
+    gn_pixel_line line = {.node = (const int32_t(*)[3])node, .spacing_log2 = f->n_lights ? 0 : 4, .inside = 1};
+    for (int32_t i = 0; i < n; i++)
+        for (int c = 0; c < 3; c++) line.inside &= node[i][c] >= 1 << 6 && node[i][c] <= 1 << 24;
+    for (int c = 0; !f->n_lights && c < 3; c++) node[1][c] = node[0][c] + base_q24[c].dx * 16;
+    gn_facet_texture_row(&f->texture, right, down, span->n_px, l->row.texel);
+    line.texel = l->row.texel;
+    gn_pixel_store_line(f->s->frame, &f->s->rows, span->x, span->y, (1U << span->n_px) - 1, &line);
+}
+
+/* Returns 0 if it is to be textured by cells. */
+GN_HOT static int use_texture(facet *f)
+{
+    return !f->s->surface.textured ||
+           (use_slopes(f) && gn_facet_texture_begin(&f->texture, f->s->frame, &f->s->surface, &f->screen));
+}
+#endif
+
+GN_HOT static void draw_spans(const facet *f, const gn_slope base_q24[3], const gn_slope *tint_q16)
+{
+    gn_lattice *l = &f->s->lattice;
+    GN_COUNT(facet_pixels, f->n_px);
+#if GN_TEXTURES
+    if (f->s->surface.textured) {
+        for (int32_t i = 0; i < l->n_spans; i++) draw_textured_span(f, base_q24, tint_q16, &l->span[i]);
+        gn_levels_forget(l); /* nodes took their place */
+        return;
+    }
+#endif
+    for (int32_t i = 0; i < l->n_spans; i++) draw_span(f, base_q24, tint_q16, &l->span[i]);
 }
 
 /* Times the vertices' colours. */
@@ -395,7 +383,7 @@ GN_HOT static int use_two_colours(facet *f)
     const pixel_light *light = &f->light[0];
     const gn_surface *s = &f->s->surface;
     int32_t dark[3], more[3];
-    if (f->n_lights != 1 || !light->view || GN_SMOOTH(s) || GN_COLOURED(s)) return 0;
+    if (f->n_lights != 1 || !light->view || GN_SMOOTH(s) || GN_COLOURED(s) || s->textured) return 0;
     if (GN_RAW_VIEWS && f->s->frame->picture.format == GN_FORMAT_RAW32) return 0;
     for (int c = 0; c < 3; c++) {
         int32_t all = gn_corner_times(light->radiance_uq16[c], light->cosine_q24.at),
@@ -440,7 +428,7 @@ GN_HOT static int draw(facet *f)
     if (GN_COLOURED(&s->surface) && !f->n_lights) tint_vertices(f);
     for (int c = 0; c < 3; c++)
         differs |= (uint32_t)(colour[0][c] ^ colour[1][c]) | (uint32_t)(colour[0][c] ^ colour[2][c]);
-    if (!differs && !f->n_lights && s->frame->picture.format != GN_FORMAT_RAW32) {
+    if (!differs && !f->n_lights && !s->surface.textured && s->frame->picture.format != GN_FORMAT_RAW32) {
         uint32_t q20[3];
         for (int c = 0; c < 3; c++) q20[c] = (uint32_t)gn_max32(colour[0][c], 0) >> 4;
         uint32_t packed = gn_exact_pack(s, q20);
@@ -448,25 +436,28 @@ GN_HOT static int draw(facet *f)
             gn_pixel_fill(s->frame, &s->rows, l->span[i].x, l->span[i].y, l->span[i].n_px, packed);
         return 1;
     }
-    if (!f->steep && use_two_colours(f)) {
+    if (!f->screen.steep && use_two_colours(f)) {
         GN_COUNT(facet_pixels, f->n_px);
         for (int32_t i = 0; i < l->n_spans; i++) draw_levels(f, &l->span[i]);
         return 1;
     }
     if (!use_slopes(f)) return 0;
-    for (int c = 0; c < 3; c++) set_slope(f, &base[c], colour[0][c], colour[1][c], colour[2][c]);
+    for (int c = 0; c < 3; c++) gn_facet_slope(&f->screen, &base[c], colour[0][c], colour[1][c], colour[2][c]);
 #if GN_VERTEX_COLOURS
     const int32_t(*rgb)[GN_ATTRIBUTE_COUNT] = (const int32_t(*)[GN_ATTRIBUTE_COUNT])s->surface.attribute_q16;
     for (int c = 0; GN_COLOURED(&s->surface) && f->n_lights && c < 3; c++) {
         int32_t first = rgb[0][GN_ATTRIBUTE_RGB + c];
-        set_slope(f, &tints[c], first, first + rgb[1][GN_ATTRIBUTE_RGB + c], first + rgb[2][GN_ATTRIBUTE_RGB + c]);
+        gn_facet_slope(&f->screen, &tints[c], first, first + rgb[1][GN_ATTRIBUTE_RGB + c],
+                       first + rgb[2][GN_ATTRIBUTE_RGB + c]);
         tint_q16 = tints;
     }
 #endif
     (void)tints;
-    if (f->steep) return 0;
-    GN_COUNT(facet_pixels, f->n_px);
-    for (int32_t i = 0; i < l->n_spans; i++) draw_span(f, base, tint_q16, &l->span[i]);
+#if GN_TEXTURES
+    if (!use_texture(f)) return 0;
+#endif
+    if (f->screen.steep) return 0;
+    draw_spans(f, base, tint_q16);
     return 1;
 }
 
@@ -474,8 +465,8 @@ GN_HOT int gn_facet_shade(gn_shading *s, const gn_rect *box, int32_t n_px)
 {
     const gn_surface *surface = &s->surface;
     facet f;
-    if (box->x1 - box->x0 > SIZE_PX || box->y1 - box->y0 > SIZE_PX) return 0;
-    if (surface->textured | surface->masked | surface->specular | surface->baked || GN_GLOWS(surface)) return 0;
+    if (box->x1 - box->x0 > GN_FACET_PX || box->y1 - box->y0 > GN_FACET_PX) return 0;
+    if (surface->masked | surface->specular | surface->baked || GN_GLOWS(surface)) return 0;
     if (surface->n_punctual || surface->plane.det <= 0 || !turns_little(s->frame, surface)) return 0;
     s->lattice.cascade = -1;
 #if GN_SHADOWS
@@ -485,7 +476,7 @@ GN_HOT int gn_facet_shade(gn_shading *s, const gn_rect *box, int32_t n_px)
     f.s = s;
     f.box = box;
     f.n_px = n_px;
-    f.has_slopes = f.steep = f.n_lights = 0;
+    f.has_slopes = f.screen.steep = f.n_lights = 0;
     for (int c = 0; c < 3; c++) {
         int32_t base = (int32_t)(surface->base_q20[c] > 1U << 23 ? 1U << 23 : surface->base_q20[c]) << 4;
         f.colour_q24[0][c] = f.colour_q24[1][c] = f.colour_q24[2][c] = base;

@@ -360,8 +360,9 @@ GN_HOT static GN_NOINLINE void draw_strip(const drawing *d, int32_t below, int i
         line.glow_q24[c] = GN_GLOWS(&s->surface) ? (int32_t)(glow < 1U << 19 ? glow << 8 : 1U << 27) : 0;
     }
 #endif
+    int32_t moves = 0;
     for (int32_t i = 0; log2 && i < d->n; i++)
-        for (int c = 0; c < 3; c++) step[i][c] = (next[i][c] - node[i][c]) >> log2;
+        for (int c = 0; c < 3; c++) moves |= step[i][c] = (next[i][c] - node[i][c]) >> log2;
     for (int32_t t = 0;; t++) {
         int32_t y = d->y + below + t;
         uint32_t bits = gn_lattice_bits(l, d->x, y, d->size_log2);
@@ -372,7 +373,7 @@ GN_HOT static GN_NOINLINE void draw_strip(const drawing *d, int32_t below, int i
         bits >>= d->first;
         if (bits) gn_pixel_store_line(s->frame, &s->rows, d->x + d->first, y, bits, &line);
         if (t + 1 == 1 << log2) break;
-        for (int32_t i = 0; i < d->n; i++)
+        for (int32_t i = 0; moves && i < d->n; i++)
             for (int c = 0; c < 3; c++) node[i][c] += step[i][c];
     }
 }

@@ -72,35 +72,41 @@ GN_HOT void gn_lattice_texture_begin(gn_shading *s, const gn_texture *texture, i
     }
 }
 
+/* A row of the cell, and in it the pixel that its line begins at. */
+typedef struct {
+    int32_t t, bend; /* rows from the first; t (t - size) */
+    int32_t k, k2;   /* pixels from the first; k (k - 1) */
+    int32_t size_log2;
+} texture_place;
+
 /* 2^26 * 16, 2^24 * 64 */
-GN_HOT static inline int32_t column_at(const gn_texture_column *c, int32_t t, int32_t size_log2)
+GN_INLINE int32_t column_at(const gn_texture_column *c, const texture_place *at)
 {
-    int32_t v = c->from_q17 + (c->down_q17 * t >> size_log2);
-    if (c->bent_q17) v += c->bent_q17 * (t * (t - (1 << size_log2))) >> (2 * size_log2 - 1);
-    return v;
+    return c->from_q17 + (c->down_q17 * at->t >> at->size_log2) + (c->bent_q17 * at->bend >> (2 * at->size_log2 - 1));
 }
 
 /* Colours of the texture in a row, `below` pixels under the cell's first row: of the pixels `bits`, the lowest of which
  * is the cell's pixel `first`; others are not set, or to anything. */
 GN_HOT static GN_NOINLINE void texture_row(const gn_texture_patch *patch, const gn_texture *texture, int32_t size_log2,
-                                           int32_t below, int32_t first, uint32_t bits, uint16_t (*rgb)[3])
+                                           int32_t below, int32_t first, uint32_t bits, gn_texel_rgb *texel)
 {
     gn_texture_line line;
-    int32_t lowest = 31 - gn_clz32(bits & (0U - bits)), k = first + lowest,
+    int32_t lowest = 31 - gn_clz32(bits & (0U - bits)), k = first + lowest, size = 1 << size_log2,
             half_texel = texture->flags & GN_TEXTURE_BILINEAR ? (1 << 16) - (1 << 8) : 0;
+    const texture_place place = {below, below * (below - size), k, k * (k - 1), size_log2};
     for (int i = 0; i < 2; i++) {
         const gn_texture_column *c = patch->column[i];
-        int32_t from = column_at(&c[0], below, size_log2), across = column_at(&c[2], below, size_log2) - from, half = 0;
+        int32_t from = column_at(&c[0], &place), across = column_at(&c[2], &place) - from, half = 0;
         if (patch->bends_rows) {
-            int32_t bent = across - 2 * (column_at(&c[1], below, size_log2) - from);
+            int32_t bent = across - 2 * (column_at(&c[1], &place) - from);
             half = ((bent >> (2 * size_log2 - 2)) + 1) >> 1;
         }
-        int32_t step = (across >> size_log2) - half * ((1 << size_log2) - 1);
-        line.at_q17[i] = from - half_texel + k * step + half * k * (k - 1);
+        int32_t step = (across >> size_log2) - half * (size - 1);
+        line.at_q17[i] = from - half_texel + place.k * step + half * place.k2;
         line.step_q17[i] = step + 2 * half * k;
         line.step_change_q17[i] = 2 * half;
     }
-    gn_texture_row(texture, &line, bits >> lowest, rgb + lowest);
+    gn_texture_row(texture, &line, bits >> lowest, texel + lowest);
 }
 
 #if GN_MIPMAPS
@@ -178,11 +184,10 @@ GN_HOT int gn_lattice_textures_begin(gn_shading *s, int32_t x, int32_t y, int32_
 
 GN_HOT void gn_lattice_textures_line(gn_lattice *l, const gn_cell_textures *t, gn_pixel_line *line)
 {
-    uint16_t(*texel)[3] = l->row.texel;
-    line->texel = (const uint16_t(*)[3])texel;
-    for (int i = 0; !t->texture && i < 16; i++) texel[i][0] = texel[i][1] = texel[i][2] = 65535U;
+    line->texel = l->row.texel;
+    for (int i = 0; !t->texture && i < 16; i++) l->row.texel[i] = GN_TEXEL_WHITE;
 #if GN_GLOW_TEXTURES
-    line->glow = t->glow ? (const uint16_t(*)[3])l->glow : NULL;
+    line->glow = t->glow ? l->glow : NULL;
 #endif
 }
 

@@ -255,36 +255,70 @@ GN_INLINE uint32_t tinted_q24(uint32_t texel, uint32_t colour_uq16)
     return texel * colour_uq16 >> 8;
 }
 
-GN_INLINE uint16_t tinted_565(const uint16_t texel[3], uint32_t r_uq16, uint32_t g_uq16, uint32_t b_uq16)
+GN_INLINE uint32_t tinted_565(gn_texel_rgb texel, uint32_t r_uq16, uint32_t g_uq16, uint32_t b_uq16)
 {
-    return (uint16_t)pack_565(tinted_q24(texel[0], r_uq16), tinted_q24(texel[1], g_uq16), tinted_q24(texel[2], b_uq16));
+    return pack_565(tinted_q24(texel.red_green & 0xFFFFU, r_uq16), tinted_q24(texel.red_green >> 16, g_uq16),
+                    tinted_q24(texel.blue, b_uq16));
+}
+
+/* Pixels of `bits` of one light: where the texture repeats a colour, so does the picture. */
+GN_HOT static inline void evenly_lit_565(uint16_t *out, uint32_t bits, const gn_texel_rgb *texel, uint32_t r_uq16,
+                                         uint32_t g_uq16, uint32_t b_uq16)
+{
+    gn_texel_rgb last = {0, 0}; /* black */
+    uint32_t packed = 0;
+    for (; bits; bits >>= 1, out++, texel++) {
+        if (!(bits & 1U)) continue;
+        if (texel->red_green != last.red_green || texel->blue != last.blue) {
+            last = *texel;
+            packed = tinted_565(last, r_uq16, g_uq16, b_uq16);
+        }
+        *out = (uint16_t)packed;
+    }
+}
+
+/* Pixels of `bits`, each with a node of its own. */
+GN_HOT static inline void apart_lit_565(uint16_t *out, uint32_t bits, const gn_texel_rgb *texel,
+                                        const int32_t (*node)[3])
+{
+    for (; bits; bits >>= 1, out++, texel++, node++)
+        if (bits & 1U)
+            *out = (uint16_t)tinted_565(*texel, (uint32_t)(*node)[0] >> 8, (uint32_t)(*node)[1] >> 8,
+                                        (uint32_t)(*node)[2] >> 8);
 }
 
 /* Pixels of `bits` between two nodes; colours lie in 0 .. 1. */
-GN_HOT static inline void textured_565(uint16_t *out, uint32_t bits, const uint16_t (*texel)[3],
-                                       const int32_t from_q24[3], const int32_t step_q24[3])
+GN_HOT static inline void textured_565(uint16_t *out, uint32_t bits, const gn_texel_rgb *texel,
+                                       const int32_t (*node)[3], int32_t log2)
 {
-    uint32_t r = (uint32_t)from_q24[0], g = (uint32_t)from_q24[1], b = (uint32_t)from_q24[2];
-    if (!(step_q24[0] | step_q24[1] | step_q24[2])) {
-        for (r >>= 8, g >>= 8, b >>= 8; bits; bits >>= 1, out++, texel++)
-            if (bits & 1U) *out = tinted_565(*texel, r, g, b);
+    uint32_t r = (uint32_t)node[0][0], g = (uint32_t)node[0][1], b = (uint32_t)node[0][2];
+    int32_t r_step = (node[1][0] - node[0][0]) >> log2, g_step = (node[1][1] - node[0][1]) >> log2,
+            b_step = (node[1][2] - node[0][2]) >> log2;
+    if (!(r_step | g_step | b_step)) {
+        evenly_lit_565(out, bits, texel, r >> 8, g >> 8, b >> 8);
         return;
     }
     for (; bits; bits >>= 1, out++, texel++) {
-        if (bits & 1U) *out = tinted_565(*texel, r >> 8, g >> 8, b >> 8);
-        r += (uint32_t)step_q24[0];
-        g += (uint32_t)step_q24[1];
-        b += (uint32_t)step_q24[2];
+        if (bits & 1U) *out = (uint16_t)tinted_565(*texel, r >> 8, g >> 8, b >> 8);
+        r += (uint32_t)r_step;
+        g += (uint32_t)g_step;
+        b += (uint32_t)b_step;
     }
+}
+
+/* A channel of 65535. */
+GN_HOT static inline uint32_t texel_channel(gn_texel_rgb texel, int c)
+{
+    return c == 2 ? texel.blue : texel.red_green >> (16 * c) & 0xFFFFU;
 }
 
 #if GN_GLOW_APART
 /* Light that the surface emits, at the pixel of a texel: 2^27 * 2^16 */
-GN_HOT static uint32_t glow_q20(const gn_pixel_line *line, const uint16_t (*texel)[3], int c)
+GN_HOT static uint32_t glow_q20(const gn_pixel_line *line, const gn_texel_rgb *texel, int c)
 {
     uint32_t glow_q24 = (uint32_t)line->glow_q24[c];
 #if GN_GLOW_TEXTURES
-    if (line->glow) return (uint32_t)((uint64_t)glow_q24 * line->glow[texel - line->texel][c] >> 20);
+    if (line->glow) return (uint32_t)((uint64_t)glow_q24 * texel_channel(line->glow[texel - line->texel], c) >> 20);
 #else
     (void)texel;
 #endif
@@ -294,19 +328,18 @@ GN_HOT static uint32_t glow_q20(const gn_pixel_line *line, const uint16_t (*texe
 
 /* The same of any colours and formats. */
 GN_HOT static void textured_any(const gn_frame *frame, const gn_pixel_rows *rows, int32_t x, int32_t y, uint32_t bits,
-                                const uint16_t (*texel)[3], const int32_t from_q24[3], const int32_t step_q24[3],
                                 const gn_pixel_line *line)
 {
     for (int32_t i = 0; bits >> i; i++) {
+        const gn_texel_rgb *texel = line->texel + i;
+        int32_t colour[3];
         uint32_t q20[3];
         if (!(bits >> i & 1U)) continue;
+        colour_at(line, i, colour);
         for (int c = 0; c < 3; c++) {
-            int32_t colour = gn_max32(from_q24[c] + i * step_q24[c], 0);
-            q20[c] = (uint32_t)((uint64_t)(uint32_t)colour * texel[i][c] >> 20);
+            q20[c] = (uint32_t)((uint64_t)(uint32_t)gn_max32(colour[c], 0) * texel_channel(*texel, c) >> 20);
 #if GN_GLOW_APART
-            q20[c] += glow_q20(line, texel + i, c);
-#else
-            (void)line;
+            q20[c] += glow_q20(line, texel, c);
 #endif
         }
         gn_pixel_store(frame, rows, x + i, y, gn_pixel_pack(frame, q20));
@@ -316,19 +349,25 @@ GN_HOT static void textured_any(const gn_frame *frame, const gn_pixel_rows *rows
 GN_HOT static GN_NOINLINE void textured_line(const gn_frame *frame, const gn_pixel_rows *rows, int32_t x, int32_t y,
                                              uint32_t bits, const gn_pixel_line *line)
 {
-    int32_t n = 1 << line->spacing_log2, step[3] = {0, 0, 0};
-    const uint16_t(*texel)[3] = line->texel;
-    int quick = line->inside && GN_LEVEL_TABLES && has_levels(frame);
+    int quick = GN_LEVEL_TABLES && line->inside && has_levels(frame);
     for (uint32_t rest = bits; GN_COUNTERS && rest; rest &= rest - 1) GN_COUNT(textured_rows, 1);
 #if GN_GLOW_APART
     if (line->glow_q24[0] | line->glow_q24[1] | line->glow_q24[2]) quick = 0;
 #endif
-    for (const int32_t(*node)[3] = line->node; bits; bits >>= n, x += n, texel += n, node++) {
+    if (!GN_LEVEL_TABLES || !quick) {
+        textured_any(frame, rows, x, y, bits, line);
+        return;
+    }
+    const int32_t log2 = line->spacing_log2, n = 1 << log2;
+    const gn_texel_rgb *texel = line->texel;
+    uint16_t *out = pixel_565(rows, x, y);
+    if (!log2) {
+        apart_lit_565(out, bits, texel, line->node);
+        return;
+    }
+    for (const int32_t(*node)[3] = line->node; bits; bits >>= n, out += n, texel += n, node++) {
         uint32_t part = bits & ((1U << n) - 1);
-        if (!part) continue;
-        for (int c = 0; n > 1 && c < 3; c++) step[c] = (node[1][c] - node[0][c]) >> line->spacing_log2;
-        if (GN_LEVEL_TABLES && quick) textured_565(pixel_565(rows, x, y), part, texel, node[0], step);
-        else textured_any(frame, rows, x, y, part, texel, node[0], step, line);
+        if (part) textured_565(out, part, texel, node, log2);
     }
 }
 #endif

@@ -2,6 +2,7 @@
 #ifndef GN_PIXEL_H
 #define GN_PIXEL_H
 
+#include "base/gn_base_types.h"
 #include "base/gn_q.h"
 #include "gnomon.h"
 
@@ -24,11 +25,11 @@ void gn_pixel_fill(const gn_frame *frame, const gn_pixel_rows *rows, int32_t x, 
 typedef struct {
     const int32_t (*node)[3]; /* Q24, |.| < 2^29, from the row's first pixel on, 2^spacing_log2 pixels apart */
     int32_t spacing_log2;
-    int inside;                 /* all nodes are in 2^-18 .. 1: nothing needs a clamp */
-    const uint16_t (*texel)[3]; /* of each pixel, 65535: 1; NULL: no texture */
+    int inside;                /* all nodes are in 2^-18 .. 1: nothing needs a clamp */
+    const gn_texel_rgb *texel; /* of each pixel; NULL: no texture */
 #if GN_GLOW_APART
 #if GN_GLOW_TEXTURES
-    const uint16_t (*glow)[3]; /* what that is multiplied by, pixel by pixel, or NULL */
+    const gn_texel_rgb *glow; /* what that is multiplied by, pixel by pixel, or NULL */
 #endif
     int32_t glow_q24[3]; /* textured: what is added to the product, 0 .. 2^27 */
 #endif

@@ -388,11 +388,11 @@ typedef struct gn_lattice {
     union {
         uint32_t attenuation[2][GN_LATTICE_NODES]; /* of two rows of nodes, until their colours are known */
 #if GN_TEXTURES
-        uint16_t texel[16][3]; /* of a row of pixels, then */
+        gn_texel_rgb texel[16]; /* of a row of pixels, then */
 #endif
     } row;
 #if GN_GLOW_TEXTURES
-    uint16_t glow[16][3]; /* the same of the texture of emitted light */
+    gn_texel_rgb glow[16]; /* the same of the texture of emitted light */
 #endif
 } gn_lattice;
 #endif

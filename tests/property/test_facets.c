@@ -1,5 +1,6 @@
 /* Small triangles, whose light is found at their vertices, against the same pictures with every pixel for itself
- * (NUMERICS 4.17): a ball of 120 triangles with colours and normals, in the shadow of a box, under one sun. */
+ * (NUMERICS 4.17): a ball of 120 triangles with colours and normals, in the shadow of a box, under one sun, with a
+ * bilinear texture or without. */
 #include "check.h"
 #include "demo_scene.h"
 #include "knobs.h"
@@ -11,6 +12,47 @@ static demo_scene demo;
 static uint8_t picture[2][3 * WIDTH * HEIGHT];
 static uint8_t *into;
 static int32_t width;
+
+/* ---- A texture for the ball -------------------------------------------------------------------------------------- */
+
+enum { TEXELS_LOG2 = 7, TEXELS = 1 << TEXELS_LOG2 };
+
+static uint8_t texels[4 * TEXELS * TEXELS];
+static int16_t uv[2 * DEMO_BALL_VERTICES];
+
+/* Stripes that blend into each other, so that a step of a colour is a step of a place. */
+static void add_texture(gn_texture *texture)
+{
+    for (int y = 0; y < TEXELS; y++)
+        for (int x = 0; x < TEXELS; x++) {
+            uint8_t *texel = texels + 4 * (y * TEXELS + x);
+            texel[0] = (uint8_t)(128 + 100 * ((x >> 2) & 1));
+            texel[1] = (uint8_t)(128 + 100 * ((y >> 2) & 1));
+            texel[2] = 200;
+            texel[3] = 255;
+        }
+    for (int i = 0; i < DEMO_BALL_VERTICES; i++) { /* seen from above: 1.5 turns from side to side */
+        uv[2 * i] = (int16_t)((int64_t)demo.ball_pos[3 * i] * 3 >> 17);
+        uv[2 * i + 1] = (int16_t)((int64_t)demo.ball_pos[3 * i + 2] * 3 >> 17);
+    }
+    const gn_texture bilinear = {
+        .rgba = texels, .width_log2 = TEXELS_LOG2, .height_log2 = TEXELS_LOG2, .flags = GN_TEXTURE_BILINEAR};
+    *texture = bilinear;
+    demo.ball.uv = uv;
+    demo.ball.uv_frac_bits = 15;
+    demo.object[1].texture = texture;
+}
+
+/* The ball's far side is several times as deep as its near one: coordinates bend. */
+static void look_from_near(uint32_t frame)
+{
+    const int32_t ball_q16[3] = {GN_Q16(1.2), GN_Q16(1.25), 0},
+                  eye_q16[3] = {GN_Q16(1.2), GN_Q16(1.8), GN_Q16(1.4) + (int32_t)frame * GN_Q16(0.1)};
+    gn_camera_look_at(&demo.scene.camera.to_world, eye_q16, ball_q16);
+    demo.scene.camera.focal_q24 = GN_Q24(0.7);
+}
+
+/* ---- Pictures ---------------------------------------------------------------------------------------------------- */
 
 static void take(void *user, int x, int y, int w, int h, const void *pixels)
 {
@@ -34,7 +76,7 @@ static int draw(int which, int32_t step, int vertex_light, int32_t w, int32_t h)
 }
 
 /* What presets promise: so many pixels of a thousand within a step of RGB565. */
-static void compare(int32_t step, int vertex_light, int32_t w, int32_t h)
+static void compare(const char *look, int32_t step, int vertex_light, int32_t w, int32_t h)
 {
     static const int one_step[3] = {8, 4, 8};
     const int n = w * h, promised = step == 8 ? 994 : 985;
@@ -49,13 +91,22 @@ static void compare(int32_t step, int vertex_light, int32_t w, int32_t h)
         within += near;
     }
     if (!CHECK(within * 1000 >= promised * n))
-        printf("  step %d, light at vertices %d, %dx%d: %d of %d pixels within a step\n", (int)step, vertex_light,
-               (int)w, (int)h, within, n);
+        printf("  %s, step %d, light at vertices %d, %dx%d: %d of %d pixels within a step\n", look, (int)step,
+               vertex_light, (int)w, (int)h, within, n);
+}
+
+static void compare_all(const char *look, int32_t longest)
+{
+    static const int32_t size[N_SIZES][2] = {{40, 30}, {64, 48}, {96, 72}, {WIDTH, HEIGHT}};
+    for (int i = 0; i < N_SIZES; i++)
+        for (int vertex_light = 0; vertex_light < 2; vertex_light++)
+            for (int32_t step = 8; step <= longest; step += 8)
+                compare(look, step, vertex_light, size[i][0], size[i][1]);
 }
 
 int main(void)
 {
-    static const int32_t size[N_SIZES][2] = {{40, 30}, {64, 48}, {96, 72}, {WIDTH, HEIGHT}};
+    gn_texture texture;
     for (uint32_t frame = 0; frame < FRAMES; frame++) {
         demo_scene_make(&demo, frame);
         if (frame & 1) { /* no part of a shadow fades */
@@ -63,9 +114,11 @@ int main(void)
             demo.scene.shadow.max_distance_q16 = GN_Q16(30);
             demo.scene.shadow.distance_fade_uq16 = demo.scene.shadow.cascade_fade_uq16 = GN_UQ16(0.01);
         }
-        for (int i = 0; i < N_SIZES; i++)
-            for (int vertex_light = 0; vertex_light < 2; vertex_light++)
-                for (int32_t step = 8; step <= 16; step += 8) compare(step, vertex_light, size[i][0], size[i][1]);
+        compare_all("plain", 16);
+        add_texture(&texture);
+        compare_all("textured", 16);
+        look_from_near(frame);
+        compare_all("textured, near", 8);
     }
     return check_report();
 }

@@ -225,6 +225,11 @@ static uint32_t q20_of(int64_t q24)
     return q24 < 0 ? 0 : (uint32_t)(q24 >> 4);
 }
 
+static int32_t channel_of(gn_texel_rgb texel, int c)
+{
+    return (int32_t)(c == 2 ? texel.blue : texel.red_green >> (16 * c) & 0xFFFFU);
+}
+
 /* Pixel i of a line: between two nodes a step is rounded down to 2^-24. */
 static uint32_t pixel_of_line(const gn_pixel_line *line, int32_t i)
 {
@@ -239,8 +244,11 @@ static uint32_t pixel_of_line(const gn_pixel_line *line, int32_t i)
         q20[c] = q20_of(colour_q24);
         if (!line->texel) continue;
         /* 16 bits of both; otherwise 24 and 16 */
-        if (quick) q20[c] = (uint32_t)i128_floor_div((i128)(colour_q24 >> 8) * line->texel[i][c], 1 << 12);
-        else q20[c] = colour_q24 < 0 ? 0 : (uint32_t)i128_floor_div((i128)colour_q24 * line->texel[i][c], 1 << 20);
+        if (quick) q20[c] = (uint32_t)i128_floor_div((i128)(colour_q24 >> 8) * channel_of(line->texel[i], c), 1 << 12);
+        else
+            q20[c] = colour_q24 < 0
+                         ? 0
+                         : (uint32_t)i128_floor_div((i128)colour_q24 * channel_of(line->texel[i], c), 1 << 20);
     }
     return gn_pixel_pack(&frame, q20);
 }
@@ -269,14 +277,24 @@ static void check_line(const gn_pixel_line *line, uint32_t bits, tally *same, ta
     }
 }
 
-static uint16_t texels[LINE_PIXELS][3];
+static gn_texel_rgb texels[LINE_PIXELS];
 
+/* Some repeat the one before; channels are black, white or anything. */
 static void choose_texture(gn_pixel_line *line)
 {
-    for (int i = 0; i < LINE_PIXELS; i++)
-        for (int c = 0; c < 3; c++)
-            texels[i][c] = (uint16_t)(rng_below(&random_state, 8) ? rng_u32(&random_state) : 65535U);
-    line->texel = (const uint16_t(*)[3])texels;
+    for (int i = 0; i < LINE_PIXELS; i++) {
+        uint32_t v[3];
+        if (i && !rng_below(&random_state, 3)) {
+            texels[i] = texels[i - 1];
+            continue;
+        }
+        for (int c = 0; c < 3; c++) {
+            const uint32_t kind = rng_below(&random_state, 8);
+            v[c] = kind < 6 ? rng_u32(&random_state) & 0xFFFFU : kind == 6 ? 65535U : 0;
+        }
+        texels[i] = (gn_texel_rgb){v[0] | v[1] << 16, v[2]};
+    }
+    line->texel = texels;
 }
 
 /* Lines are what single pixels would be: random nodes, also beyond black and white, and every light from one to the
@@ -296,8 +314,9 @@ static void test_lines(void)
         if (GN_TEXTURES && k % 5 == 0) choose_texture(&line);
         for (int i = 0; i <= LINE_PIXELS; i++)
             for (int c = 0; c < 3; c++)
-                node[i][c] = line.inside ? rng_range(&random_state, 64, (1 << 24) - 1)
-                                         : rng_range(&random_state, -(1 << 24), (1 << 28));
+                node[i][c] = i && k % 4 == 1 ? node[0][c] /* one light */
+                             : line.inside   ? rng_range(&random_state, 64, (1 << 24) - 1)
+                                             : rng_range(&random_state, -(1 << 24), (1 << 28));
         check_line(&line, rng_u32(&random_state) & 0xFFFFU & (k & 4 ? UINT32_MAX : rng_u32(&random_state)), &same,
                    &kept);
     }

@@ -115,7 +115,7 @@ static long lattice_bytes(const settings *s)
     if (has_levels(s)) put(&all, 1, 4, 4);        /* of that: level and level_ends */
     put(&all, 1, 616, 8);                         /* by */
     put(&all, 1, 136, 4);                         /* attenuation */
-    if (has_glow(s)) put(&all, 16, 6, 4);         /* glow */
+    if (has_glow(s)) put(&all, 16, 8, 4);         /* glow */
     pad(&all, 8);
     return all.size;
 }

@@ -1,0 +1,117 @@
+/* Texture coordinates of small triangles. */
+#include "gn_internal.h"
+
+#include "base/gn_math.h"
+#include "base/gn_q.h"
+#include "geometry/gn_texture.h"
+#include "shade/gn_facet_texture.h"
+#include "shade/gn_lattice_cell.h"
+
+#if GN_INTERPOLATES && GN_TEXTURES
+
+/* The texture, or the one level of it that the triangle shows; NULL: cells find it. */
+GN_HOT static const gn_texture *texture_of(gn_surface *s)
+{
+    const gn_texture *texture = s->object->texture;
+    if (!texture || GN_GLOW_TEXTURE(s)) return NULL;
+#if GN_MIPMAPS
+    if (gn_texture_has_levels(texture)) {
+        uint32_t level = gn_texture_level_at(texture, s->level_depth2_q32, s->z_min_q16);
+        if (gn_texture_level_ends(texture, s->level_depth2_q32, level, s->z_max_q16)) return NULL;
+        if (s->level_idx != level) gn_texture_use_level(&s->level, texture, level);
+        s->level_idx = level;
+        return &s->level;
+    }
+#endif
+    return texture;
+}
+
+/* e at the vertices, by which they are nearer than the middle depth; |e| <= 1/16. */
+GN_HOT static void find_nearness(const gn_surface *s, int32_t e_q30[3])
+{
+    int32_t middle = s->z_min_q16 + ((s->z_max_q16 - s->z_min_q16) >> 1);
+    for (int k = 0; k < 3; k++) {
+        int32_t z = s->v_q16[k][2], nearer = middle - z;
+        int32_t e = (int32_t)gn_quotient_q30(gn_abs32(nearer), (uint32_t)z);
+        e_q30[k] = nearer < 0 ? -e : e;
+    }
+}
+
+enum { ROW_LOG2 = 4, CHANGE_LOG2 = 26 /* 2^9 texels */ };
+
+/* What coordinates along an axis are off by, texels, Q17: NUMERICS 4.17. `most` is the largest difference to vertex 0.
+ */
+GN_HOT static uint32_t error_q17(const gn_slope *coord_q17, const gn_slope *e_q30, uint32_t e_most_q30, uint32_t most)
+{
+    uint32_t row = gn_abs32(coord_q17->dx) << ROW_LOG2, e_row = (gn_abs32(e_q30->dx) << ROW_LOG2) >> 14,
+             e = (e_most_q30 >> 14) + e_row;                        /* Q16, <= 2^13 */
+    uint64_t cube_q32 = ((uint64_t)e * e * e) >> 16;                /* 2^23 */
+    uint64_t bent = (uint64_t)row + ((uint64_t)most * e_row >> 16); /* 2^27 + 2^23 */
+    uint64_t cut_off = most * cube_q32 >> 32, between = (bent * (e_row * e_row >> 3)) >> 32,
+             moved = (gn_abs32(coord_q17->dx) + gn_abs32(coord_q17->dy)) >> 13;
+    return (uint32_t)(cut_off + (cut_off >> 2) + between + moved);
+}
+
+/* One axis. Returns 0 if it does not fit. */
+GN_HOT static int find_coordinate(gn_facet_texture *out, const gn_frame *frame, const gn_surface *s,
+                                  gn_facet_screen *screen, const int32_t e_q30[3], int axis)
+{
+    const int64_t size2 = 2 * (int64_t)gn_texture_size(out->texture, axis);
+    const int64_t first = s->uv.uv_q16[0][axis] * size2;
+    int32_t at[3] = {0, 0, 0};
+    uint32_t most = 0, e_most = 0;
+    if (first >> 30 != first >> 63) return 0;
+    for (int k = 0; k < 3; k++) {
+        int64_t change = k ? s->uv.uv_q16[k][axis] * size2 : 0;
+        if (change >> CHANGE_LOG2 != change >> 63) return 0;
+        most = gn_abs32((int32_t)change) > most ? gn_abs32((int32_t)change) : most;
+        e_most = gn_abs32(e_q30[k]) > e_most ? gn_abs32(e_q30[k]) : e_most;
+        at[k] = (int32_t)(change + (change * e_q30[k] >> 30));
+    }
+    gn_slope *slope = &out->from_first_q17[axis];
+    gn_facet_slope(screen, slope, at[0], at[1], at[2]);
+    out->first_q17[axis] = (int32_t)first - (out->texture->flags & GN_TEXTURE_BILINEAR ? (1 << 16) - (1 << 8) : 0);
+    return error_q17(slope, &out->e_q30, e_most, most) >> (17 - gn_cell_texture_log2(frame)) == 0;
+}
+
+GN_HOT int gn_facet_texture_begin(gn_facet_texture *out, const gn_frame *frame, gn_surface *s, gn_facet_screen *screen)
+{
+    int32_t e_q30[3];
+    out->texture = texture_of(s);
+    if (!out->texture) return 0;
+    find_nearness(s, e_q30);
+    gn_facet_slope(screen, &out->e_q30, e_q30[0], e_q30[1], e_q30[2]);
+    if (gn_abs32(out->e_q30.dx) >> (26 - ROW_LOG2)) return 0;
+    for (int axis = 0; axis < 2; axis++)
+        if (!find_coordinate(out, frame, s, screen, e_q30, axis)) return 0;
+    return !screen->steep;
+}
+
+/* 1 / (1 + e) = 1 - e + e^2 */
+GN_HOT static inline int32_t coordinate_at(const gn_facet_texture *t, int axis, int32_t right, int32_t down, int32_t e)
+{
+    int32_t at = gn_facet_at(&t->from_first_q17[axis], right, down), less_q30 = e - (int32_t)((int64_t)e * e >> 30);
+    return at - (int32_t)((int64_t)at * less_q30 >> 30);
+}
+
+GN_HOT void gn_facet_texture_row(const gn_facet_texture *t, int32_t right, int32_t down, int32_t n, gn_texel_rgb *out)
+{
+    gn_texture_line line;
+    int32_t log2 = n <= 3 ? 1 : n <= 5 ? 2 : n <= 9 ? 3 : ROW_LOG2, half = 1 << (log2 - 1);
+    int32_t e = gn_facet_at(&t->e_q30, right, down), e_half = t->e_q30.dx << (log2 - 1);
+    for (int i = 0; i < 2; i++) {
+        int32_t from = coordinate_at(t, i, right, down, e), step = 0, change = 0;
+        if (n > 1) {
+            int32_t middle = coordinate_at(t, i, right + half, down, e + e_half) - from,
+                    across = coordinate_at(t, i, right + 2 * half, down, e + 2 * e_half) - from;
+            change = (((across - 2 * middle) >> (2 * log2 - 2)) + 1) >> 1; /* half of it */
+            step = (across >> log2) - change * (2 * half - 1);
+        }
+        line.at_q17[i] = t->first_q17[i] + from;
+        line.step_q17[i] = step;
+        line.step_change_q17[i] = 2 * change;
+    }
+    gn_texture_row(t->texture, &line, (1U << n) - 1, out);
+}
+
+#endif

@@ -1,0 +1,24 @@
+/* Parts of gn_facet: texture coordinates of small triangles (NUMERICS 4.17). */
+#ifndef GN_FACET_TEXTURE_H
+#define GN_FACET_TEXTURE_H
+
+#include "shade/gn_facet_screen.h"
+
+#if GN_INTERPOLATES && GN_TEXTURES
+
+/* Coordinates times 1 + e, where nearness is 1 + e times that of the middle depth: both are linear on the screen. */
+typedef struct {
+    const gn_texture *texture;
+    gn_slope e_q30, from_first_q17[2]; /* texels, from vertex 0 */
+    int32_t first_q17[2];              /* of vertex 0, less half a texel if the texture is bilinear */
+} gn_facet_texture;
+
+/* Returns 0 if the triangle is to be textured by cells. */
+int gn_facet_texture_begin(gn_facet_texture *out, const gn_frame *frame, gn_surface *surface, gn_facet_screen *screen);
+
+/* Colours of n <= 16 pixels of a row, from a pixel of the box on. */
+void gn_facet_texture_row(const gn_facet_texture *t, int32_t right, int32_t down, int32_t n, gn_texel_rgb *out);
+
+#endif
+
+#endif
