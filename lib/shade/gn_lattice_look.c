@@ -77,10 +77,8 @@ GN_HOT static int find_shares(const gn_lattice_cell *cell, uint32_t slot, gn_con
         masks |= mask != 65536 && mask;
         ends |= g ? 1 : 2;
         if (!casts) lit = dark = gn_shadow_baked(light, mask);
-        else if (mask != 65536 || light->strength_uq16 != 65536 || g != 65536) {
-            lit = gn_shadow_mixed(cell->frame, light, mask, g, 65536);
-            dark = gn_shadow_mixed(cell->frame, light, mask, g, 0);
-        }
+        else if (mask != 65536 || light->strength_uq16 != 65536 || g != 65536)
+            dark = gn_shadow_mixed_ends(cell->frame, light, mask, g, &lit);
         out->dark_uq16[i] = dark;
         out->more_uq16[i] = lit - dark;
     }
