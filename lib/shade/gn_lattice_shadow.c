@@ -344,7 +344,7 @@ GN_HOT static int add_of_several(const gn_lattice_cell *cell, uint32_t slot, con
     if (blend != GN_BLEND_HARD) return 0; /* each pixel has its own */
 #if GN_PUNCTUAL_LIGHTS || GN_MANY_CASCADES
     if (add_two(cell, slot, light, views, from_q16, p)) return 1;
-    if (cascaded || cell->size_log2 > 2) return 0;
+    if (cascaded || cell->size_log2 > 2 || cell->ask->slot >= 0) return 0;
     p->bent = GN_PLACES_LONE;
     return add_edge(cell, slot, p, slope_q28, light, light->more_uq16);
 #else
