@@ -318,9 +318,7 @@ GN_HOT static GN_NOINLINE int find_nodes(const drawing *d, int32_t below, int32_
 /* The columns that have pixels. Returns 0 if there are none. */
 GN_HOT static uint32_t columns(const drawing *d, int32_t y, int32_t n_rows)
 {
-    uint32_t any = 0;
-    for (int32_t i = 0; i < n_rows; i++) any |= gn_lattice_bits(&d->s->lattice, d->x, y + i, d->size_log2);
-    return any;
+    return gn_lattice_columns(&d->s->lattice, d->x, y, n_rows, d->size_log2);
 }
 
 #if GN_SHADOWS
