@@ -258,6 +258,7 @@
 #define gn_shadow_factor GN_PREFIXED_(GN_PREFIX, gn_shadow_factor)
 #define gn_shadow_mask GN_PREFIXED_(GN_PREFIX, gn_shadow_mask)
 #define gn_shadow_mixed GN_PREFIXED_(GN_PREFIX, gn_shadow_mixed)
+#define gn_shadow_mixed_ends GN_PREFIXED_(GN_PREFIX, gn_shadow_mixed_ends)
 #define gn_shadow_plane_slopes GN_PREFIXED_(GN_PREFIX, gn_shadow_plane_slopes)
 #define gn_shadow_slopes GN_PREFIXED_(GN_PREFIX, gn_shadow_slopes)
 #define gn_shadow_tile GN_PREFIXED_(GN_PREFIX, gn_shadow_tile)

@@ -61,14 +61,6 @@ GN_HOT static inline int32_t gn_sat32_inline(int64_t v)
     return (int32_t)gn_clamp64_inline(v, INT32_MIN, INT32_MAX);
 }
 
-/* a + b, limited to 32 bits */
-GN_HOT static inline int32_t gn_add_sat32(int32_t a, int32_t b)
-{
-    int32_t sum = (int32_t)((uint32_t)a + (uint32_t)b);
-    if (((a ^ sum) & (b ^ sum)) >= 0) return sum;
-    return a < 0 ? INT32_MIN : INT32_MAX;
-}
-
 /* |v| as unsigned: defined for the most negative value too. */
 GN_HOT static inline uint32_t gn_abs32(int32_t v)
 {

@@ -77,12 +77,12 @@ GN_HOT static void begin_light(gn_lattice *l, const gn_frame *frame, const gn_su
     (void)frame;
 }
 
-/* Whether the light lies within 32 bits of the eye. */
+/* Whether the light lies within 2^30 of the eye. */
 GN_HOT static int in_reach(const gn_light_state *light)
 {
 #if GN_PUNCTUAL_LIGHTS
     for (int i = 0; light->kind != GN_LIGHT_DIRECTIONAL && i < 3; i++)
-        if (light->from_light[i].d_q16 != (int32_t)light->from_light[i].d_q16) return 0;
+        if (gn_abs64(light->from_light[i].d_q16) >> 30) return 0;
 #endif
     (void)light;
     return 1;
@@ -230,9 +230,10 @@ GN_HOT static uint32_t mask_at(const gn_surface *s, const corner_point *p, const
 /* ---- Lights ------------------------------------------------------------------------------------------------------ */
 
 #if GN_PUNCTUAL_LIGHTS
-/* From the eye to the point, along the world's axes: the same for all lights. */
-GN_HOT static void find_ray(const gn_light_state *any, gn_corner *c, const corner_point *p)
+/* From the eye to the point, along the world's axes: the same for all lights. Returns 0 if it is 2^30 away. */
+GN_HOT static int find_ray(const gn_light_state *any, gn_corner *c, const corner_point *p)
 {
+    uint32_t beyond = 0;
     int32_t up = gn_clz32((uint32_t)c->z_q16) - 1, z = c->z_q16 * (1 << up), down = any->ray_shift + up - 32;
     for (int i = 0; i < 3; i++) {
         const gn_ray_plane *r = &any->from_light[i];
@@ -240,7 +241,9 @@ GN_HOT static void find_ray(const gn_light_state *any, gn_corner *c, const corne
         int32_t v = gn_mul_high(z, a);
         c->ray_q16[i] = down >= 0 ? v >> gn_min32(down, 31)
                                   : (int32_t)gn_clamp64(v * ((int64_t)1 << gn_min32(-down, 31)), -INT32_MAX, INT32_MAX);
+        beyond |= (uint32_t)c->ray_q16[i] + (1U << 30);
     }
+    return !(beyond >> 31);
 }
 
 /* clamp(share, 0, 1)^2 of a spot's rim, Q30. */
@@ -367,14 +370,14 @@ GN_HOT void gn_corner_find(const gn_lattice *l, const gn_frame *frame, const gn_
     c->x = (int16_t)x;
     c->y = (int16_t)y;
     if (!find_point(l, frame, s, c, &p)) return;
+#if GN_PUNCTUAL_LIGHTS
+    if (s->n_punctual && !find_ray(s->light[s->n_lights - 1].state, c, &p)) return;
+#endif
     c->state = GN_CORNER_KNOWN;
     attributes_at(s, &p, c);
     if (!s->n_lights) return;
     find_cascade(l, frame, s, &p, sample, c);
     find_normal(frame, s, c, &p);
-#if GN_PUNCTUAL_LIGHTS
-    if (s->n_punctual) find_ray(s->light[s->n_lights - 1].state, c, &p);
-#endif
     for (uint32_t i = 0; i < s->n_lights; i++) light_at(l, frame, s, i, &p, c);
 #if GN_SPECULAR
     if (!s->specular || !gn_sample_on_plane(frame, s, x, y, sample)) return;
@@ -422,8 +425,7 @@ GN_HOT int gn_corner_locate(const gn_lattice *l, const gn_frame *frame, const gn
     c->light[slot].placed = GN_VIEW_NONE;
 #if GN_PUNCTUAL_LIGHTS
     const gn_light_state *light = s->light[slot].state;
-    if (light->kind == GN_LIGHT_DIRECTIONAL) return 1;
-    find_ray(light, c, &p);
+    if (light->kind != GN_LIGHT_DIRECTIONAL) return find_ray(light, c, &p);
 #endif
     return 1;
 }

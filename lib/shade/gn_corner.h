@@ -53,10 +53,10 @@ int gn_corner_texture(gn_lattice *lattice, const gn_frame *frame, const gn_surfa
                       int32_t uv_q20[2]);
 
 #if GN_PUNCTUAL_LIGHTS
-/* From a spot or point light to the corner; gn_corner_begin() saw that the light is in reach of 32 bits. */
+/* From a spot or point light to the corner: both lie within 2^30 of the eye. */
 GN_HOT static inline void gn_corner_from(const gn_corner *c, const gn_light_state *light, int32_t from_q16[3])
 {
-    for (int i = 0; i < 3; i++) from_q16[i] = gn_add_sat32(c->ray_q16[i], (int32_t)light->from_light[i].d_q16);
+    for (int i = 0; i < 3; i++) from_q16[i] = c->ray_q16[i] + (int32_t)light->from_light[i].d_q16;
 }
 
 /* A difference of cosines at a spot's rim, as a share of the rim's, Q30: below 2^48. */

@@ -114,11 +114,12 @@ GN_HOT static GN_NOINLINE int place_punctual(const gn_frame *frame, const gn_sur
 {
     const gn_light_state *light = &frame->light[view->light_idx];
     const int32_t *n = normal_of(s, c);
+    const uint32_t limit = 1U << 29;
     int32_t from[3], moved[3], p[3], reach = 0;
     gn_corner_from(c, light, from);
     if (!how->lifts || view->fit.persp.lift_q31 == INT32_MAX || view->fit.persp.focal2_q16 >> 30 ||
-        (gn_abs32(from[0]) | gn_abs32(from[1]) | gn_abs32(from[2])) >> 29)
-        return 0;
+        (((uint32_t)from[0] + limit) | ((uint32_t)from[1] + limit) | ((uint32_t)from[2] + limit)) >> 30)
+        return 0; /* |from| < 2^29 */
     if (light->kind == GN_LIGHT_SPOT) reach = -(int32_t)gn_dot_q30(from, light->to_light_q30);
     else
         for (int i = 0; i < 3; i++) reach = gn_max32(reach, (int32_t)gn_abs32(from[i]));

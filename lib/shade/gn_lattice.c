@@ -52,9 +52,7 @@ GN_HOT static int mark(gn_lattice *l)
 
 GN_HOT static int has_pixels(const gn_lattice *l, int32_t x, int32_t y, int32_t size_log2)
 {
-    uint32_t any = 0;
-    for (int32_t i = 0; i < 1 << size_log2; i++) any |= gn_lattice_bits(l, x, y + i, size_log2);
-    return any != 0;
+    return gn_lattice_columns(l, x, y, 1 << size_log2, size_log2) != 0;
 }
 
 /* ---- Cells ------------------------------------------------------------------------------------------------------- */

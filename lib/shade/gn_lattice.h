@@ -32,6 +32,16 @@ GN_HOT static inline uint32_t gn_lattice_bits(const gn_lattice *l, int32_t x, in
     return l->bits[at >> 5][y - l->y] >> (at & 31) & ((1U << (1 << size_log2)) - 1);
 }
 
+/* The columns of a cell that have pixels in rows y .. y + n_rows - 1. */
+GN_HOT static inline uint32_t gn_lattice_columns(const gn_lattice *l, int32_t x, int32_t y, int32_t n_rows,
+                                                 int32_t size_log2)
+{
+    uint32_t at = (uint32_t)(x - l->x), any = 0;
+    const uint32_t *row = &l->bits[at >> 5][y - l->y];
+    for (int32_t i = 0; i < n_rows; i++) any |= row[i];
+    return any >> (at & 31) & ((1U << (1 << size_log2)) - 1);
+}
+
 #endif
 
 #endif

@@ -245,48 +245,71 @@ GN_HOT static GN_NOINLINE void find_attenuations(const drawing *d, const gn_latt
     look_up_row(d, edge, below, &at, &step, 0, d->n, out);
 }
 
-GN_HOT static void add_edge_light(const drawing *d, const gn_lattice_edge *edge, int32_t below, int32_t (*node)[3])
+/* A channel of a row of nodes: of the cell's colours, or what is there already, and what a light adds to it. */
+GN_HOT static inline uint32_t add_channel(const drawing *d, const gn_patch *base, const gn_patch *more, int32_t below,
+                                          int32_t (*node)[3], int c)
 {
-    const uint32_t *attenuation = d->s->lattice.row.attenuation[0];
-    int32_t log2 = d->s->lattice.look.spacing_log2, at[3], step[3];
+    const uint32_t *share = d->s->lattice.row.attenuation[0], *end = share + d->n;
+    const int32_t log2 = d->s->lattice.look.spacing_log2;
+    int32_t at = gn_patch_at(more, d->first, below), step = (more->dx + below * more->dxy) * (1 << log2);
+    int32_t from = base ? gn_patch_at(base, d->first, below) : 0,
+            change = base ? (base->dx + below * base->dxy) * (1 << log2) : 0;
+    uint32_t all = 0;
+    for (; share < end; share++, node++, at += step, from += change) {
+        int32_t v = base ? from : (*node)[c];
+        if (*share == 65536) v += at;
+        else if (*share) v += gn_mul_high(at * 2, (int32_t)(*share << 15)); /* |at| < 2^30 */
+        (*node)[c] = v;
+        all |= (uint32_t)v | (uint32_t)(v - 64);
+    }
+    return all;
+}
+
+/* Adds the light of an edge to a row of nodes; to the cell's colours, if it is the first. */
+GN_HOT static uint32_t add_edge_light(const drawing *d, const gn_lattice_edge *edge, int32_t below, int32_t (*node)[3],
+                                      int first)
+{
+    uint32_t all = 0;
     find_attenuations(d, edge, below, d->s->lattice.row.attenuation[0]);
-    for (int c = 0; c < 3; c++) {
-        const gn_patch *more = &edge->more_q24[c];
-        at[c] = gn_patch_at(more, d->first, below);
-        step[c] = (more->dx + below * more->dxy) * (1 << log2);
-    }
-    for (int32_t i = 0; i < d->n; i++, at[0] += step[0], at[1] += step[1], at[2] += step[2]) {
-        uint32_t share = attenuation[i];
-        int32_t *out = node[i];
-        if (share == 65536) out[0] += at[0], out[1] += at[1], out[2] += at[2];
-        else if (share)
-            for (int c = 0; c < 3; c++) out[c] += (int32_t)((int64_t)at[c] * (int32_t)share >> 16);
-    }
+    for (int c = 0; c < 3; c++)
+        all |= first ? add_channel(d, &d->base_q24[c], &edge->more_q24[c], below, node, c)
+                     : add_channel(d, NULL, &edge->more_q24[c], below, node, c);
+    return all;
 }
 #else
-GN_HOT static void add_edge_light(const drawing *d, const gn_lattice_edge *edge, int32_t below, int32_t (*node)[3])
+GN_HOT static uint32_t add_edge_light(const drawing *d, const gn_lattice_edge *edge, int32_t below, int32_t (*node)[3],
+                                      int first)
 {
-    (void)d, (void)edge, (void)below, (void)node;
+    (void)d, (void)edge, (void)below, (void)node, (void)first;
+    return 0;
 }
 #endif
+
+/* Colours of a row of nodes without edges: linear, so that the ends tell what they have in common. */
+GN_HOT static uint32_t find_base(const drawing *d, int32_t below, int32_t (*node)[3])
+{
+    uint32_t all = 0;
+    for (int c = 0; c < 3; c++) {
+        const gn_patch *base = &d->base_q24[c];
+        int32_t at = gn_patch_at(base, d->first, below),
+                step = (base->dx + below * base->dxy) * (1 << d->s->lattice.look.spacing_log2);
+        for (int32_t i = 0; i < d->n; i++, at += step) node[i][c] = at;
+        all |= (uint32_t)node[0][c] | (uint32_t)(node[0][c] - 64);
+        all |= (uint32_t)(at - step) | (uint32_t)(at - step - 64);
+    }
+    return all;
+}
 
 /* Colours of a row of nodes. Returns whether they lie in 2^-18 .. 1. */
 GN_HOT static GN_NOINLINE int find_nodes(const drawing *d, int32_t below, int32_t (*node)[3])
 {
     const gn_lattice_look *look = &d->s->lattice.look;
-    for (int c = 0; c < 3; c++) {
-        const gn_patch *base = &d->base_q24[c];
-        int32_t at = gn_patch_at(base, d->first, below),
-                step = (base->dx + below * base->dxy) * (1 << look->spacing_log2);
-        for (int32_t i = 0; i < d->n; i++, at += step) node[i][c] = at;
-    }
+    uint32_t all = 0;
     for (int32_t k = 0; k < look->n_edges; k++) {
-        add_edge_light(d, &look->edge[k], below, node);
+        all = add_edge_light(d, &look->edge[k], below, node, !k);
         k += look->edge[k].bent >> 2; /* which is the next one, too */
     }
-    uint32_t all = 0;
-    for (int32_t i = 0; i < d->n; i++)
-        for (int c = 0; c < 3; c++) all |= (uint32_t)node[i][c] | (uint32_t)(node[i][c] - 64);
+    if (!look->n_edges) all = find_base(d, below, node);
     return all < 1U << 24;
 }
 
@@ -295,9 +318,7 @@ GN_HOT static GN_NOINLINE int find_nodes(const drawing *d, int32_t below, int32_
 /* The columns that have pixels. Returns 0 if there are none. */
 GN_HOT static uint32_t columns(const drawing *d, int32_t y, int32_t n_rows)
 {
-    uint32_t any = 0;
-    for (int32_t i = 0; i < n_rows; i++) any |= gn_lattice_bits(&d->s->lattice, d->x, y + i, d->size_log2);
-    return any;
+    return gn_lattice_columns(&d->s->lattice, d->x, y, n_rows, d->size_log2);
 }
 
 #if GN_SHADOWS

@@ -77,10 +77,8 @@ GN_HOT static int find_shares(const gn_lattice_cell *cell, uint32_t slot, gn_con
         masks |= mask != 65536 && mask;
         ends |= g ? 1 : 2;
         if (!casts) lit = dark = gn_shadow_baked(light, mask);
-        else if (mask != 65536 || light->strength_uq16 != 65536 || g != 65536) {
-            lit = gn_shadow_mixed(cell->frame, light, mask, g, 65536);
-            dark = gn_shadow_mixed(cell->frame, light, mask, g, 0);
-        }
+        else if (mask != 65536 || light->strength_uq16 != 65536 || g != 65536)
+            dark = gn_shadow_mixed_ends(cell->frame, light, mask, g, &lit);
         out->dark_uq16[i] = dark;
         out->more_uq16[i] = lit - dark;
     }
@@ -229,14 +227,14 @@ GN_HOT static int is_even(const gn_lattice_cell *cell)
     return error << gn_cell_light_log2(cell->frame) <= (uint64_t)(gn_max32(least, 0) + (1 << 19)) << more_log2;
 }
 
-GN_HOT static GN_NOINLINE int look_once(gn_lattice *lattice, const gn_frame *frame, const gn_surface *surface,
-                                        gn_corner *const corner[4], int32_t size_log2, gn_wanted_window *ask)
+/* Returns 0 if the cell is too steep or its textures too uneven. */
+GN_HOT static int begin_look(gn_lattice *lattice, const gn_frame *frame, const gn_surface *surface,
+                             gn_corner *const corner[4], int32_t size_log2, gn_wanted_window *ask)
 {
     gn_lattice_look *look = &lattice->look;
     gn_lattice_cell *cell = &lattice->by.look.cell;
     uint32_t g = corner[0]->g_uq16 & corner[1]->g_uq16 & corner[2]->g_uq16 & corner[3]->g_uq16; /* at most 65536 */
     *cell = (gn_lattice_cell){lattice, frame, surface, corner, size_log2, {0, 0}, g == 65536, 0, 0, 0, look, ask};
-    int coarse = size_log2 > gn_cell_finest_log2(frame);
     if (!gn_cell_find_bend(cell) || !gn_cell_textures_hold(cell) || !gn_cell_masks_hold(cell)) return 0;
     look->n_edges = 0;
     look->spacing_log2 = size_log2;
@@ -245,11 +243,21 @@ GN_HOT static GN_NOINLINE int look_once(gn_lattice *lattice, const gn_frame *fra
             look->colour_q24[i][j] = corner[i]->base_q24[j];
             look->highlight_q24[i][j] = 0;
         }
-    for (uint32_t slot = 0; slot < surface->n_lights; slot++)
-        if (!add_light(cell, slot)) return 0;
-    int limits = !finish_colours(cell);
-    if (!coarse) return is_even(cell);
-    return !limits && is_even(cell);
+    return 1;
+}
+
+/* Adds lights from a slot on. Returns that of the first one that cannot be added, which leaves nothing behind. */
+GN_HOT static GN_NOINLINE uint32_t add_lights(gn_lattice_cell *cell, uint32_t slot)
+{
+    gn_lattice_look *look = cell->out;
+    for (; slot < cell->s->n_lights; slot++) {
+        int32_t n_edges = look->n_edges, spacing_log2 = look->spacing_log2;
+        if (add_light(cell, slot)) continue;
+        look->n_edges = n_edges;
+        look->spacing_log2 = spacing_log2;
+        break;
+    }
+    return slot;
 }
 
 /* Windows are made here, where there is more stack. */
@@ -257,14 +265,16 @@ GN_HOT int gn_lattice_look_at(gn_lattice *lattice, const gn_frame *frame, const 
                               gn_corner *const corner[4], int32_t size_log2)
 {
     gn_wanted_window ask = {-1, 0, 0};
-    for (;;) {
-        int known = look_once(lattice, frame, surface, corner, size_log2, &ask);
-        if (ask.slot < 0) return known;
+    gn_lattice_cell *cell = &lattice->by.look.cell;
+    if (!begin_look(lattice, frame, surface, corner, size_log2, &ask)) return 0;
+    for (uint32_t slot = 0; (slot = add_lights(cell, slot)) < surface->n_lights; ask.slot = -1) {
+        if (ask.slot < 0) return 0;
 #if GN_SHADOWS
         gn_lattice_window(lattice, frame, surface, (uint32_t)ask.slot, ask.view_idx, corner[0]->x, corner[0]);
 #endif
-        ask.slot = -1;
     }
+    int limits = !finish_colours(cell);
+    return !(limits && size_log2 > gn_cell_finest_log2(frame)) && is_even(cell);
 }
 
 #endif

@@ -186,8 +186,10 @@ GN_HOT static int add_edge(const gn_lattice_cell *cell, uint32_t slot, const pla
             int32_t e = gn_cell_share(light->irradiance_q24[i], share_uq16[i]);
             at[i] = gn_corner_times(cell->s->light[slot].radiance_uq16[j], e);
 #if GN_VERTEX_COLOURS
-            if (GN_COLOURED(cell->s))
-                at[i] = (int32_t)gn_clamp64((int64_t)at[i] * cell->corner[i]->tint_q16[j] >> 16, -(1 << 27), 1 << 27);
+            if (GN_COLOURED(cell->s)) { /* 2^27 times 5: barycentrics are within +-2 */
+                int32_t tinted = (int32_t)((int64_t)at[i] * cell->corner[i]->tint_q16[j] >> 16);
+                at[i] = gn_max32(-(1 << 27), gn_min32(tinted, 1 << 27));
+            }
 #endif
             if (GN_SPECULAR && cell->s->specular)
                 at[i] += gn_corner_times(light->shine_uq16[j], gn_cell_share(light->highlight_q24[i], share_uq16[i]));
@@ -344,7 +346,7 @@ GN_HOT static int add_of_several(const gn_lattice_cell *cell, uint32_t slot, con
     if (blend != GN_BLEND_HARD) return 0; /* each pixel has its own */
 #if GN_PUNCTUAL_LIGHTS || GN_MANY_CASCADES
     if (add_two(cell, slot, light, views, from_q16, p)) return 1;
-    if (cascaded || cell->size_log2 > 2) return 0;
+    if (cascaded || cell->size_log2 > 2 || cell->ask->slot >= 0) return 0;
     p->bent = GN_PLACES_LONE;
     return add_edge(cell, slot, p, slope_q28, light, light->more_uq16);
 #else

@@ -212,16 +212,33 @@ GN_HOT static inline void segment_565(uint16_t *out, uint32_t bits, const int32_
     }
 }
 
-GN_HOT static inline void line_565(uint16_t *out, uint32_t bits, const gn_pixel_line *line)
+/* Pixels of `bits`, a node each. */
+GN_HOT static inline void nodes_565(uint16_t *out, uint32_t bits, const int32_t (*node)[3], int inside)
 {
-    int32_t n = 1 << line->spacing_log2, step[3];
+    for (; bits; bits >>= 1, out++, node++) {
+        const int32_t *c = *node;
+        if (!(bits & 1U)) continue;
+        *out = (uint16_t)(inside ? pack_565((uint32_t)c[0], (uint32_t)c[1], (uint32_t)c[2])
+                                 : limit_and_pack_565(c[0], c[1], c[2]));
+    }
+}
+
+GN_HOT static inline void segments_565(uint16_t *out, uint32_t bits, const gn_pixel_line *line, int inside)
+{
+    int32_t log2 = line->spacing_log2, n = 1 << log2;
     for (const int32_t(*node)[3] = line->node; bits; bits >>= n, out += n, node++) {
         uint32_t part = bits & ((1U << n) - 1);
+        const int32_t *a = node[0], *b = node[1];
         if (!part) continue;
-        for (int c = 0; c < 3; c++) step[c] = n == 1 ? 0 : (node[1][c] - node[0][c]) >> line->spacing_log2;
-        if (line->inside) segment_565(out, part, node[0], step, 1);
-        else segment_565(out, part, node[0], step, 0);
+        const int32_t step[3] = {(b[0] - a[0]) >> log2, (b[1] - a[1]) >> log2, (b[2] - a[2]) >> log2};
+        segment_565(out, part, a, step, inside);
     }
+}
+
+GN_HOT static inline void line_565(uint16_t *out, uint32_t bits, const gn_pixel_line *line, int inside)
+{
+    if (line->spacing_log2) segments_565(out, bits, line, inside);
+    else nodes_565(out, bits, line->node, inside);
 }
 
 /* A pixel of any format, in a raw view a share of 65536. */
@@ -382,7 +399,8 @@ GN_HOT void gn_pixel_store_line(const gn_frame *frame, const gn_pixel_rows *rows
     }
 #endif
     if (GN_LEVEL_TABLES && has_levels(frame)) {
-        line_565(pixel_565(rows, x, y), bits, line);
+        if (line->inside) line_565(pixel_565(rows, x, y), bits, line, 1);
+        else line_565(pixel_565(rows, x, y), bits, line, 0);
         return;
     }
     for (int32_t i = 0; bits >> i; i++) {

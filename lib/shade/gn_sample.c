@@ -134,11 +134,10 @@ GN_HOT static uint64_t across2_q32(const gn_frame *frame, int32_t px, int32_t py
     return (uint64_t)(x * x) + (uint64_t)(y * y);
 }
 
-/* The cascade of the surface point and its fade factor. [D4] [D6] [D11] */
-GN_HOT static void select_cascade(const gn_frame *frame, int32_t px, int32_t py, gn_sample *sample)
+/* The cascade of a point so far from the view axis, and its fade factor. [D4] [D6] [D11] */
+GN_HOT static void cascade_within(const gn_frame *frame, uint64_t across, gn_sample *sample)
 {
     int64_t z = sample->value[GN_VALUE_Z];
-    uint64_t across = across2_q32(frame, px, py, z);
     sample->cascade = GN_CASCADE_NONE;
     sample->value[GN_VALUE_FADE] = 0;
     int64_t m = frame->scene->shadow.max_distance_q16;
@@ -158,6 +157,11 @@ GN_HOT static void select_cascade(const gn_frame *frame, int32_t px, int32_t py,
         }
         return;
     }
+}
+
+GN_HOT static void select_cascade(const gn_frame *frame, int32_t px, int32_t py, gn_sample *sample)
+{
+    cascade_within(frame, across2_q32(frame, px, py, sample->value[GN_VALUE_Z]), sample);
 }
 
 /* Whether a view's u and v are not those that flat_offset_q16 was found along: a tight fit turned them. */
@@ -382,13 +386,36 @@ GN_HOT void gn_sample_at(const gn_frame *frame, const gn_surface *s, int32_t x, 
 }
 
 #if GN_INTERPOLATES
+#if GN_SHADOWS
+/* across2_q32 to 2^-24 of z^2, for corners of cells. */
+GN_HOT static uint64_t corner_across2_q32(const gn_frame *frame, int32_t px, int32_t py, int32_t z_q16)
+{
+    uint64_t tan2_q24 = (uint64_t)((uint32_t)(px * px) + (uint32_t)(py * py)) * (uint64_t)frame->tan2_per_px2_q44 >> 20;
+    int32_t up = gn_clz32((uint32_t)z_q16 | 1U) - 1;
+    if (GN_FLAT_Q16(frame) || tan2_q24 >> 27 || up < 2) return across2_q32(frame, px, py, z_q16);
+    uint32_t z = (uint32_t)z_q16 << up;
+    return (uint64_t)gn_umul_high(z, (uint32_t)tan2_q24 << 4) * z >> (2 * up - 4); /* 2^30 * 2^31 */
+}
+
+GN_HOT static void corner_cascade(const gn_frame *frame, int32_t px, int32_t py, gn_sample *sample)
+{
+    if (!asks_for_cascades(frame)) return;
+    cascade_within(frame, corner_across2_q32(frame, px, py, sample->value[GN_VALUE_Z]), sample);
+}
+#else
+GN_HOT static void corner_cascade(const gn_frame *frame, int32_t px, int32_t py, gn_sample *sample)
+{
+    (void)frame, (void)px, (void)py, (void)sample;
+}
+#endif
+
 GN_HOT void gn_sample_find_cascade(const gn_frame *frame, int32_t px, int32_t py, int32_t z_q16, gn_sample *sample)
 {
     sample->value[GN_VALUE_Z] = z_q16;
     sample->value[GN_VALUE_FADE] = 0;
     sample->cascade = GN_CASCADE_NONE;
     sample->in_reach = 1;
-    if (asks_for_cascades(frame)) select_cascade(frame, px, py, sample);
+    corner_cascade(frame, px, py, sample);
 }
 
 GN_HOT int gn_sample_on_plane(const gn_frame *frame, const gn_surface *s, int32_t x, int32_t y, gn_sample *sample)

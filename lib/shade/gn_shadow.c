@@ -200,8 +200,8 @@ GN_HOT uint32_t gn_shadow_mask(const gn_surface *surface, const gn_sample *sampl
 }
 
 /* Realtime shadow and baked mask, by the light's strength. [M4] [M6] */
-GN_HOT uint32_t gn_shadow_mixed(const gn_frame *frame, const gn_light_state *light, uint32_t mask_uq16, uint32_t g_uq16,
-                                uint32_t realtime_uq16)
+GN_HOT static inline uint32_t mix_shadow(const gn_frame *frame, const gn_light_state *light, uint32_t mask_uq16,
+                                         uint32_t g_uq16, uint32_t realtime_uq16)
 {
     uint32_t strength = light->strength_uq16, realtime = realtime_uq16;
     switch (frame->scene->shadow.mixing) {
@@ -213,6 +213,19 @@ GN_HOT uint32_t gn_shadow_mixed(const gn_frame *frame, const gn_light_state *lig
     default:
         return faded(realtime, gn_mul_uq16(strength, g_uq16));
     }
+}
+
+GN_HOT uint32_t gn_shadow_mixed(const gn_frame *frame, const gn_light_state *light, uint32_t mask_uq16, uint32_t g_uq16,
+                                uint32_t realtime_uq16)
+{
+    return mix_shadow(frame, light, mask_uq16, g_uq16, realtime_uq16);
+}
+
+GN_HOT uint32_t gn_shadow_mixed_ends(const gn_frame *frame, const gn_light_state *light, uint32_t mask_uq16,
+                                     uint32_t g_uq16, uint32_t *lit_uq16)
+{
+    *lit_uq16 = mix_shadow(frame, light, mask_uq16, g_uq16, GN_ONE_UQ16);
+    return mix_shadow(frame, light, mask_uq16, g_uq16, 0);
 }
 
 GN_HOT uint32_t gn_shadow_baked(const gn_light_state *light, uint32_t mask_uq16)

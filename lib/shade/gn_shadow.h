@@ -18,6 +18,10 @@ uint32_t gn_shadow_baked(const gn_light_state *light, uint32_t mask_uq16);
 uint32_t gn_shadow_mixed(const gn_frame *frame, const gn_light_state *light, uint32_t mask_uq16, uint32_t g_uq16,
                          uint32_t realtime_uq16);
 
+/* gn_shadow_mixed() where no realtime shadow is, and where it is full: returned. */
+uint32_t gn_shadow_mixed_ends(const gn_frame *frame, const gn_light_state *light, uint32_t mask_uq16, uint32_t g_uq16,
+                              uint32_t *lit_uq16);
+
 /* Whether the light has a realtime shadow of that strength. */
 GN_HOT static inline int gn_shadow_is_realtime(const gn_light_state *light, uint32_t g_uq16)
 {

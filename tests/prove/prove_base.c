@@ -29,12 +29,12 @@ void prove_clz(void)
     }
 }
 
-/* gn_min32, gn_max32, gn_abs32, gn_abs64_inline, gn_clamp64_inline, gn_sat32_inline, gn_add_sat32 */
+/* gn_min32, gn_max32, gn_abs32, gn_abs64_inline, gn_clamp64_inline, gn_sat32_inline */
 void prove_saturation(void)
 {
     int32_t a = any_i32(INT32_MIN, INT32_MAX), b = any_i32(INT32_MIN, INT32_MAX);
     int64_t wide = any_i64(INT64_MIN, INT64_MAX);
-    sink = gn_min32(a, b) + (int64_t)gn_max32(a, b) + gn_abs32(a) + gn_add_sat32(a, b) + gn_sat32_inline(wide);
+    sink = gn_min32(a, b) + (int64_t)gn_max32(a, b) + gn_abs32(a) + gn_sat32_inline(wide);
     usink = gn_abs64_inline(wide);
     int64_t v = gn_clamp64_inline(wide, -1000, 1000);
     //@ assert -1000 <= v <= 1000;
