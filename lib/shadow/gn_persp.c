@@ -50,24 +50,24 @@ GN_HOT static uint32_t focal2_q16(int32_t tile_texels, int64_t t_numerator, int6
     return focal2 > UINT32_MAX ? UINT32_MAX : (uint32_t)focal2;
 }
 
-/* n of MODEL 5: what is seen of the receivers is not nearer, nor comes nearer by its bias. Three significant bits, so
- * that it seldom changes. [D12] */
-GN_HOT static int32_t depth_near_q16(const gn_frame *frame, const gn_light_view *view, const gn_light *light)
+/* n of MODEL 5: what is seen of the receivers is not nearer, nor comes nearer by its bias, which reaches that far.
+ * Three significant bits, so that it seldom changes. [D12] */
+GN_HOT static int32_t depth_near_q16(const gn_frame *frame, const gn_light_view *view, const gn_light *light,
+                                     int32_t reach_q16)
 {
 #if GN_TIGHT_FIT
     if (frame->scene->shadow.fit != GN_FIT_TIGHT) return light->near_q16;
     const gn_view_seen *seen = &frame->seen[view - frame->view];
     if (!gn_seen_any(seen)) return light->near_q16;
-    const int32_t *b = light->bias_receiver_q16;
-    int64_t z_q16 = gn_min32(seen->lo_q16[2], GN_NEAR_MAX_Q16), bias_q16 = gn_bias_reach_q16(frame, view, light);
-    if (GN_RECEIVER_BIAS) bias_q16 += b[0] + 50 * (int64_t)b[1];      /* tan <= 50 */
-    int64_t texels_q16 = (view->filter_idx + 1) * (65536 + bias_q16); /* 2^28, times 2^29 */
-    int64_t less_q16 = gn_bf_apply(texels_q16 * z_q16, view->fit.persp.texel_per_z, -16);
-    uint32_t near_q16 = (uint32_t)(z_q16 - gn_clamp64(less_q16, 0, z_q16 - (z_q16 >> 3)));
+    if (GN_RECEIVER_BIAS) reach_q16 += light->bias_receiver_q16[0] + 50 * light->bias_receiver_q16[1]; /* tan <= 50 */
+    int32_t texels_q16 = (view->filter_idx + 1) * (65536 + reach_q16);                                 /* 2^28 */
+    int32_t ratio_q16 = 65536 - gn_sat32(gn_bf_apply(texels_q16, view->fit.persp.texel_per_z, 0));
+    int64_t z_q16 = gn_min32(seen->lo_q16[2], GN_NEAR_MAX_Q16);
+    uint32_t near_q16 = (uint32_t)(z_q16 * gn_max32(ratio_q16, 8192) >> 16);
     near_q16 &= 0xE0000000U >> gn_clz32(near_q16 | 1U);
     return gn_max32((int32_t)near_q16, light->near_q16);
 #else
-    (void)frame, (void)view;
+    (void)frame, (void)view, (void)reach_q16;
     return light->near_q16;
 #endif
 }
@@ -77,6 +77,7 @@ GN_HOT void gn_persp_fit_view(gn_frame *frame, gn_light_view *view, const gn_lig
 {
     gn_persp_fit *fit = &view->fit.persp;
     int clamped = 0;
+    int32_t reach_q16 = gn_bias_reach_q16(frame, view, light);
     for (int i = 0; i < 3; i++) fit->eye_q16[i] = light->position_q16[i];
     fit->clip_q16 = light->near_q16;
     if (light->kind == GN_LIGHT_SPOT) /* tan(a / 2) = sin a / (1 + cos a) */
@@ -84,13 +85,11 @@ GN_HOT void gn_persp_fit_view(gn_frame *frame, gn_light_view *view, const gn_lig
                                      ((int64_t)1 << 30) + gn_cos_q30(light->outer_turn));
     else
         fit->focal2_q16 = focal2_q16(
-            view->tile_texels,
-            gn_persp_face_q24(view->filter_idx, gn_bias_reach_q16(frame, view, light), view->tile_texels, &clamped),
-            1 << 24);
+            view->tile_texels, gn_persp_face_q24(view->filter_idx, reach_q16, view->tile_texels, &clamped), 1 << 24);
     frame->stats.n_reach_clamped += (uint32_t)clamped;
     fit->texel_per_z = gn_bf_recip(gn_bf_from_u64(fit->focal2_q16));
     fit->texel_per_z.exp += 17; /* 2 / (T / t), T / t in Q16 */
-    fit->near_q16 = depth_near_q16(frame, view, light);
+    fit->near_q16 = depth_near_q16(frame, view, light, reach_q16);
     fit->per_near = gn_bf_recip(gn_bf_from_u64((uint64_t)(uint32_t)fit->near_q16));
     fit->guard_q16[0] = fit->guard_q16[1] =
         gn_sat32((int64_t)gn_udiv64((uint64_t)(2 * GN_GUARD_TEXELS) << 32, fit->focal2_q16));
@@ -104,11 +103,11 @@ GN_HOT void gn_persp_fit_view(gn_frame *frame, gn_light_view *view, const gn_lig
 
 /* ---- Casters ----------------------------------------------------------------------------------------------------- */
 
-/* n / z, Q32, saturated below 1 */
+/* n / z, Q32, at most 1 */
 GN_HOT static int64_t inverse_depth_q32(const gn_persp_fit *fit, int32_t z_q16)
 {
-    gn_bfloat z = gn_bf_recip(gn_bf_from_u64((uint64_t)(uint32_t)gn_max32(z_q16, fit->near_q16)));
-    return gn_clamp64(gn_bf_apply(fit->near_q16, z, 32), 0, UINT32_MAX);
+    gn_bfloat z = gn_bf_recip(gn_bf_from_u64((uint64_t)(uint32_t)gn_max32(z_q16, 1)));
+    return gn_clamp64(gn_bf_apply(fit->near_q16, z, 32), 0, (int64_t)1 << 32);
 }
 
 /* + constant * tau * (1 - s) + slope * steepest, the first of which keeps the plane a plane. [B1] */
@@ -150,7 +149,7 @@ GN_HOT static int persp_caster(gn_caster *caster, gn_plane *plane, const gn_ligh
         z_min = gn_min32(z_min, v[i][2]);
         z_max = gn_max32(z_max, v[i][2]);
     }
-    caster->lo = z_min < fit->near_q16 ? 0 : ((int64_t)1 << 32) - inverse_depth_q32(fit, z_min); /* flattened */
+    caster->lo = ((int64_t)1 << 32) - inverse_depth_q32(fit, z_min); /* 0: flattened */
     caster->hi = ((int64_t)1 << 32) - inverse_depth_q32(fit, z_max);
     add_bias(view, caster);
     return 1;

@@ -345,14 +345,14 @@ static int64_t nearest_in_spot(const gn_seen_job *job, const int32_t light_q16[3
 {
     int64_t nearest = 0;
     for (int k = 0; k < 3; k++) {
-        int64_t from = (int64_t)job->object->centre_q16[k] - light_q16[k], w = job->axis_q30[2][k];
-        int64_t off = (int64_t)gn_abs64(from) - job->object->half_q16[k];
-        int64_t across = (int64_t)gn_abs32(job->axis_q30[0][k]) + gn_abs32(job->axis_q30[1][k]);
-        int64_t most = gn_bf_apply(across, job->tangent, 0) + (from < 0 ? -w : w);
+        int32_t from = job->object->centre_q16[k] / 2 - light_q16[k] / 2, w = job->axis_q30[2][k];
+        int32_t off = (int32_t)gn_abs32(from) - job->object->half_q16[k] / 2;
         if (off <= 0) continue;
+        uint32_t across = gn_abs32(job->axis_q30[0][k]) + gn_abs32(job->axis_q30[1][k]);
+        int64_t most = gn_bf_apply(across, job->tangent, 0) + (from < 0 ? -w : w);
         if (most <= 0) return INT32_MAX; /* no z is enough */
-        off = gn_bf_apply(off, gn_bf_recip(gn_bf_from_u64((uint64_t)most)), 30);
-        if (off > nearest) nearest = off;
+        int64_t z = (int64_t)gn_udiv64((uint64_t)off << 31, (uint64_t)most);
+        if (z > nearest) nearest = z;
     }
     return nearest;
 }

@@ -6,6 +6,7 @@
  * - With the same atlas, shadows are nearer to those of a map with 16 times the texels than stable fits are. */
 #include "../host/tool/engine/engine.h"
 #include "../host/tool/fixed/quantise.h"
+#include "../lib/shadow/gn_texel.h"
 #include "ref_fixture.h"
 
 enum { WIDTH = 48, HEIGHT = 36, N_SCENES = SLOW_LIBRARY ? 40 : 160, N_BOXES = 7 };
@@ -163,6 +164,19 @@ static bool same_view(const gn_light_view *a, const ref_light_view *b, int world
     return same_directional(a, b, world_exp);
 }
 
+static long n_flat, n_not_flat;
+
+/* Casters nearer than the receivers are flattened onto where depths begin, to the texel: of 16 bits, but at edges. */
+static void check_flattened(const gn_light_view *a, const ref_light_view *b)
+{
+    if (!a->perspective || a->unseen || !b->active) return;
+    for (size_t i = 0; i < (size_t)a->tile_texels * (size_t)a->tile_texels; i++) {
+        const double stored = ldexp(gn_texel_load(a->depth, a->depth_bits, i), -32);
+        n_flat += !(b->depth[i] > 0);
+        n_not_flat += !(b->depth[i] > 0) != !(stored > 0x1p-15);
+    }
+}
+
 static void check_choices(const fixture *f, const settings *set, const ref_picture *p)
 {
     static gn_renderer renderer;
@@ -182,6 +196,8 @@ static void check_choices(const fixture *f, const settings *set, const ref_pictu
             n_unseen += view->unseen;
             n_turned += view->turn > 0;
             n_other_choice += !same_view(view, &p->view[l][i], fixed.world_exp);
+            CHECK_EQ_INT(gn_shadow_tile(&renderer, (uint32_t)(light->view_idx + i)), GN_OK);
+            if (same_view(view, &p->view[l][i], fixed.world_exp)) check_flattened(view, &p->view[l][i]);
         }
     }
     quantise_free(&fixed);
@@ -228,11 +244,13 @@ int main(void)
     }
     printf(
         "%ld views, %ld of them unseen, %ld turned, %ld otherwise chosen; %ld lookups, %ld from a raised near plane; "
-        "off: tight %ld, stable %ld\n",
-        n_views, n_unseen, n_turned, n_other_choice, n_looked_up, n_raised, n_off[0], n_off[1]);
+        "%ld texels are flattened; off: tight %ld, stable %ld\n",
+        n_views, n_unseen, n_turned, n_other_choice, n_looked_up, n_raised, n_flat, n_off[0], n_off[1]);
     CHECK(n_unseen > n_views / 50 && n_turned > n_views / 50 && n_looked_up > 1000L * N_SCENES &&
           n_raised > n_looked_up / 8);
     CHECK(200 * n_other_choice <= n_views);
     CHECK(4 * n_off[0] < 3 * n_off[1]);
+    CHECK(n_flat > 10000 && 50 * n_not_flat < n_flat);
+    if (check_n_failed) printf("%ld texels are not flattened alike\n", n_not_flat);
     return check_report();
 }
