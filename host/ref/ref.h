@@ -53,7 +53,8 @@ typedef struct {
     double origin[3];                       /* directional: o_u, o_v, o_w, texels */
     double position[3];                     /* perspective: the light's */
     double t;                               /* perspective: half-width at distance 1 */
-    double near;                            /* perspective: nothing nearer casts */
+    double clip;                            /* perspective: nothing nearer casts */
+    double near;                            /* perspective: n; casters nearer are flattened onto it */
     double depth_range;                     /* directional: 2^R texels; perspective: 1 */
     double sphere_centre[3], sphere_radius; /* directional: the cascade's, whatever the light */
     scene_filter filter;                    /* after the light's own choice */

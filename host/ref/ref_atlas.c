@@ -45,8 +45,8 @@ static double cast_depth(const ref_light_view *view, const caster_triangle *t, c
 {
     const double depth = mix_depth(t->depth, bary);
     if (!view->perspective) return depth < view->depth_range ? fmax(0.0, depth) + t->bias : HUGE_VAL; /* pancaking */
-    if (!(depth >= view->near)) return HUGE_VAL;
-    const double ratio = view->near / depth; /* 1 - s */
+    if (!(depth >= view->clip)) return HUGE_VAL;
+    const double ratio = fmin(1.0, view->near / depth); /* 1 - s */
     return 1.0 - ratio + t->constant * ratio + t->bias;
 }
 
@@ -80,12 +80,12 @@ static void grow_box(vec2 *low, vec2 *high, vec3 p)
     *high = (vec2){fmax(high->x, p.x / p.z), fmax(high->y, p.y / p.z)};
 }
 
-/* Bounds of the part that is not nearer than the near plane: its corners there, and where its edges cross the plane. w
+/* Bounds of the part that is not nearer than what casts: its corners there, and where its edges cross the plane. w
  * of directional views is never nearer. */
 static ref_box caster_box(const ref_light_view *view, const vec3 p[3])
 {
     vec2 low = {HUGE_VAL, HUGE_VAL}, high = {-HUGE_VAL, -HUGE_VAL};
-    const double near = view->perspective ? view->near : 0.0;
+    const double near = view->perspective ? view->clip : 0.0;
     for (int k = 0; k < 3; k++) {
         const vec3 a = p[k], b = p[(k + 1) % 3];
         if (a.z >= near) grow_box(&low, &high, a);
@@ -116,7 +116,7 @@ static vec3 moved_vertex(const ref_light_view *view, const scene_light *light, c
     const vec3 p = ref_to_light(view, world);
     if (!(fabs(light->bias_caster) > 0.0)) return p;
     const vec3 normal = source->instance->normal ? source->instance->normal[source->idx[k]] : ref_face_normal(source);
-    const double texel = view->perspective ? view->texel * fmax(p.z, view->near) : view->texel;
+    const double texel = view->perspective ? view->texel * fmax(p.z, view->clip) : view->texel;
     return ref_to_light(view, vec3_add(world, vec3_scale(normal, -light->bias_caster * texel)));
 }
 

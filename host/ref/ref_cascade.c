@@ -250,10 +250,10 @@ static int fit_view(ref_frame *frame, size_t l, int i)
     ref_light_view *view = &frame->picture->view[l][i];
     view->unseen = grant->side[i] == 0;
     if (view->unseen) return 0;
-    if (light->kind != SCENE_LIGHT_DIRECTIONAL)
-        return ref_fit_face(view, frame->s, light, i, frame->options, grant->side[i]);
-    const int cascade = grant->atlas == REF_OTHER_ATLAS ? REF_SINGLE_TILE : i;
     const ref_seen *seen = frame->s->shadow.fit == SCENE_FIT_TIGHT ? &frame->seen[l][i] : NULL;
+    if (light->kind != SCENE_LIGHT_DIRECTIONAL)
+        return ref_fit_face(view, frame->s, light, i, frame->options, grant->side[i], seen);
+    const int cascade = grant->atlas == REF_OTHER_ATLAS ? REF_SINGLE_TILE : i;
     return fit_directional(view, frame->s, light, cascade, frame->options, grant->side[i], seen);
 }
 

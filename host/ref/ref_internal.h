@@ -44,7 +44,7 @@ typedef struct {
 typedef struct {
     bool any;
     double worth;        /* pixels */
-    double lo[3], hi[3]; /* directional: from the camera, along the view's axes */
+    double lo[3], hi[3]; /* directional: from the camera, along the view's axes; others: only lo[2], from the light */
     int turn;            /* of which u and v are turned about the light */
 } ref_seen;
 
@@ -149,7 +149,7 @@ double ref_lateral_margin(const ref_options *options, const ref_light_view *view
 vec3 ref_auto_bias(const ref_frame *frame, const ref_light_view *view, scene_auto_bias form, const ref_surface *at,
                    vec3 in_light, double *less);
 int ref_fit_face(ref_light_view *view, const scene *s, const scene_light *light, int face, const ref_options *options,
-                 int tile_texels);
+                 int tile_texels, const ref_seen *seen); /* seen: NULL: the near distance is the light's */
 
 /* ref_punctual.c */
 double ref_distance_factor(const scene_light *light, double distance2);

@@ -5,6 +5,8 @@
 #define LEAST_DISTANCE2 1e-4 /* keeps the light's own position finite */
 #define LEAST_RANGE2    1e-4
 #define LEAST_CONE      1e-4 /* difference of cosines */
+#define STEEPEST        50.0 /* tan theta of receiver bias */
+#define MAX_NEAR        1e9  /* where a view sees none of the receivers */
 #define WIDEST          2.0  /* the largest half-width of a face */
 #define PI              3.14159265358979323846
 
@@ -131,9 +133,27 @@ static vec3 face_axis(int face)
     return vec3_load(w);
 }
 
+/* The largest m * 2^e <= x with m in {4, 5, 6, 7}. */
+static double floor3(double x)
+{
+    int e;
+    const double f = frexp(x, &e);
+    return ldexp(floor(f * 8.0), e - 3);
+}
+
+/* n of MODEL 5: bias takes no receiver that is seen nearer than that. [D12] */
+static double depth_near(const ref_light_view *view, const scene_light *light, const ref_options *options,
+                         const ref_seen *seen)
+{
+    const double *b = light->bias_receiver;
+    const double reach = 1.0 + ref_lateral_margin(options, view, light) + b[0] + STEEPEST * b[1];
+    const double texels = (view->filter_index + 1) * reach;
+    return fmax(light->near, floor3(fmin(seen->lo[2], MAX_NEAR) * fmax(1.0 / 8.0, 1.0 - texels * view->texel)));
+}
+
 /* The perspective view of a spot, or of a face of a point light. [P4] */
 int ref_fit_face(ref_light_view *view, const scene *s, const scene_light *light, int face, const ref_options *options,
-                 int tile_texels)
+                 int tile_texels, const ref_seen *seen)
 {
     const bool point = light->kind == SCENE_LIGHT_POINT;
     const double wanted_radius = 0.004 * s->shadow.penumbra * tile_texels;
@@ -145,13 +165,14 @@ int ref_fit_face(ref_light_view *view, const scene *s, const scene_light *light,
     view->filter_index = ref_filter_index(view->filter, wanted_radius);
     view->disk_radius = fmin(wanted_radius, view->filter_index);
     vec3_store(view->position, vec3_load(light->position));
-    view->near = light->near;
+    view->clip = view->near = light->near;
     view->depth_range = 1.0;
     view->t = point ? ref_face_half_width(view->filter_index, ref_lateral_margin(options, view, light), tile_texels,
                                           &view->clamped)
                     : fmax(tan(PI * light->outer), tile_texels / 65535.0);
     view->texel = 2.0 * view->t / tile_texels;
     ref_fit_axes(view, point ? face_axis(face) : vec3_load(light->direction));
+    if (seen && seen->any) view->near = depth_near(view, light, options, seen);
     if (!isfinite(view->t) || !(view->t > 0.0) || !isfinite(view->near) || !(view->near > 0.0)) return -1;
     view->active = true;
     return 0;
@@ -160,5 +181,5 @@ int ref_fit_face(ref_light_view *view, const scene *s, const scene_light *light,
 int ref_fit_punctual(ref_light_view *view, const scene *s, const scene_light *light, int face, int tile_texels)
 {
     const ref_options options = {.width = 1, .height = 1};
-    return ref_fit_face(view, s, light, face, &options, tile_texels);
+    return ref_fit_face(view, s, light, face, &options, tile_texels, NULL);
 }

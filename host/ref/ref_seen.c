@@ -260,12 +260,34 @@ static double off_axis(span s)
     return fmax(0.0, fmax(s.lo, -s.hi));
 }
 
+/* The least z of a spot's pyramid at which it reaches an object's box, by the box's sides: along an axis of the world
+ * it is widest at one of its corners. */
+static double nearest_in_spot(const ref_instance *instance, const ref_light_view *axes, vec3 light, double t)
+{
+    double centre[3], half[3], nearest = 0.0;
+    vec3_store(centre, vec3_sub(instance->box_centre, light));
+    vec3_store(half, instance->box_half);
+    for (int k = 0; k < 3; k++) {
+        double widest = -HUGE_VAL;
+        for (int corner = 0; corner < 4; corner++) {
+            const double at =
+                axes->axis[2][k] + (corner & 1 ? t : -t) * axes->axis[0][k] + (corner & 2 ? t : -t) * axes->axis[1][k];
+            widest = fmax(widest, centre[k] < 0.0 ? -at : at);
+        }
+        const double off = fabs(centre[k]) - half[k];
+        if (off > 0.0) nearest = fmax(nearest, widest > 0.0 ? off / widest : HUGE_VAL);
+    }
+    return nearest;
+}
+
 /* What of a box may lie in the pyramid |x|, |y| <= t z, of which it fills so many pixels. */
-static void see_in_pyramid(ref_seen *seen, const span at[3], double t, double filled)
+static void see_in_pyramid(ref_seen *seen, const span at[3], double t, double filled, double nearest)
 {
     const double z = at[2].hi, off = fmax(off_axis(at[0]), off_axis(at[1]));
     if (!(z > 0.0) || off > t * z) return;
     const double deep = ratio(at[2], common(at[2], fmax(0.0, off / t), z));
+    const double first = fmax(nearest, fmax(at[2].lo, off / t));
+    seen->lo[2] = seen->any ? fmin(seen->lo[2], first) : first;
     seen->any = true;
     seen->worth +=
         filled * deep * ratio(at[0], common(at[0], -t * z, t * z)) * ratio(at[1], common(at[1], -t * z, t * z));
@@ -298,7 +320,11 @@ static void see_punctual(const ref_frame *frame, ref_seen *seen, const scene_lig
             const double origin = vec3_dot(from, vec3_load(axes.axis[k]));
             at[k] = (span){b.lo[3 + k] - origin, b.hi[3 + k] - origin};
         }
-        see_in_pyramid(seen, at, t, pixels(camera, b.hi[0] - b.lo[0], b.hi[1] - b.lo[1], (b.lo[2] + b.hi[2]) / 2.0));
+        const double nearest = light->kind == SCENE_LIGHT_SPOT
+                                   ? nearest_in_spot(&frame->instances[o], &axes, vec3_load(light->position), t)
+                                   : 0.0;
+        see_in_pyramid(seen, at, t, pixels(camera, b.hi[0] - b.lo[0], b.hi[1] - b.lo[1], (b.lo[2] + b.hi[2]) / 2.0),
+                       nearest);
     }
 }
 

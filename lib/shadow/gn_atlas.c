@@ -65,7 +65,7 @@ static GN_NOINLINE void shrink(const caster_job *job, const uint16_t idx[3], int
         int64_t by_q16 = job->shrink_q16;
         if (GN_PUNCTUAL_LIGHTS && job->view->perspective) {
             const gn_persp_fit *fit = &job->view->fit.persp;
-            int64_t z = gn_clamp64(corner[i][2], fit->near_q16, INT32_MAX);
+            int64_t z = gn_clamp64(corner[i][2], fit->clip_q16, INT32_MAX);
             /* 2^19 * 2^31. A move by 2^32 leaves the range of perspective views in any direction: saturating is safe */
             by_q16 = gn_clamp64(gn_bf_apply(by_q16 * z, fit->texel_per_z, -16), 0, (int64_t)1 << 32);
         }

@@ -44,8 +44,8 @@ static int persp_sees(const gn_frame *frame, const gn_light_view *view, const gn
     int64_t deepest = c[2] + e[2], bias = frame->scene->lights[view->light_idx].bias_caster_q16;
     /* their bias may move casters away from the light too, into the view: 2^19 * 2^33 */
     if (bias)
-        deepest += gn_bf_apply(bias * (deepest > fit->near_q16 ? deepest : fit->near_q16), fit->texel_per_z, -16) + 1;
-    if (deepest < fit->near_q16) return 0;
+        deepest += gn_bf_apply(bias * (deepest > fit->clip_q16 ? deepest : fit->clip_q16), fit->texel_per_z, -16) + 1;
+    if (deepest < fit->clip_q16) return 0;
     /* half-width of the tile at that depth, plus a texel and the casters' bias */
     int64_t width = gn_bf_apply(deepest, fit->texel_per_z, view->tile_log2 - 1); /* deepest * t */
     width += (width >> view->tile_log2) * (4 + (2 * bias >> 16)) + 4;

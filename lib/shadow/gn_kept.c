@@ -17,7 +17,7 @@ static uint64_t view_signature(const gn_frame *frame, const gn_light_view *view)
                                 (uint64_t)(uint8_t)view->depth_log2 << 8 | view->depth_bits);
     if (view->perspective) {
         const gn_persp_fit *fit = &view->fit.persp;
-        s = gn_signature_words(s, fit->eye_q16, 3);
+        s = gn_signature_words(gn_signature_words(s, fit->eye_q16, 3), &fit->clip_q16, 1);
         return gn_signature_add(s, (uint64_t)(uint32_t)fit->near_q16 << 32 | fit->focal2_q16);
     }
     const gn_ortho_fit *fit = &view->fit.ortho;

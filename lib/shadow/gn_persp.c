@@ -6,8 +6,10 @@
 #include "geometry/gn_clip.h"
 #include "light/gn_bias.h"
 #include "shadow/gn_persp.h"
+#include "shadow/gn_seen.h"
 
-#define GN_GUARD_TEXELS 8192 /* casters are cut at this distance from the tile's centre */
+#define GN_NEAR_MAX_Q16 (8192 << 16) /* as far as lights may have it */
+#define GN_GUARD_TEXELS 8192         /* casters are cut at this distance from the tile's centre */
 
 /* Faces of a point light's cube: +x, -x, +y, -y, +z, -z. [P5] */
 GN_HOT void gn_persp_face_axis(int32_t out_q30[3], int32_t face)
@@ -48,25 +50,47 @@ GN_HOT static uint32_t focal2_q16(int32_t tile_texels, int64_t t_numerator, int6
     return focal2 > UINT32_MAX ? UINT32_MAX : (uint32_t)focal2;
 }
 
+/* n of MODEL 5: what is seen of the receivers is not nearer, nor comes nearer by its bias, which reaches that far.
+ * Three significant bits, so that it seldom changes. [D12] */
+GN_HOT static int32_t depth_near_q16(const gn_frame *frame, const gn_light_view *view, const gn_light *light,
+                                     int32_t reach_q16)
+{
+#if GN_TIGHT_FIT
+    if (frame->scene->shadow.fit != GN_FIT_TIGHT) return light->near_q16;
+    const gn_view_seen *seen = &frame->seen[view - frame->view];
+    if (!gn_seen_any(seen)) return light->near_q16;
+    if (GN_RECEIVER_BIAS) reach_q16 += light->bias_receiver_q16[0] + 50 * light->bias_receiver_q16[1]; /* tan <= 50 */
+    int32_t texels_q16 = (view->filter_idx + 1) * (65536 + reach_q16);                                 /* 2^28 */
+    int32_t ratio_q16 = 65536 - gn_sat32(gn_bf_apply(texels_q16, view->fit.persp.texel_per_z, 0));
+    int64_t z_q16 = gn_min32(seen->lo_q16[2], GN_NEAR_MAX_Q16);
+    uint32_t near_q16 = (uint32_t)(z_q16 * gn_max32(ratio_q16, 8192) >> 16);
+    near_q16 &= 0xE0000000U >> gn_clz32(near_q16 | 1U);
+    return gn_max32((int32_t)near_q16, light->near_q16);
+#else
+    (void)frame, (void)view, (void)reach_q16;
+    return light->near_q16;
+#endif
+}
+
 /* A spot's cone, or a face of a point light's cube. [P4] [P5] */
 GN_HOT void gn_persp_fit_view(gn_frame *frame, gn_light_view *view, const gn_light *light)
 {
     gn_persp_fit *fit = &view->fit.persp;
     int clamped = 0;
+    int32_t reach_q16 = gn_bias_reach_q16(frame, view, light);
     for (int i = 0; i < 3; i++) fit->eye_q16[i] = light->position_q16[i];
-    fit->near_q16 = light->near_q16;
+    fit->clip_q16 = light->near_q16;
     if (light->kind == GN_LIGHT_SPOT) /* tan(a / 2) = sin a / (1 + cos a) */
         fit->focal2_q16 = focal2_q16(view->tile_texels, gn_sin_q30(light->outer_turn),
                                      ((int64_t)1 << 30) + gn_cos_q30(light->outer_turn));
     else
         fit->focal2_q16 = focal2_q16(
-            view->tile_texels,
-            gn_persp_face_q24(view->filter_idx, gn_bias_reach_q16(frame, view, light), view->tile_texels, &clamped),
-            1 << 24);
+            view->tile_texels, gn_persp_face_q24(view->filter_idx, reach_q16, view->tile_texels, &clamped), 1 << 24);
     frame->stats.n_reach_clamped += (uint32_t)clamped;
     fit->texel_per_z = gn_bf_recip(gn_bf_from_u64(fit->focal2_q16));
-    fit->per_near = gn_bf_recip(gn_bf_from_u64((uint64_t)(uint32_t)fit->near_q16));
     fit->texel_per_z.exp += 17; /* 2 / (T / t), T / t in Q16 */
+    fit->near_q16 = depth_near_q16(frame, view, light, reach_q16);
+    fit->per_near = gn_bf_recip(gn_bf_from_u64((uint64_t)(uint32_t)fit->near_q16));
     fit->guard_q16[0] = fit->guard_q16[1] =
         gn_sat32((int64_t)gn_udiv64((uint64_t)(2 * GN_GUARD_TEXELS) << 32, fit->focal2_q16));
     fit->side_q16[0] = fit->side_q16[1] =
@@ -79,11 +103,11 @@ GN_HOT void gn_persp_fit_view(gn_frame *frame, gn_light_view *view, const gn_lig
 
 /* ---- Casters ----------------------------------------------------------------------------------------------------- */
 
-/* n / z, Q32, saturated below 1 */
+/* n / z, Q32, at most 1 */
 GN_HOT static int64_t inverse_depth_q32(const gn_persp_fit *fit, int32_t z_q16)
 {
-    gn_bfloat z = gn_bf_recip(gn_bf_from_u64((uint64_t)(uint32_t)gn_max32(z_q16, fit->near_q16)));
-    return gn_clamp64(gn_bf_apply(fit->near_q16, z, 32), 0, UINT32_MAX);
+    gn_bfloat z = gn_bf_recip(gn_bf_from_u64((uint64_t)(uint32_t)gn_max32(z_q16, 1)));
+    return gn_clamp64(gn_bf_apply(fit->near_q16, z, 32), 0, (int64_t)1 << 32);
 }
 
 /* + constant * tau * (1 - s) + slope * steepest, the first of which keeps the plane a plane. [B1] */
@@ -125,7 +149,7 @@ GN_HOT static int persp_caster(gn_caster *caster, gn_plane *plane, const gn_ligh
         z_min = gn_min32(z_min, v[i][2]);
         z_max = gn_max32(z_max, v[i][2]);
     }
-    caster->lo = ((int64_t)1 << 32) - inverse_depth_q32(fit, z_min);
+    caster->lo = ((int64_t)1 << 32) - inverse_depth_q32(fit, z_min); /* 0: flattened */
     caster->hi = ((int64_t)1 << 32) - inverse_depth_q32(fit, z_max);
     add_bias(view, caster);
     return 1;
@@ -162,15 +186,15 @@ GN_HOT int32_t gn_persp_triangle(const gn_frame *frame, const gn_light_view *vie
     polygon->n = 3;
     uint32_t all = ~0U, any = 0;
     for (int i = 0; i < 3; i++) {
-        all &= gn_outcode(corner[i], fit->near_q16, fit->side_q16, 0);
-        any |= gn_outcode(corner[i], fit->near_q16, fit->guard_q16, 0);
+        all &= gn_outcode(corner[i], fit->clip_q16, fit->side_q16, 0);
+        any |= gn_outcode(corner[i], fit->clip_q16, fit->guard_q16, 0);
     }
     gn_caster caster;
     gn_plane plane;
     if (all || !persp_caster(&caster, &plane, view, corner, casting->job.two_sided)) return -1;
     if (GN_CASTER_ALPHA && GN_TEXTURES && alpha && alpha->textured)
         gn_alpha_plane(alpha, frame, corner, fit->focal2_q16, view->tile_texels, 2);
-    if (any) gn_clip(polygon, &casting->with.clipping.uncut, GN_OUT_ALL, fit->near_q16, fit->guard_q16, 0);
+    if (any) gn_clip(polygon, &casting->with.clipping.uncut, GN_OUT_ALL, fit->clip_q16, fit->guard_q16, 0);
     int32_t *x = casting->with.clipping.x, *y = casting->with.clipping.y;
     for (int i = 0; i < polygon->n; i++) project_corner(frame, view, polygon->v_q16[i], &x[i], &y[i]);
     int32_t n_texels = 0;

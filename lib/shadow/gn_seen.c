@@ -336,8 +336,26 @@ static void see_directional(gn_seen_job *job, gn_view_seen *seen)
 #if GN_PUNCTUAL_LIGHTS
 /* Bounds of an object from the light, along the axes of a face or of a spot: z is into it. |.| < 2^32 */
 typedef struct {
-    int64_t lo[3], hi[3];
+    int64_t lo[3], hi[3], nearest;
 } face_box;
+
+/* In a pyramid |x|, |y| <= t z a point's coordinate along an axis of the world is at most z (w + t (|u| + |v|)), parts
+ * of the view's axes along that axis. So an object that is off the light has a least z. */
+static int64_t nearest_in_spot(const gn_seen_job *job, const int32_t light_q16[3])
+{
+    int64_t nearest = 0;
+    for (int k = 0; k < 3; k++) {
+        int32_t from = job->object->centre_q16[k] / 2 - light_q16[k] / 2, w = job->axis_q30[2][k];
+        int32_t off = (int32_t)gn_abs32(from) - job->object->half_q16[k] / 2;
+        if (off <= 0) continue;
+        uint32_t across = gn_abs32(job->axis_q30[0][k]) + gn_abs32(job->axis_q30[1][k]);
+        int64_t most = gn_bf_apply(across, job->tangent, 0) + (from < 0 ? -w : w);
+        if (most <= 0) return INT32_MAX; /* no z is enough */
+        int64_t z = (int64_t)gn_udiv64((uint64_t)off << 31, (uint64_t)most);
+        if (z > nearest) nearest = z;
+    }
+    return nearest;
+}
 
 static void face_bounds(const gn_seen_job *job, uint32_t face, face_box *box)
 {
@@ -380,6 +398,8 @@ static void see_face(const gn_seen_job *job, const face_box *box, uint64_t pixel
                               box->hi[k] < limit ? box->hi[k] : limit);
     seen->worth_q16 += pixels_q16;
     seen->lo_q16[0] = seen->hi_q16[0] = 0;
+    if (box->nearest > first) first = box->nearest;
+    seen->lo_q16[2] = gn_min32(seen->lo_q16[2], gn_sat32(first));
 }
 
 static void see_punctual(gn_seen_job *job, gn_view_seen *seen, uint32_t light_idx, uint32_t n_views)
@@ -392,6 +412,7 @@ static void see_punctual(gn_seen_job *job, gn_view_seen *seen, uint32_t light_id
         for (uint32_t f = 0; f < n_views; f++) {
             face_box box;
             face_bounds(job, n_views > 1 ? f : 4, &box);
+            box.nearest = n_views > 1 ? 0 : nearest_in_spot(job, frame->scene->lights[light_idx].position_q16);
             see_face(job, &box, pixels, &seen[f]);
         }
     }
@@ -430,7 +451,7 @@ static void see_light(gn_seen_job *job, gn_view_seen *seen, uint32_t light_idx, 
     job->directional = light->kind == GN_LIGHT_DIRECTIONAL;
 #if GN_PUNCTUAL_LIGHTS
     if (light->kind != GN_LIGHT_DIRECTIONAL) {
-        if (!GN_BY_WORTH(frame) || frame->scene->camera.near_q16 >= frame->scene->shadow.max_distance_q16) return;
+        if (frame->scene->camera.near_q16 >= frame->scene->shadow.max_distance_q16) return;
         begin_punctual(job, light_idx);
         begin_frustum(job, frame->scene->camera.near_q16, frame->scene->shadow.max_distance_q16);
         see_punctual(job, seen, light_idx, plan->n_tiles);

@@ -23,7 +23,7 @@
 typedef struct {
     uint64_t worth_q16;           /* pixels that its tile is worth */
     int32_t lo_q16[3], hi_q16[3]; /* along the view's axes, from the camera; lo > hi: nothing. Spot and point lights:
-                                     whether anything is seen */
+                                     whether anything is seen, and lo[2] its nearest distance into the view */
     uint16_t side;                /* of its tile, by worth; 0: none */
     uint8_t turn;                 /* of a directional view's axes about the light */
 } gn_view_seen;
@@ -87,7 +87,8 @@ typedef struct {
 /* Perspective: a camera at the light, whose picture is the tile. */
 typedef struct {
     int32_t eye_q16[3];
-    int32_t near_q16;           /* n: depth is 1 - n / z */
+    int32_t clip_q16;           /* the light's near distance: nothing nearer casts */
+    int32_t near_q16;           /* n: depth is 1 - n / z; casters nearer are flattened onto it */
     uint32_t focal2_q16;        /* T / t: twice the focal length in texels */
     gn_bfloat per_near;         /* 1 / n, n in Q16 */
     gn_bfloat texel_per_z;      /* 2t / T: width of a texel at light-plane distance 1 */

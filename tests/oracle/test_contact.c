@@ -18,6 +18,8 @@ enum { DEFAULT, DEPTH, NORMAL, N_BESIDE };
 #define FOCAL    8.8 /* so that a shadow texel is four pixels wide */
 #define SEEN     0.9 /* how far behind the foot light is counted, world units; the shadow is 2 long */
 
+static bool tight; /* fits of views */
+
 /* The wall moves against the light's grid, which a directional light has in the world and others carry with them. */
 static void shift(fixture *f, scene_light_kind kind, const double by[3])
 {
@@ -44,6 +46,7 @@ static void contact_scene(fixture *f, const cell *c, const bias *b, double degre
     turn_about(up, 1, 0, 0.4);
     look(f, eye, at, up);
     f->s.camera.focal = FOCAL;
+    if (tight) f->s.shadow.fit = SCENE_FIT_TIGHT;
     shift(f, c->kind, by);
 }
 
@@ -105,6 +108,7 @@ static long acne_of(const cell *wall, const bias *b, double degrees, int n)
         plane_scene p;
         plane_point h;
         plane_scene_begin(&f, &p, &c, b, degrees * DEGREE, PI / 4 * i + (i & 1 ? 0 : 0.1));
+        if (tight) f.s.shadow.fit = SCENE_FIT_TIGHT;
         if (draw(&f, &c, WIDTH, HEIGHT))
             for (int k = 0; k < WIDTH * HEIGHT; k++) {
                 if (!plane_point_at(&h, &f, &p, k % WIDTH, k / WIDTH)) continue;
@@ -138,6 +142,26 @@ static void test_contact(void)
             }
 }
 
+/* With tight fits depths of spot and point lights begin where receivers do: eight bits detach at most twice as far as
+ * sixteen. */
+static void test_bits(void)
+{
+    static const double degrees[] = {10, 30, 60};
+    for (int kind = SCENE_LIGHT_SPOT; kind <= SCENE_LIGHT_POINT; kind++)
+        for (int k = 0; k < 2; k++)
+            for (int a = 0; a < 3; a++) {
+                cell c = {(scene_light_kind)kind, k ? SCENE_FILTER_2X2 : SCENE_FILTER_HARD, 16, SETTINGS_ACCURATE,
+                          WALL_TEXELS};
+                const double fine = mean_gap(&c, &beside[NORMAL], degrees[a], 10);
+                c.bits = 8;
+                const double coarse = mean_gap(&c, &beside[NORMAL], degrees[a], 10);
+                CHECK_EQ_INT(acne_of(&c, &beside[NORMAL], degrees[a], 2), 0);
+                if (!CHECK(coarse <= 2 * fine + 0.02))
+                    printf("  %s, %s, %.0f degrees: %.3f, 16 bits %.3f\n", kind_name[kind], filter_name[c.filter],
+                           degrees[a], coarse, fine);
+            }
+}
+
 static void print_table(void)
 {
     static const scene_filter filters[3] = {SCENE_FILTER_HARD, SCENE_FILTER_2X2, SCENE_FILTER_5X5};
@@ -167,5 +191,7 @@ int main(int argc, char **argv)
         return check_n_failed ? 1 : 0;
     }
     test_contact();
+    tight = true;
+    test_bits();
     return check_report();
 }

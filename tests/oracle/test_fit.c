@@ -6,6 +6,7 @@
  * - With the same atlas, shadows are nearer to those of a map with 16 times the texels than stable fits are. */
 #include "../host/tool/engine/engine.h"
 #include "../host/tool/fixed/quantise.h"
+#include "../lib/shadow/gn_texel.h"
 #include "ref_fixture.h"
 
 enum { WIDTH = 48, HEIGHT = 36, N_SCENES = SLOW_LIBRARY ? 40 : 160, N_BOXES = 7 };
@@ -80,7 +81,7 @@ static void build(fixture *f)
 
 /* ---- Coverage ---------------------------------------------------------------------------------------------------- */
 
-static long n_looked_up, n_views, n_other_choice, n_unseen, n_turned;
+static long n_looked_up, n_raised, n_views, n_other_choice, n_unseen, n_turned;
 
 static bool in_directional(const ref_light_view *v, const double point[3])
 {
@@ -93,10 +94,18 @@ static bool in_directional(const ref_light_view *v, const double point[3])
     return true;
 }
 
+/* Where the receiver's offset takes the point, it is not nearer than depths begin. */
+static bool in_perspective(const ref_light_view *v, const double point[3])
+{
+    const double z = dot(point, v->axis[2]) - dot(v->position, v->axis[2]);
+    n_raised += v->near > v->clip;
+    return z < v->clip || z * (1 - (v->filter_index + 1) * sqrt(2.0) * v->texel) >= v->near || !(v->near > v->clip);
+}
+
 static bool covered_by(const ref_light_view *v, const double point[3])
 {
     n_looked_up++;
-    return v->active && !v->unseen && (v->perspective || in_directional(v, point));
+    return v->active && !v->unseen && (v->perspective ? in_perspective(v, point) : in_directional(v, point));
 }
 
 /* The next cascade, where the point blends with it. */
@@ -151,7 +160,21 @@ static bool same_view(const gn_light_view *a, const ref_light_view *b, int world
     if (a->unseen || b->unseen) return a->unseen == b->unseen;
     if (a->empty || !b->active) return a->empty && !b->active;
     if (a->tile_texels != b->tile_texels || GN_TILE_ROWS(a) != b->tile_rows) return false;
-    return a->perspective || same_directional(a, b, world_exp);
+    if (a->perspective) return fabs(a->fit.persp.near_q16 * ldexp(1, -16 - world_exp) / b->near - 1) < 1e-4;
+    return same_directional(a, b, world_exp);
+}
+
+static long n_flat, n_not_flat;
+
+/* Casters nearer than the receivers are flattened onto where depths begin, to the texel: of 16 bits, but at edges. */
+static void check_flattened(const gn_light_view *a, const ref_light_view *b)
+{
+    if (!a->perspective || a->unseen || !b->active) return;
+    for (size_t i = 0; i < (size_t)a->tile_texels * (size_t)a->tile_texels; i++) {
+        const double stored = ldexp(gn_texel_load(a->depth, a->depth_bits, i), -32);
+        n_flat += !(b->depth[i] > 0);
+        n_not_flat += !(b->depth[i] > 0) != !(stored > 0x1p-15);
+    }
 }
 
 static void check_choices(const fixture *f, const settings *set, const ref_picture *p)
@@ -173,6 +196,8 @@ static void check_choices(const fixture *f, const settings *set, const ref_pictu
             n_unseen += view->unseen;
             n_turned += view->turn > 0;
             n_other_choice += !same_view(view, &p->view[l][i], fixed.world_exp);
+            CHECK_EQ_INT(gn_shadow_tile(&renderer, (uint32_t)(light->view_idx + i)), GN_OK);
+            if (same_view(view, &p->view[l][i], fixed.world_exp)) check_flattened(view, &p->view[l][i]);
         }
     }
     quantise_free(&fixed);
@@ -217,10 +242,15 @@ int main(void)
         check_scene(&f);
         end(&f);
     }
-    printf("%ld views, %ld of them unseen, %ld turned, %ld otherwise chosen; %ld lookups; off: tight %ld, stable %ld\n",
-           n_views, n_unseen, n_turned, n_other_choice, n_looked_up, n_off[0], n_off[1]);
-    CHECK(n_unseen > n_views / 50 && n_turned > n_views / 50 && n_looked_up > 1000L * N_SCENES);
+    printf(
+        "%ld views, %ld of them unseen, %ld turned, %ld otherwise chosen; %ld lookups, %ld from a raised near plane; "
+        "%ld texels are flattened; off: tight %ld, stable %ld\n",
+        n_views, n_unseen, n_turned, n_other_choice, n_looked_up, n_raised, n_flat, n_off[0], n_off[1]);
+    CHECK(n_unseen > n_views / 50 && n_turned > n_views / 50 && n_looked_up > 1000L * N_SCENES &&
+          n_raised > n_looked_up / 8);
     CHECK(200 * n_other_choice <= n_views);
     CHECK(4 * n_off[0] < 3 * n_off[1]);
+    CHECK(n_flat > 10000 && 50 * n_not_flat < n_flat);
+    if (check_n_failed) printf("%ld texels are not flattened alike\n", n_not_flat);
     return check_report();
 }
