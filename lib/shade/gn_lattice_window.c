@@ -62,7 +62,7 @@ GN_HOT static GN_NOINLINE void begin_window(gn_lattice *l, const gn_frame *frame
     window->planar = 0;
     window->w = 0;
     window->until_x = INT32_MIN;
-    if (!stays_planar(l, s, slot)) return;
+    if (!stays_planar(l, s, slot) && on_plane) return;
     if (!l->has_face) gn_surface_face(frame, s, l->face_q30);
     l->has_face = 1;
 #if GN_PUNCTUAL_LIGHTS
@@ -70,6 +70,7 @@ GN_HOT static GN_NOINLINE void begin_window(gn_lattice *l, const gn_frame *frame
 #endif
     gn_shadow_plane_slopes(view, l->face_q30, from, slope);
     gn_window_begin(window, frame, view, slope, own_distance_q30(l, frame, s, slot, view, at, slope), on_plane);
+    if (window->planar && !stays_planar(l, s, slot)) window->planar = -1;
 }
 
 /* Tile coordinates of places of the part, and one of them. */
@@ -118,7 +119,7 @@ GN_HOT static GN_NOINLINE int see_rows(gn_lattice *l, const gn_frame *frame, con
 GN_HOT static int make_window(gn_lattice *l, const gn_frame *frame, const gn_surface *s, uint32_t slot,
                               uint32_t view_idx, int32_t x, int32_t x_end, int32_t y_end, int rows, gn_window *window)
 {
-    seen_box box = {{INT32_MAX, INT32_MAX}, {INT32_MIN, INT32_MIN}, {0, 0, 0}};
+    seen_box box = {{INT32_MAX, INT32_MAX}, {INT32_MIN, INT32_MIN}, {0, 0, 0, 0}};
     int32_t first[2], n[2], seen = 0;
     while (seen < 4 && see(l, frame, s, slot, view_idx, seen & 1 ? x_end : x, seen & 2 ? y_end : l->y, &box)) seen++;
     if (seen < 4) {
@@ -141,7 +142,7 @@ GN_HOT gn_window *gn_lattice_window(gn_lattice *l, const gn_frame *frame, const 
     gn_window *window = &l->window[gn_lattice_window_idx(frame, view)];
     int32_t log2 = l->size_log2, size = 1 << log2;
     if (window->view != view) begin_window(l, frame, s, slot, view, at, window);
-    if (!window->planar) return NULL;
+    if (window->planar <= 0) return NULL;
     window->w = 0;
     int32_t rows = (gn_min32(l->n_rows, l->y_end - l->y) + size - 1) >> log2;
     int32_t columns = (gn_min32(GN_PART_WIDTH - (x - l->x), l->x_end - x) + size - 1) >> log2;

@@ -113,14 +113,14 @@ GN_HOT static uint32_t repeat_row(gn_window *window, int32_t j, int32_t from, in
 }
 
 /* Whether depths on the plane over w x h texels can be stepped: the first of them has `first`. */
-GN_HOT static int in_range(const gn_window *window, int64_t first, int32_t w, int32_t h)
+GN_HOT static int in_range(const gn_window *window, int64_t first, int32_t apart, int32_t w, int32_t h)
 {
     const int32_t *slope = window->slope_q30;
     int64_t across = (int64_t)slope[0] * w, down = (int64_t)slope[1] * h;
     int64_t lo = first + (across < 0 ? across : 0) + (down < 0 ? down : 0),
             hi = first + (across > 0 ? across : 0) + (down > 0 ? down : 0);
-    return lo - window->front_q30 >= -(1 << 29) &&
-           hi + window->behind_q30 < gn_texel_far(GN_VIEW_BITS(window->view)) >> 2;
+    return lo - apart - window->front_q30 >= -(1 << 29) &&
+           hi + apart + window->behind_q30 < gn_texel_far(GN_VIEW_BITS(window->view)) >> 2;
 }
 
 GN_HOT int gn_window_compare(gn_window *window, const gn_window_place *place, int32_t u0, int32_t v0, int32_t w,
@@ -130,9 +130,10 @@ GN_HOT int gn_window_compare(gn_window *window, const gn_window_place *place, in
     const int32_t *slope = window->slope_q30, last = view->tile_texels - 1, last_row = GN_TILE_ROWS(view) - 1;
     int64_t du = u0 * 65536 + 32768 - place->u_q16, dv = v0 * 65536 + 32768 - place->v_q16;
     int64_t first = place->depth_q30 + ((du * slope[0] + dv * slope[1]) >> 16);
-    int64_t front = window->front_q30, behind = window->behind_q30;
+    int64_t front = (int64_t)window->front_q30 + place->apart_q30,
+            behind = (int64_t)window->behind_q30 + place->apart_q30;
     window->w = 0;
-    if (!in_range(window, first, w, h)) return 0;
+    if (!in_range(window, first, place->apart_q30, w, h)) return 0;
     if (u0 + w <= 0 || v0 + h <= 0 || u0 > last || v0 > last_row) return 0;
     /* texels beyond the border repeat it, with its depth: so do their bits */
     int32_t ua = gn_max32(u0, 0), n = gn_min32(u0 + w - 1, last) - ua + 1, left = ua - u0, right = w - n - left;
