@@ -79,22 +79,62 @@ typedef struct {
     gn_window_place place;
 } seen_box;
 
+/* View depth of the surface's plane at a pixel; 0: it is not seen there, or far beyond the surface. */
+GN_HOT static int32_t seen_depth(const gn_lattice *l, const gn_frame *frame, const gn_surface *s, int32_t x, int32_t y)
+{
+    const gn_screen_plane *p = &l->plane;
+    int32_t w = p->w.at + p->w.dx * (x - p->x) + p->w.dy * (y - p->y);
+    if (w < 1 << 10 || w >= 1 << 30) return 0;
+    int32_t clz = gn_clz32((uint32_t)w), shift = p->z_shift - clz;
+    if (shift < 1 || shift > 31) return 0;
+    uint32_t z = gn_umul_high(s->depth_scale.mant, gn_recip_norm((uint32_t)w << clz, GN_K(frame, newton_steps)));
+    z = ((z >> (shift - 1)) + 1) >> 1;
+    return z < (uint32_t)s->z_min_q16 >> 1 || z >> 1 > (uint32_t)s->z_max_q16 ? 0 : (int32_t)z;
+}
+
+/* Where a directional view sees a flat surface at a pixel: what corners say. Returns 0 if it is not to be told so. */
+GN_HOT static int see_flat(gn_lattice *l, const gn_frame *frame, const gn_surface *s, uint32_t slot,
+                           const gn_light_view *view, int32_t x, int32_t y, gn_window_place *out)
+{
+    int32_t z = seen_depth(l, frame, s, x, y), at[3], px = 2 * x + 1 - frame->picture.width,
+            py = frame->picture.height - 1 - 2 * y;
+    if (z <= 0) return 0;
+    int32_t z_up = gn_clz32((uint32_t)z) - 1, down = view->fit.ortho.ray_shift + z_up - 32;
+    if (down < 0 || down > 31) return 0;
+    if (l->offset_view != view) gn_sample_offset(frame, s, slot, view, s->normal_q30[0], l->offset_q16);
+    l->offset_view = view;
+    for (int i = 0; i < 3; i++) {
+        const gn_ray_plane *r = &view->fit.ortho.ray[i];
+        int32_t a = (int32_t)((uint32_t)r->a0 + (uint32_t)r->ax * (uint32_t)px + (uint32_t)r->ay * (uint32_t)py);
+        int32_t moved = (int32_t)((uint32_t)(gn_mul_high(z * (1 << z_up), a) >> down) + (uint32_t)r->d_q16);
+        at[i] = gn_sat32((int64_t)moved + l->offset_q16[i]);
+    }
+    out->u_q16 = at[0];
+    out->v_q16 = at[1];
+    int32_t up = 14 - view->tile_log2 - view->depth_log2;
+    if (up < 0) out->depth_q30 = at[2] >> gn_min32(-up, 31);
+    else out->depth_q30 = gn_max32(-(1 << 29) >> up, gn_min32(at[2], ((1 << 30) - 1) >> up)) * (1 << up);
+    return 1;
+}
+
 /* Returns 0 if the surface is not seen at the pixel, or beyond what windows hold. */
 GN_HOT static int see(gn_lattice *l, const gn_frame *frame, const gn_surface *s, uint32_t slot, uint32_t view_idx,
                       int32_t x, int32_t y, seen_box *box)
 {
-    gn_corner *c = &l->corner;
-    if (!gn_corner_locate(l, frame, s, slot, x, y, c) || !gn_corner_place(l, frame, s, c, slot, view_idx)) return 0;
-    const gn_corner_light *at = &c->light[slot];
-    const int32_t uv[2] = {at->u_q16, at->v_q16};
-    if ((gn_abs32(uv[0]) | gn_abs32(uv[1])) >> 27) return 0;
-    for (int i = 0; i < 2; i++) {
-        box->lo[i] = gn_min32(box->lo[i], uv[i]);
-        box->hi[i] = gn_max32(box->hi[i], uv[i]);
+    const gn_light_view *view = &frame->view[s->light[slot].state->view_idx + (int32_t)view_idx];
+    gn_window_place *place = &box->place;
+    if (view->perspective || !see_flat(l, frame, s, slot, view, x, y, place)) {
+        gn_corner *c = &l->corner;
+        if (!gn_corner_locate(l, frame, s, slot, x, y, c) || !gn_corner_place(l, frame, s, c, slot, view_idx)) return 0;
+        place->u_q16 = c->light[slot].u_q16;
+        place->v_q16 = c->light[slot].v_q16;
+        place->depth_q30 = c->light[slot].depth_q30;
     }
-    box->place.u_q16 = uv[0];
-    box->place.v_q16 = uv[1];
-    box->place.depth_q30 = at->depth_q30;
+    if ((gn_abs32(place->u_q16) | gn_abs32(place->v_q16)) >> 27) return 0;
+    box->lo[0] = gn_min32(box->lo[0], place->u_q16);
+    box->hi[0] = gn_max32(box->hi[0], place->u_q16);
+    box->lo[1] = gn_min32(box->lo[1], place->v_q16);
+    box->hi[1] = gn_max32(box->hi[1], place->v_q16);
     return 1;
 }
 
