@@ -46,7 +46,7 @@ GN_HOT int gn_window_begin(gn_window *window, const gn_frame *frame, const gn_li
                                                                           : halves) +
                                   rounding);
     int64_t safe_q30 = own_q30 - (own_q30 >> 3) - ((int64_t)1 << 30 >> GN_VIEW_BITS(view));
-    int enough = own_q30 + (own_q30 >> (close ? 0 : 3)) >= window->behind_q30; /* the reference sees little acne */
+    int enough = own_q30 + (own_q30 >> 3) >= window->behind_q30; /* the reference sees no acne */
     if (enough) window->behind_q30 = window->front_q30;
     if ((fast || enough) && safe_q30 > 0 && safe_q30 < window->behind_q30) window->behind_q30 = (int32_t)safe_q30;
     return 1;

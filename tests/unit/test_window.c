@@ -182,7 +182,7 @@ static double most_weight(double texel, double at)
     return (tent_integral(texel + 1 - at, h) - tent_integral(texel - at, h)) / (h * h) + off;
 }
 
-/* Whether half a texel's slopes, and half of the filter's reach as the bias, are enough. */
+/* Whether 3x3 looks as close as the fastest shading. */
 static int looks_closer(void)
 {
     return GN_K(&frame, persp_step) == 8 && view.filter == GN_FILTER_3X3 && !view.perspective;
@@ -200,8 +200,7 @@ static int64_t doubt_behind(void)
 {
     const int64_t safe = (own_q30 - own_q30 / 8 - ((int64_t)1 << 30 >> view.depth_bits)) * 65536;
     if (own_q30 == 0) return reach();
-    if (own_q30 < reach() >> 16 && !looks_closer())
-        return GN_K(&frame, persp_step) == 16 && safe > 0 && safe < reach() ? safe : reach();
+    if (own_q30 < reach() >> 16) return GN_K(&frame, persp_step) == 16 && safe > 0 && safe < reach() ? safe : reach();
     return safe > 0 && safe < doubt_before() ? safe : doubt_before();
 }
 
