@@ -273,6 +273,7 @@ GN_HOT static GN_NOINLINE int look_up_pixels(gn_shading *s, const part_look *loo
     gn_receiver r;
     if (!place_pixel(s, look->slot, view_idx, x + n - 1, y, &last) || !place_pixel(s, look->slot, view_idx, x, y, &at))
         return 0;
+    if ((gn_abs32(last.u_q16 - at.u_q16) | gn_abs32(last.v_q16 - at.v_q16)) >> 20) return 0; /* half a window */
     if (n > 1) {
         step.u_q16 = gn_step_of(at.u_q16, last.u_q16, n - 1);
         step.v_q16 = gn_step_of(at.v_q16, last.v_q16, n - 1);
