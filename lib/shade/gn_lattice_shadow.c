@@ -59,6 +59,24 @@ GN_HOT static int verdict_of_bounds(const gn_lattice_cell *cell, const places *p
     return attenuation ? GN_CELL_LIT : GN_CELL_DARK;
 }
 
+/* A place of the window's plane that the corners lie around. */
+GN_HOT static gn_window_place middle_of(const gn_window *window, const places *p)
+{
+    int64_t lo = 0, hi = 0;
+    for (int i = 1; window->planar < 0 && i < 4; i++) {
+        int64_t du = p->u[i] - p->u[0], dv = p->v[i] - p->v[0];
+        int64_t beyond = p->depth[i] - p->depth[0] - ((du * window->slope_q30[0] + dv * window->slope_q30[1]) >> 16);
+        if (beyond < lo) lo = beyond;
+        if (beyond > hi) hi = beyond;
+    }
+    int32_t apart = (int32_t)gn_clamp64((hi - lo + 2) >> 1, 0, 1 << 29);
+    gn_window_place place = {p->u[0], p->v[0], p->depth[0], 0};
+    if (window->planar > 0) return place;
+    place.depth_q30 = (int32_t)gn_clamp64(p->depth[0] + lo + apart, -(1 << 29), 1 << 30);
+    place.apart_q30 = apart;
+    return place;
+}
+
 /* What a window says of all texels that are read between places. */
 GN_HOT static int verdict_of_window(gn_window *window, const places *p, const gn_receiver_step *lo,
                                     const gn_receiver_step *hi, int may_compare)
@@ -67,7 +85,7 @@ GN_HOT static int verdict_of_window(gn_window *window, const places *p, const gn
     gn_window_reads(p->view, lo->u_q16 - 16, hi->u_q16 + 1040, &u0, &w);
     gn_window_reads(p->view, lo->v_q16 - 16, hi->v_q16 + 1040, &v0, &h);
     if (!gn_window_covers(window, u0, v0, w, h)) {
-        const gn_window_place place = {p->u[0], p->v[0], p->depth[0]};
+        const gn_window_place place = middle_of(window, p);
         if (!may_compare || window->w || w > GN_WINDOW_TEXELS || h > GN_WINDOW_TEXELS) return GN_CELL_SPLIT;
         if (!gn_window_compare(window, &place, u0, v0, w, h)) return GN_CELL_SPLIT;
         int said = gn_window_says(window, u0, v0, w, h);
@@ -104,7 +122,7 @@ GN_HOT static int verdict(const gn_lattice_cell *cell, uint32_t slot, uint32_t v
         }
         window = NULL;
     }
-    int said = window ? verdict_of_window(window, p, &lo, &hi, 0) : GN_CELL_SPLIT;
+    int said = window && window->planar > 0 ? verdict_of_window(window, p, &lo, &hi, 0) : GN_CELL_SPLIT;
     if (said != GN_CELL_SPLIT) {
         p->window = window;
         return said;
@@ -115,6 +133,7 @@ GN_HOT static int verdict(const gn_lattice_cell *cell, uint32_t slot, uint32_t v
     hi.depth_q31 = 2 * (int32_t)gn_clamp64(depth_hi + slope, -(1 << 29), (1 << 30) - 16384);
     said = verdict_of_bounds(cell, p, &lo, &hi);
     if (said != GN_CELL_EDGE || !window) return said;
+    if (window->planar < 0) window->w = 0;
     said = verdict_of_window(window, p, &lo, &hi, 1);
     if (said == GN_CELL_SPLIT) return GN_CELL_EDGE;
     p->window = window;

@@ -62,7 +62,7 @@ GN_HOT static GN_NOINLINE void begin_window(gn_lattice *l, const gn_frame *frame
     window->planar = 0;
     window->w = 0;
     window->until_x = INT32_MIN;
-    if (!stays_planar(l, s, slot)) return;
+    if (!stays_planar(l, s, slot) && on_plane) return;
     if (!l->has_face) gn_surface_face(frame, s, l->face_q30);
     l->has_face = 1;
 #if GN_PUNCTUAL_LIGHTS
@@ -70,6 +70,7 @@ GN_HOT static GN_NOINLINE void begin_window(gn_lattice *l, const gn_frame *frame
 #endif
     gn_shadow_plane_slopes(view, l->face_q30, from, slope);
     gn_window_begin(window, frame, view, slope, own_distance_q30(l, frame, s, slot, view, at, slope), on_plane);
+    if (window->planar && !stays_planar(l, s, slot)) window->planar = -1;
 }
 
 /* Tile coordinates of places of the part, and one of them. */
@@ -78,22 +79,62 @@ typedef struct {
     gn_window_place place;
 } seen_box;
 
+/* View depth of the surface's plane at a pixel; 0: it is not seen there, or far beyond the surface. */
+GN_HOT static int32_t seen_depth(const gn_lattice *l, const gn_frame *frame, const gn_surface *s, int32_t x, int32_t y)
+{
+    const gn_screen_plane *p = &l->plane;
+    int32_t w = p->w.at + p->w.dx * (x - p->x) + p->w.dy * (y - p->y);
+    if (w < 1 << 10 || w >= 1 << 30) return 0;
+    int32_t clz = gn_clz32((uint32_t)w), shift = p->z_shift - clz;
+    if (shift < 1 || shift > 31) return 0;
+    uint32_t z = gn_umul_high(s->depth_scale.mant, gn_recip_norm((uint32_t)w << clz, GN_K(frame, newton_steps)));
+    z = ((z >> (shift - 1)) + 1) >> 1;
+    return z < (uint32_t)s->z_min_q16 >> 1 || z >> 1 > (uint32_t)s->z_max_q16 ? 0 : (int32_t)z;
+}
+
+/* Where a directional view sees a flat surface at a pixel: what corners say. Returns 0 if it is not to be told so. */
+GN_HOT static int see_flat(gn_lattice *l, const gn_frame *frame, const gn_surface *s, uint32_t slot,
+                           const gn_light_view *view, int32_t x, int32_t y, gn_window_place *out)
+{
+    int32_t z = seen_depth(l, frame, s, x, y), at[3], px = 2 * x + 1 - frame->picture.width,
+            py = frame->picture.height - 1 - 2 * y;
+    if (z <= 0) return 0;
+    int32_t z_up = gn_clz32((uint32_t)z) - 1, down = view->fit.ortho.ray_shift + z_up - 32;
+    if (down < 0 || down > 31) return 0;
+    if (l->offset_view != view) gn_sample_offset(frame, s, slot, view, s->normal_q30[0], l->offset_q16);
+    l->offset_view = view;
+    for (int i = 0; i < 3; i++) {
+        const gn_ray_plane *r = &view->fit.ortho.ray[i];
+        int32_t a = (int32_t)((uint32_t)r->a0 + (uint32_t)r->ax * (uint32_t)px + (uint32_t)r->ay * (uint32_t)py);
+        int32_t moved = (int32_t)((uint32_t)(gn_mul_high(z * (1 << z_up), a) >> down) + (uint32_t)r->d_q16);
+        at[i] = gn_sat32((int64_t)moved + l->offset_q16[i]);
+    }
+    out->u_q16 = at[0];
+    out->v_q16 = at[1];
+    int32_t up = 14 - view->tile_log2 - view->depth_log2;
+    if (up < 0) out->depth_q30 = at[2] >> gn_min32(-up, 31);
+    else out->depth_q30 = gn_max32(-(1 << 29) >> up, gn_min32(at[2], ((1 << 30) - 1) >> up)) * (1 << up);
+    return 1;
+}
+
 /* Returns 0 if the surface is not seen at the pixel, or beyond what windows hold. */
 GN_HOT static int see(gn_lattice *l, const gn_frame *frame, const gn_surface *s, uint32_t slot, uint32_t view_idx,
                       int32_t x, int32_t y, seen_box *box)
 {
-    gn_corner *c = &l->corner;
-    if (!gn_corner_locate(l, frame, s, slot, x, y, c) || !gn_corner_place(l, frame, s, c, slot, view_idx)) return 0;
-    const gn_corner_light *at = &c->light[slot];
-    const int32_t uv[2] = {at->u_q16, at->v_q16};
-    if ((gn_abs32(uv[0]) | gn_abs32(uv[1])) >> 27) return 0;
-    for (int i = 0; i < 2; i++) {
-        box->lo[i] = gn_min32(box->lo[i], uv[i]);
-        box->hi[i] = gn_max32(box->hi[i], uv[i]);
+    const gn_light_view *view = &frame->view[s->light[slot].state->view_idx + (int32_t)view_idx];
+    gn_window_place *place = &box->place;
+    if (view->perspective || !see_flat(l, frame, s, slot, view, x, y, place)) {
+        gn_corner *c = &l->corner;
+        if (!gn_corner_locate(l, frame, s, slot, x, y, c) || !gn_corner_place(l, frame, s, c, slot, view_idx)) return 0;
+        place->u_q16 = c->light[slot].u_q16;
+        place->v_q16 = c->light[slot].v_q16;
+        place->depth_q30 = c->light[slot].depth_q30;
     }
-    box->place.u_q16 = uv[0];
-    box->place.v_q16 = uv[1];
-    box->place.depth_q30 = at->depth_q30;
+    if ((gn_abs32(place->u_q16) | gn_abs32(place->v_q16)) >> 27) return 0;
+    box->lo[0] = gn_min32(box->lo[0], place->u_q16);
+    box->hi[0] = gn_max32(box->hi[0], place->u_q16);
+    box->lo[1] = gn_min32(box->lo[1], place->v_q16);
+    box->hi[1] = gn_max32(box->hi[1], place->v_q16);
     return 1;
 }
 
@@ -118,7 +159,7 @@ GN_HOT static GN_NOINLINE int see_rows(gn_lattice *l, const gn_frame *frame, con
 GN_HOT static int make_window(gn_lattice *l, const gn_frame *frame, const gn_surface *s, uint32_t slot,
                               uint32_t view_idx, int32_t x, int32_t x_end, int32_t y_end, int rows, gn_window *window)
 {
-    seen_box box = {{INT32_MAX, INT32_MAX}, {INT32_MIN, INT32_MIN}, {0, 0, 0}};
+    seen_box box = {{INT32_MAX, INT32_MAX}, {INT32_MIN, INT32_MIN}, {0, 0, 0, 0}};
     int32_t first[2], n[2], seen = 0;
     while (seen < 4 && see(l, frame, s, slot, view_idx, seen & 1 ? x_end : x, seen & 2 ? y_end : l->y, &box)) seen++;
     if (seen < 4) {
@@ -141,7 +182,7 @@ GN_HOT gn_window *gn_lattice_window(gn_lattice *l, const gn_frame *frame, const 
     gn_window *window = &l->window[gn_lattice_window_idx(frame, view)];
     int32_t log2 = l->size_log2, size = 1 << log2;
     if (window->view != view) begin_window(l, frame, s, slot, view, at, window);
-    if (!window->planar) return NULL;
+    if (window->planar <= 0) return NULL;
     window->w = 0;
     int32_t rows = (gn_min32(l->n_rows, l->y_end - l->y) + size - 1) >> log2;
     int32_t columns = (gn_min32(GN_PART_WIDTH - (x - l->x), l->x_end - x) + size - 1) >> log2;

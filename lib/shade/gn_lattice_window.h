@@ -22,7 +22,7 @@ GN_HOT static inline uint32_t gn_lattice_window_idx(const gn_frame *frame, const
 /* Whether it is already made. */
 GN_HOT static inline int gn_lattice_window_is_made(const gn_window *window, const gn_light_view *view, int32_t x)
 {
-    return window->view == view && (!window->planar || x < window->until_x);
+    return window->view == view && (window->planar <= 0 || x < window->until_x);
 }
 #endif
 

@@ -26,8 +26,8 @@ typedef struct {
 typedef struct {
     uint32_t dark_q20[3], more_q20[3]; /* without and with the light whose shadow has an edge */
     uint32_t lit, dark;                /* their pixels */
-    int mixed;                         /* whether there is such a light, */
-    int cascaded;                      /* which has cascades: */
+    uint8_t mixed;                     /* whether there is such a light, */
+    uint8_t slot, cascaded;            /* which one, and whether it has cascades: */
     part_view view[4];                 /* of them those that the part looks into */
 } part_look;
 
@@ -112,6 +112,7 @@ GN_HOT static void begin_edge(gn_shading *s, uint32_t slot, part_look *look)
 {
     const gn_light_view *first = &s->frame->view[s->surface.light[slot].state->view_idx];
     look->mixed = 1;
+    look->slot = (uint8_t)slot;
     look->cascaded = !first->border_lit;
     for (uint32_t i = 0; i < 4; i++)
         if (look->view[i].window)
@@ -246,13 +247,64 @@ GN_HOT static row_end cascade_at(gn_shading *s, int32_t x, int32_t y)
     return out;
 }
 
-/* Attenuations of a row in one view, with what is known of all of it. Returns what that is; -1: nothing can be told. */
-GN_HOT static int attenuations_in(gn_shading *s, const part_view *view, int32_t x, int32_t y, int32_t n, uint32_t *out)
+/* Where a view sees a pixel. Returns 0 if it does not, or depth is limited there. */
+GN_HOT static int place_pixel(gn_shading *s, uint32_t slot, uint32_t view_idx, int32_t x, int32_t y,
+                              gn_receiver_step *out)
 {
+    gn_lattice *l = &s->lattice;
+    gn_corner *c = &l->corner;
+    const gn_corner_light *at = &c->light[slot];
+    if (!gn_corner_locate(l, s->frame, &s->surface, slot, x, y, c) ||
+        !gn_corner_place(l, s->frame, &s->surface, c, slot, view_idx))
+        return 0;
+    out->u_q16 = at->u_q16;
+    out->v_q16 = at->v_q16;
+    out->depth_q31 = at->depth_q30;
+    return at->depth_q30 > -(1 << 29) && at->depth_q30 < (1 << 30) - 16384 &&
+           !((gn_abs32(at->u_q16) | gn_abs32(at->v_q16)) >> 27);
+}
+
+/* One lookup per pixel of a row, between places at its ends. Returns 0 if they cannot be told. */
+GN_HOT static GN_NOINLINE int look_up_pixels(gn_shading *s, const part_look *look, uint32_t view_idx, int32_t x,
+                                             int32_t y, int32_t n, uint32_t *out)
+{
+    const gn_light_view *view = look->view[view_idx].view;
+    gn_receiver_step at, last, step = {0, 0, 0};
+    gn_receiver r;
+    if (!place_pixel(s, look->slot, view_idx, x + n - 1, y, &last) || !place_pixel(s, look->slot, view_idx, x, y, &at))
+        return 0;
+    if ((gn_abs32(last.u_q16 - at.u_q16) | gn_abs32(last.v_q16 - at.v_q16)) >> 20) return 0; /* half a window */
+    if (n > 1) {
+        step.u_q16 = gn_step_of(at.u_q16, last.u_q16, n - 1);
+        step.v_q16 = gn_step_of(at.v_q16, last.v_q16, n - 1);
+        step.depth_q31 = gn_step_of(at.depth_q31, last.depth_q31, n - 1);
+    }
+    GN_COUNT(edge_lookups, n);
+    gn_shadow_slopes(s->frame, &s->surface, view, NULL, r.slope_q28);
+    for (const uint32_t *end = out + n; out < end; x++) {
+        r.u_q16 = at.u_q16;
+        r.v_q16 = at.v_q16;
+        r.depth_q32 = (uint32_t)gn_max32(at.depth_q31, 0) << 2;
+        r.pixel_x = x;
+        r.pixel_y = y;
+        *out++ = gn_filter_attenuation(s->frame, view, &r);
+        at.u_q16 += step.u_q16;
+        at.v_q16 += step.v_q16;
+        at.depth_q31 += step.depth_q31;
+    }
+    return 1;
+}
+
+/* Attenuations of a row in one view, with what is known of all of it. Returns what that is; -1: nothing can be told. */
+GN_HOT static int attenuations_in(gn_shading *s, const part_look *look, uint32_t view_idx, int32_t x, int32_t y,
+                                  int32_t n, uint32_t *out)
+{
+    const part_view *view = &look->view[view_idx];
     int said = view->said;
+    if (said == GN_WINDOW_MIXED && !view->window)
+        return look_up_pixels(s, look, view_idx, x, y, n, out) ? GN_WINDOW_MIXED : -1;
     if (said == GN_WINDOW_MIXED) {
         row_ends row;
-        if (!view->window) return -1;
         gn_corner_uv(&s->lattice, s->frame, &s->surface, view->window->view, x, y, view->offset_q16, row.at);
         gn_corner_uv(&s->lattice, s->frame, &s->surface, view->window->view, x + n - 1, y, view->offset_q16, row.last);
         said = attenuations(s, view, &row, n, n - 1, out);
@@ -275,8 +327,8 @@ GN_HOT static GN_NOINLINE int fading_chunk(gn_shading *s, const part_look *look,
         gn_pixel_fill(s->frame, &s->rows, x, y, n, look->lit);
         return 1;
     }
-    int said = attenuations_in(s, &look->view[look->cascaded ? a->cascade : 0], x, y, n, here), there = said;
-    if (blends) there = attenuations_in(s, &look->view[s->frame->cascade[a->cascade].next], x, y, n, next);
+    int said = attenuations_in(s, look, look->cascaded ? (uint32_t)a->cascade : 0, x, y, n, here), there = said;
+    if (blends) there = attenuations_in(s, look, (uint32_t)s->frame->cascade[a->cascade].next, x, y, n, next);
     if (said < 0 || there < 0 || (said != there && s->frame->scene->shadow.blend == GN_BLEND_DITHER)) return 0;
     if (said == there && said == GN_WINDOW_LIT) {
         gn_pixel_fill(s->frame, &s->rows, x, y, n, look->lit);
@@ -302,8 +354,12 @@ GN_HOT static GN_NOINLINE void fading_span(gn_shading *s, const part_look *look,
     for (int32_t n; x < end; x += n, a = b) {
         n = gn_min32(end - x, CHUNK);
         b = n > 1 ? cascade_at(s, x + n - 1, y) : a;
-        if ((look->cascaded && a.cascade != b.cascade) || !fading_chunk(s, look, x, y, n, &a, &b))
-            shade_row_exactly(s, x, y, n);
+        while (look->cascaded && a.cascade != b.cascade) { /* up to the border of the two */
+            n >>= 1;
+            b = cascade_at(s, x + n - 1, y);
+            if (n == 1) a = b;
+        }
+        if (!fading_chunk(s, look, x, y, n, &a, &b)) shade_row_exactly(s, x, y, n);
     }
 }
 

@@ -148,7 +148,7 @@ enum { GN_WINDOW_LIT, GN_WINDOW_DARK, GN_WINDOW_MIXED, GN_WINDOW_MISSED };
 
 typedef struct {
     const gn_light_view *view;            /* NULL: none */
-    int32_t planar;                       /* 0: of this view there is no window */
+    int32_t planar;                       /* 0: of this view there is no window, -1: of single cells alone */
     int32_t slope_q30[2];                 /* change of the plane's depth per texel, a fraction of the range */
     int32_t front_q30, behind_q30;        /* depths so far in front of the plane, and behind it, are in doubt */
     int32_t until_x;                      /* gn_lattice: columns of the screen that it was made for */
@@ -160,9 +160,10 @@ typedef struct {
     uint32_t doubt[GN_WINDOW_TEXELS + 3]; /* or may not */
 } gn_window;
 
-/* A receiver on the plane. */
+/* A receiver on the plane; how far others are before it and behind it. */
 typedef struct {
     int32_t u_q16, v_q16, depth_q30;
+    int32_t apart_q30;
 } gn_window_place;
 #endif
 

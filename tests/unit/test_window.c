@@ -137,6 +137,7 @@ static void random_plane(void)
     on_plane = GN_RECEIVER_PLANE && rng_below(&random_state, 4) == 0;
     own_q30 = 0;
     if (rng_below(&random_state, 4) == 0) own_q30 = rng_below(&random_state, 2) ? INT32_MAX : reach() >> 16;
+    if (rng_below(&random_state, 8) == 0) own_q30 = (reach() >> 19) * 5;
 }
 
 /* Casters before an edge and none behind it; here and there a texel near the plane, or anything. */
@@ -181,18 +182,25 @@ static double most_weight(double texel, double at)
     return (tent_integral(texel + 1 - at, h) - tent_integral(texel - at, h)) / (h * h) + off;
 }
 
+/* Whether 3x3 looks as close as the fastest shading. */
+static int looks_closer(void)
+{
+    return GN_K(&frame, persp_step) == 8 && view.filter == GN_FILTER_3X3 && !view.perspective;
+}
+
 /* How far before the plane, and behind it, texels are in doubt at least, Q46: behind it the filter's reach, or what
  * bias leaves of it; before it half of that, or half a texel. */
 static int64_t doubt_before(void)
 {
     const int64_t halves = view.filter ? 2 * (view.filter_idx + 1) : 1;
-    return reach() / halves * (GN_K(&frame, persp_step) == 16 ? 1 : (halves + 1) / 2);
+    return reach() / halves * (GN_K(&frame, persp_step) == 16 || looks_closer() ? 1 : (halves + 1) / 2);
 }
 
 static int64_t doubt_behind(void)
 {
     const int64_t safe = (own_q30 - own_q30 / 8 - ((int64_t)1 << 30 >> view.depth_bits)) * 65536;
     if (own_q30 == 0) return reach();
+    if (own_q30 < reach() >> 16) return GN_K(&frame, persp_step) == 16 && safe > 0 && safe < reach() ? safe : reach();
     return safe > 0 && safe < doubt_before() ? safe : doubt_before();
 }
 
