@@ -89,7 +89,7 @@ static uint32_t read_tiles(const gn_renderer *r, uint32_t n_lights)
     for (uint32_t i = 0; i < n_lights * 6; i++) {
         gn_tile_info info;
         if (!gn_get_shadow_tile(r, i / 6, i % 6, &info)) continue;
-        size_t n = (size_t)info.texels * info.texels * info.depth_bits / 8;
+        size_t n = (size_t)info.texels * info.rows * info.depth_bits / 8;
         for (size_t k = 0; k < n; k++) sum += ((const uint8_t *)info.depth)[k];
     }
     return sum;
