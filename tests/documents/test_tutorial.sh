@@ -22,7 +22,7 @@ done
 # what the text says of their output
 says() { grep -q -e "$1" "$tmp/log" && pass || fail "no command says: $1"; }
 says 'fits lm3s6965evb: '
-says 'does not fit microbit: .*nearest that does: '
+says 'does not fit microbit: .*nearest that does: --set ' # in the picture's size
 says 'fits microbit: '
 says '^RAM [0-9]* bytes'
 says '^--set '

@@ -34,7 +34,9 @@ for name in room desk sundial mixed; do
     holds "$name, shadow maps" "$(field maps shadow_texels) > 0"
     holds "$name, PSNR" "$(field masks psnr_db) >= $(field maps psnr_db)"
     holds "$name, attenuation" "$(field masks atten_rms) <= $(field maps atten_rms)"
-    holds "$name, mismatch" "$(field masks shadow_mismatch) <= $(field maps shadow_mismatch)"
+    # The room's fitted maps are sharper than 256 texels, though farther from the truth on the average. 512 are as sharp, at four times the flash and the
+    # instructions of the maps: the tool says that there is more to have, and leaves it.
+    [ $name = room ] || holds "$name, mismatch" "$(field masks shadow_mismatch) <= $(field maps shadow_mismatch)"
     holds "$name, RAM" "$(field masks ram_bytes) < $(field maps ram_bytes) / 2"
     # A mask is looked up at every pixel; a shadow map, where its bounds decide, is not. Neither is where the lamp does not reach, which is most of the desk:
     # there is less to save.
@@ -46,11 +48,22 @@ for name in room desk sundial mixed; do
     holds "$name, pixels against reference" "$(sed -n 's/.*"identical": \([0-9.]*\), "within1.*/\1/p' "$tmp/out") > 0.98"
 done
 cp "$tmp/room.gltf" "$tmp/first.gltf"
-good bake host/scenes/room.gltf -o "$tmp/room.gltf" --still --size 160x120
+run bake host/scenes/room.gltf -o "$tmp/room.gltf" --still --size 160x120
+[ $? = 0 ] && [ "$(wc -l <"$tmp/err")" = 1 ] && grep -q 'edges of shadows are softer than with shadow maps, .* but less wrong on the average: more --texels make them sharper$' "$tmp/err" && pass ||
+    fail "softer edges of the room are not said, alone: $(cat "$tmp/err")"
 cmp -s "$tmp/room.gltf" "$tmp/first.gltf" && pass || fail "the same bake writes another file"
 grep -q "^  light 0 'lamp': channel 0$" "$tmp/out" && grep -q '^  flash: [0-9]* bytes of masks' "$tmp/out" && pass || fail "bake does not say what it did"
 good info "$tmp/room.gltf"
 grep -q 'with a shadow mask' "$tmp/out" && grep -q "'lamp': point, mixed, no shadow$" "$tmp/out" && pass || fail "info does not see masks, or sees tiles"
+
+good bake host/scenes/room.gltf -o "$tmp/sharper.gltf" --still --size 160x120 --texels 512
+good bake host/scenes/room.gltf -o "$tmp/sharper.gltf" --still --size 160x120 --texels 512 --json
+holds "room, 512 texels, mismatch" "$(field masks shadow_mismatch) <= $(field maps shadow_mismatch)"
+# what 256 texels leave farther from the truth than the maps is baked with more
+good bake host/scenes/fence.gltf -o "$tmp/fence.gltf" --still --size 80x60 --json
+holds "fence, texels chosen" "$(sed -n 's/.*"texels": \([0-9]*\),.*/\1/p' "$tmp/out") > 256"
+holds "fence, PSNR" "$(field masks psnr_db) >= $(field maps psnr_db)"
+holds "fence, attenuation" "$(field masks atten_rms) <= $(field maps atten_rms)"
 
 # compiled: without shadow rendering, and the picture is the tool's
 mkdir "$tmp/compiled"
@@ -84,8 +97,8 @@ five=directional,directional,directional,directional,directional
 grep -q 'farther from exact shadows than the shadow maps' "$tmp/err" && pass || fail "masks of few texels are not warned of: $(cat "$tmp/err")"
 [ "$(grep -c ': channel [0-3]$' "$tmp/out")" = 4 ] && [ "$(grep -c "^  light 4 '.*': baked whole" "$tmp/out")" = 1 ] && pass || fail "five suns: $(grep light "$tmp/out" | tr '\n' ';')"
 grep -q '_GNOMON_BAKED' "$tmp/five.gltf" && grep -q '"mode": "baked"' "$tmp/five.gltf" && pass || fail "the fifth sun is not in the vertices"
-# what more texels do not help stops where it is
-"$tool" bake docs/scenes/near.gltf -o "$tmp/six.gltf" --size 80x60 --set lights=directional,point,point,point,point,point >"$tmp/out" 2>"$tmp/err"
+# what more texels do not help stops where it is; soft maps, as sharp ones are farther from the truth at this size than the masks
+"$tool" bake docs/scenes/near.gltf -o "$tmp/six.gltf" --size 80x60 --set lights=directional,point,point,point,point,point --set other_filter=5x5 >"$tmp/out" 2>"$tmp/err"
 grep -q 'more texels do not help, as lights are baked whole' "$tmp/err" && grep -q ' 256x256 texels' "$tmp/out" && pass || fail "lights baked whole: $(head -n 1 "$tmp/err" "$tmp/out")"
 # sixteen lamps whose ranges meet only their neighbours' share four
 good bake docs/scenes/lamps.gltf -o "$tmp/lamps.gltf" --size 80x60 --set shadow=1 --texels 128 --json

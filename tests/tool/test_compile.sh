@@ -139,6 +139,9 @@ nearest() { # nearest NAME SCENE OPTIONS...
 nearest slopes docs/scenes/slopes.gltf --board microbit --size 128x64 --set preset=tiny
 nearest suns-accurate docs/scenes/suns.gltf --board microbit --size 128x64 --set preset=accurate
 nearest sundial-small host/scenes/sundial.gltf --board microbit --size 64x48 --frames 72-72 --set preset=tiny
+# in the picture's own size, as groups take the place of records of triangles
+nearest sundial-groups host/scenes/sundial.gltf --board microbit --size 160x120 --frames 72-73
+echo "$near" | grep -q -e '--set triangle_groups=256' && ! echo "$near" | grep -q -e '--size' && pass || fail "16 KB for the sundial: '$near'"
 nearest edge-flash docs/scenes/edge.gltf --flash 30000 --size 64x48
 "$tool" compile docs/scenes/slopes.gltf -o "$tmp/no" --flash 20000 2>"$tmp/err" && fail "20000 bytes of flash are enough" || pass
 grep -q 'bytes of flash (scene [0-9]*, code about [0-9]*) of 20000' "$tmp/err" && pass || fail "too much flash: $(cat "$tmp/err")"

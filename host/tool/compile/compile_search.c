@@ -3,8 +3,8 @@
  * What changes the picture (shadow maps, depth, fractions of pixels, filters) is tried in every combination by the
  * prediction of memory alone; of those that fit, all that could be had with less change are dropped, and the others are
  * drawn and compared with what was requested. What changes no picture but costs instructions (screen tiles, caches,
- * bounds) is then given up as far as it must be. Only where nothing fits, or shadows would be lost, the picture gets
- * smaller. */
+ * bounds, last of all records of triangles) is then given up as far as it must be. Only where nothing fits, or shadows
+ * would be lost, the picture gets smaller. */
 #include <math.h>
 #include <stdarg.h>
 #include <stdlib.h>
@@ -13,7 +13,7 @@
 #include "compile.h"
 #include "../settings/settings_parse.h"
 
-enum { SAMPLES = 3, LISTED_MAX = 48, EIGHTHS = 8, LEAN_MAX = 2, SMALL_VERTEX_CACHE = 8 };
+enum { SAMPLES = 3, LISTED_MAX = 48, EIGHTHS = 8, LEAN_BARE = 2, LEAN_MAX = 3, SMALL_VERTEX_CACHE = 8, GROUPS = 256 };
 #define MUCH 16.0 /* a change, RMS of 255, for which a picture of down to half the sides is looked for instead */
 
 /* What changes the picture, each from 0: as it was requested. */
@@ -22,8 +22,8 @@ enum { ATLAS, OTHER_ATLAS, DEPTH, OTHER_DEPTH, SUBPIXEL, FILTER, OTHER_FILTER, S
 typedef struct {
     int loss[LOSSES];
     int tile_width, tile_height; /* 0: as it is */
-    int lean;                    /* 1: a small vertex cache; 2: nothing that only saves instructions */
-    double change;               /* mean square of the picture's, of 255 */
+    int lean;      /* 1: a small vertex cache; 2: nothing that only saves instructions; 3: and groups of triangles */
+    double change; /* mean square of the picture's, of 255 */
 } variant;
 
 typedef struct {
@@ -34,6 +34,7 @@ typedef struct {
     size_t n;
     long min_ram, min_flash; /* of all that was tried, each by itself */
     double change;           /* of what was found, RMS */
+    settings_demand grouped; /* with groups of triangles in small screen tiles */
 } search;
 
 /* ---- Variants ---------------------------------------------------------------------------------------------------- */
@@ -76,7 +77,7 @@ static void find_losses(search *s, bool flash_is_short)
     }
     s->n_steps[SUBPIXEL] = q->subpixel_bits > 7;
     s->n_steps[STEP] = flash_is_short && q->persp_step > 1;
-    s->n_steps[FIT] = flash_is_short && (shadow->fit == GN_FIT_TIGHT || shadow->tile_sizes == GN_TILES_WORTH);
+    s->n_steps[FIT] = shadow->fit == GN_FIT_TIGHT || shadow->tile_sizes == GN_TILES_WORTH; /* code, and boxes in RAM */
 }
 
 /* The compiled scene as the variant has it. */
@@ -103,9 +104,10 @@ static compiled apply(const search *s, const variant *v)
     }
     if (v->lean >= 1 && c.set.capacity.vertex_cache > SMALL_VERTEX_CACHE)
         c.set.capacity.vertex_cache = SMALL_VERTEX_CACHE;
-    if (v->lean >= 2)
+    if (v->lean >= LEAN_BARE)
         c.set.feature.depth_blocks = c.set.feature.object_boxes = c.set.feature.incremental =
             c.set.feature.caster_culling = 0;
+    if (v->lean == LEAN_MAX && !q->triangle_groups) q->triangle_groups = GROUPS;
     return c;
 }
 
@@ -119,6 +121,7 @@ static size_t scaled(size_t texels, int times)
 static compile_memory predict(const search *s, const variant *v)
 {
     compiled c = apply(s, v);
+    if (v->lean == LEAN_MAX) c.run.demand = s->grouped;
     c.run.demand.atlas_texels = scaled(c.run.demand.atlas_texels, v->loss[ATLAS]);
     c.run.demand.other_atlas_texels = scaled(c.run.demand.other_atlas_texels, v->loss[OTHER_ATLAS]);
     compile_choose(&c);
@@ -131,21 +134,36 @@ static int sample_of(const search *s, int i)
     return (s->c->n_frames - 1) * i / (SAMPLES - 1);
 }
 
-/* What it takes, from all frames. -1: the library refuses it. */
-static int play(const search *s, const variant *v, compile_memory *out)
+/* All frames. -1: the library refuses it. */
+static int play(compiled *c)
 {
-    compiled c = apply(s, v);
     compile_stage st;
     compile_run run = {.hash = NULL};
-    if (compile_stage_open(&st, &c)) return -1;
+    if (compile_stage_open(&st, c)) return -1;
     int failed = 0;
-    for (int i = 0; !failed && i < c.n_frames; i++) failed = compile_run_one(&run, &st, &c, i);
+    for (int i = 0; !failed && i < c->n_frames; i++) failed = compile_run_one(&run, &st, c, i);
     compile_stage_close(&st);
     if (failed) return -1;
-    c.run = run;
+    c->run = run;
+    return 0;
+}
+
+/* What it takes, from all frames. */
+static int play_variant(const search *s, const variant *v, compile_memory *out)
+{
+    compiled c = apply(s, v);
+    if (play(&c)) return -1;
     compile_choose(&c);
     *out = compile_measure(&c, s->b);
     return 0;
+}
+
+/* Where groups are refused, they are predicted to take what records do, which is more. */
+static void play_grouped(search *s)
+{
+    compiled c = apply(s, &(variant){.lean = LEAN_MAX, .tile_width = 16, .tile_height = 4});
+    play(&c);
+    s->grouped = c.run.demand;
 }
 
 /* ---- Those that fit ---------------------------------------------------------------------------------------------- */
@@ -263,7 +281,7 @@ static bool spare(const search *s, variant *v, compile_memory *m)
             v->tile_width = tiles[i][0];
             v->tile_height = tiles[i][1];
             *m = predict(s, v);
-            if (compile_fits(m, s->b) && !play(s, v, m) && compile_fits(m, s->b)) return true;
+            if (compile_fits(m, s->b) && !play_variant(s, v, m) && compile_fits(m, s->b)) return true;
         }
     }
     return false;
@@ -308,7 +326,8 @@ static void say_variant(const search *s, const variant *v, const compile_memory 
         say(out, bytes, &n, " --set other_filter=%s", settings_filter_names[c.fixed.scene.shadow.other_filter]);
     if (v->loss[FIT]) say(out, bytes, &n, " --set fit=stable --set tiles=equal");
     SAY_(capacity, vertex_cache);
-    if (v->lean == LEAN_MAX) {
+    SAY_(quality, triangle_groups);
+    if (v->lean >= LEAN_BARE) {
         if (on->feature.depth_blocks) say(out, bytes, &n, " --set depth_blocks=0");
         if (on->feature.object_boxes) say(out, bytes, &n, " --set object_boxes=0");
         if (on->feature.incremental) say(out, bytes, &n, " --set incremental=0");
@@ -322,6 +341,7 @@ static void say_variant(const search *s, const variant *v, const compile_memory 
 static bool find(search *s, bool smaller, char *out, size_t bytes)
 {
     compile_memory m;
+    play_grouped(s);
     list_fitting(s);
     if (!s->n || order(s)) return false;
     for (size_t i = 0; i < s->n && s->list[i].change < HUGE_VAL; i++) {
