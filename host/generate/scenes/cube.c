@@ -112,9 +112,8 @@ int cube_write(FILE *file)
     gltf_begin(&d);
     add_plane(&d);
     add_cube(&d);
-    gltf_add_light_node(
-        &d, (mesh_point){0, 0, 0}, gltf_look((mesh_point){0.56, -0.95, -0.48}),
-        &(gltf_light_text){.name = "sun", .rgb = {1, 0.96, 0.88}, .intensity = 3});
+    gltf_add_light_node(&d, (mesh_point){0, 0, 0}, gltf_look((mesh_point){0.56, -0.95, -0.48}),
+                        &(gltf_light_text){.name = "sun", .rgb = {1, 0.96, 0.88}, .intensity = 3});
     gltf_add_camera(&d, &(gltf_camera){.fov_deg = 42,
                                        .near_distance = 0.8,
                                        .far_distance = 12,
