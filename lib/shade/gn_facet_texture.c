@@ -98,7 +98,7 @@ GN_HOT void gn_facet_texture_row(const gn_facet_texture *t, int32_t right, int32
 {
     gn_texture_line line;
     int32_t log2 = n <= 3 ? 1 : n <= 5 ? 2 : n <= 9 ? 3 : ROW_LOG2, half = 1 << (log2 - 1);
-    int32_t e = gn_facet_at(&t->e_q30, right, down), e_half = t->e_q30.dx << (log2 - 1);
+    int32_t e = gn_facet_at(&t->e_q30, right, down), e_half = t->e_q30.dx * half;
     for (int i = 0; i < 2; i++) {
         int32_t from = coordinate_at(t, i, right, down, e), step = 0, change = 0;
         if (n > 1) {
