@@ -20,8 +20,9 @@ enum { TEXELS_LOG2 = 7, TEXELS = 1 << TEXELS_LOG2 };
 static uint8_t texels[4 * TEXELS * TEXELS];
 static int16_t uv[2 * DEMO_BALL_VERTICES];
 
-/* Stripes that blend into each other, so that a step of a colour is a step of a place. */
-static void add_texture(gn_texture *texture)
+/* Stripes that blend into each other, so that a step of a colour is a step of a place; 3 * 2^(16 - shift) turns from
+ * side to side. */
+static void add_texture(gn_texture *texture, int shift)
 {
     for (int y = 0; y < TEXELS; y++)
         for (int x = 0; x < TEXELS; x++) {
@@ -31,9 +32,9 @@ static void add_texture(gn_texture *texture)
             texel[2] = 200;
             texel[3] = 255;
         }
-    for (int i = 0; i < DEMO_BALL_VERTICES; i++) { /* seen from above: 1.5 turns from side to side */
-        uv[2 * i] = (int16_t)((int64_t)demo.ball_pos[3 * i] * 3 >> 17);
-        uv[2 * i + 1] = (int16_t)((int64_t)demo.ball_pos[3 * i + 2] * 3 >> 17);
+    for (int i = 0; i < DEMO_BALL_VERTICES; i++) { /* seen from above */
+        uv[2 * i] = (int16_t)((int64_t)demo.ball_pos[3 * i] * 3 >> shift);
+        uv[2 * i + 1] = (int16_t)((int64_t)demo.ball_pos[3 * i + 2] * 3 >> shift);
     }
     const gn_texture bilinear = {
         .rgba = texels, .width_log2 = TEXELS_LOG2, .height_log2 = TEXELS_LOG2, .flags = GN_TEXTURE_BILINEAR};
@@ -115,7 +116,9 @@ int main(void)
             demo.scene.shadow.distance_fade_uq16 = demo.scene.shadow.cascade_fade_uq16 = GN_UQ16(0.01);
         }
         compare_all("plain", 16);
-        add_texture(&texture);
+        add_texture(&texture, 19); /* rows of more triangles, those that get deeper to the right, too */
+        compare_all("stretched", 16);
+        add_texture(&texture, 17);
         compare_all("textured", 16);
         look_from_near(frame);
         compare_all("textured, near", 8);
