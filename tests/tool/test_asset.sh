@@ -62,7 +62,7 @@ same fewer host/scenes/fence.gltf --triangles 200
 grep -q "meshes have 200 of 672 triangles, off by at most [0-9.]*, [0-9.]* % of the size of '" "$tmp/fewer.log" && pass || fail "--triangles 200: $(cat "$tmp/fewer.log")"
 grep -q " meshes of 200 triangles, " "$tmp/fewer.log" && pass || fail "asset --triangles 200 has others: $(cat "$tmp/fewer.log")"
 "$tool" render host/scenes/cube.gltf -o "$tmp/n.png" --triangles 0 2>"$tmp/log" && fail "--triangles 0 is taken"
-grep -q "bad value '0', not triangles from 1" "$tmp/log" && pass || fail "--triangles 0: $(cat "$tmp/log")"
+grep -q "bad value '0', not a number of triangles from 1" "$tmp/log" && pass || fail "--triangles 0: $(cat "$tmp/log")"
 # [R12] skins: joints as they are in the file, and by a clip
 same snake docs/scenes/snake.gltf
 # [R8] clips: rotation, of a light, and of a hierarchy with splines, steps, scales, a fixed matrix, a lamp and a camera
