@@ -160,18 +160,30 @@ GN_INLINE uint64_t blend_texels(const row_source *s, int kind, const uint8_t *at
     return red | green << 16 | (uint64_t)blue << 32;
 }
 
-#define BLEND_(kind, of)                                                                                               \
-    GN_HOT static GN_NOINLINE uint64_t blend_##of(const row_source *s, const uint8_t *at, uint32_t u_q17,              \
-                                                  uint32_t v_q17)                                                      \
-    {                                                                                                                  \
-        return blend_texels(s, kind, at, u_q17, v_q17);                                                                \
-    }
-BLEND_(TEXELS_RGBA, rgba)
-BLEND_(TEXELS_565, 565)
-BLEND_(TEXELS_565A1, 565a1)
-BLEND_(TEXELS_PALETTE, palette)
-BLEND_(TEXELS_GREY, grey)
-#undef BLEND_
+GN_HOT static GN_NOINLINE uint64_t blend_rgba(const row_source *s, const uint8_t *at, uint32_t u_q17, uint32_t v_q17)
+{
+    return blend_texels(s, TEXELS_RGBA, at, u_q17, v_q17);
+}
+
+GN_HOT static GN_NOINLINE uint64_t blend_565(const row_source *s, const uint8_t *at, uint32_t u_q17, uint32_t v_q17)
+{
+    return blend_texels(s, TEXELS_565, at, u_q17, v_q17);
+}
+
+GN_HOT static GN_NOINLINE uint64_t blend_565a1(const row_source *s, const uint8_t *at, uint32_t u_q17, uint32_t v_q17)
+{
+    return blend_texels(s, TEXELS_565A1, at, u_q17, v_q17);
+}
+
+GN_HOT static GN_NOINLINE uint64_t blend_palette(const row_source *s, const uint8_t *at, uint32_t u_q17, uint32_t v_q17)
+{
+    return blend_texels(s, TEXELS_PALETTE, at, u_q17, v_q17);
+}
+
+GN_HOT static GN_NOINLINE uint64_t blend_grey(const row_source *s, const uint8_t *at, uint32_t u_q17, uint32_t v_q17)
+{
+    return blend_texels(s, TEXELS_GREY, at, u_q17, v_q17);
+}
 
 GN_INLINE uint64_t blend_kind(const row_source *s, int kind, const uint8_t *at, uint32_t u_q17, uint32_t v_q17)
 {
