@@ -707,6 +707,7 @@ static void test_layer_copy(void)
         const uint8_t *bytes = (const uint8_t *)tile;
         memset(tile, 0x77, sizeof tile);
         view.depth_bits = (uint8_t)bits;
+        if (GN_VIEW_BITS(&view) != bits) continue; /* this build has other bits */
         view.depth = (gn_texels){.d32 = tile};
         gn_static_layer_copy(&view, (gn_texels){.d32 = layer});
         CHECK(bytes[0] == 0x11 && bytes[n_bytes - 1] == 0x11 && bytes[n_bytes] == 0x77);
