@@ -163,7 +163,8 @@ typedef enum { GN_KERNEL_TENT, GN_KERNEL_LINEAR } gn_kernel;
 /* Of baked and realtime shadows. */
 typedef enum { GN_MIXING_NONE, GN_MIXING_ALWAYS, GN_MIXING_DISTANCE } gn_mixing;
 typedef enum { GN_TILES_EQUAL, GN_TILES_IMPORTANCE, GN_TILES_WORTH } gn_tile_sizes;
-/* What a directional light's tile covers: the sphere around its cascade, or the receivers that are visible in it. */
+/* What a directional light's tile covers: the sphere around its cascade, or what is visible in it where something
+ * casts. */
 typedef enum { GN_FIT_STABLE, GN_FIT_TIGHT } gn_fit;
 
 /* Between cascades. */

@@ -96,6 +96,7 @@
 #endif
 #if GN_TIGHT_FIT
 #include "shadow/gn_seen.c"
+#include "shadow/gn_seen_directions.c"
 #endif
 #if GN_OBJECT_BOXES
 #include "shadow/gn_cull_boxes.c"

@@ -44,6 +44,7 @@ typedef struct {
     bool active; /* it has a shadow tile, and its cascade is not empty */
     bool perspective;
     bool clear_border; /* texels outside the tile are lit, instead of repeating the border */
+    bool tight;        /* of a tight fit: the same */
     bool clamped;      /* point lights: no half-width is enough, t is 2 */
     int tile_texels;   /* per row: T, but of a tight fit */
     int tile_rows;

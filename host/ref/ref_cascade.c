@@ -206,6 +206,7 @@ static bool fit_tight(ref_light_view *view, const ref_seen *seen, const scene_li
     } while (!sizes_fit(view, &box, light, options));
     view->disk_radius = fmin(width / view->texel, view->filter_index);
     place_box(view, &box, light, camera, options);
+    view->tight = true;
     return true;
 }
 
@@ -218,6 +219,7 @@ static int fit_directional(ref_light_view *view, const scene *s, const scene_lig
     if (sphere.empty) return 0;
     view->tile_texels = view->tile_rows = tile_texels;
     view->clear_border = cascade == REF_SINGLE_TILE;
+    view->tight = false;
     view->filter =
         ref_light_filter(&s->shadow, light, cascade == REF_SINGLE_TILE ? REF_OTHER_ATLAS : REF_DIRECTIONAL_ATLAS);
     vec3_store(view->sphere_centre, sphere.centre);

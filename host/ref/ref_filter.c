@@ -63,7 +63,7 @@ static double compare(const ref_light_view *view, const ref_lookup *how, vec3 p,
 {
     const int last = view->tile_texels - 1, last_row = view->tile_rows - 1;
     const int u = i < 0 ? 0 : i > last ? last : i, v = j < 0 ? 0 : j > last_row ? last_row : j;
-    if (view->clear_border && (u != i || v != j)) return 1.0;
+    if ((view->clear_border || view->tight) && (u != i || v != j)) return 1.0;
     const double d = p.z + how->gradient[0] * (u + 0.5 - p.x) + how->gradient[1] * (v + 0.5 - p.y);
     return fmin(d, view->depth_range) <= view->depth[(size_t)v * (size_t)view->tile_texels + (size_t)u] ? 1.0 : 0.0;
 }

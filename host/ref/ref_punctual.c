@@ -159,7 +159,7 @@ int ref_fit_face(ref_light_view *view, const scene *s, const scene_light *light,
     const double wanted_radius = 0.004 * s->shadow.penumbra * tile_texels;
     view->active = false;
     view->perspective = true;
-    view->clear_border = view->clamped = false;
+    view->clear_border = view->tight = view->clamped = false;
     view->tile_texels = view->tile_rows = tile_texels;
     view->filter = ref_light_filter(&s->shadow, light, REF_OTHER_ATLAS);
     view->filter_index = ref_filter_index(view->filter, wanted_radius);

@@ -173,26 +173,115 @@ static ref_seen rectangle(const ref_frame *frame, const ref_light_view *axes, co
     return seen;
 }
 
+/* Bounds of an object's world box along u, v and w of a turn, from the world's origin. */
+static ref_seen box_bounds(const ref_instance *instance, const ref_light_view *axes)
+{
+    ref_seen b = {.any = true};
+    double half[3];
+    vec3_store(half, instance->box_half);
+    for (int k = 0; k < 3; k++) {
+        double wide = 0.0;
+        for (int j = 0; j < 3; j++) wide += fabs(axes->axis[k][j]) * half[j];
+        b.lo[k] = vec3_dot(instance->box_centre, vec3_load(axes->axis[k])) - wide;
+        b.hi[k] = b.lo[k] + 2.0 * wide;
+    }
+    return b;
+}
+
+/* Whether an object's shadow may fall on what is seen: bounds from the world's origin. */
+static bool may_shadow(const ref_instance *instance, const ref_light_view axes[TURNS], const ref_seen seen[TURNS])
+{
+    for (int turn = 0; turn < TURNS; turn++) {
+        const ref_seen b = box_bounds(instance, &axes[turn]);
+        if (b.lo[2] > seen[turn].hi[2]) return false;
+        for (int k = 0; k < 2; k++) {
+            const double near = (seen[turn].hi[k] - seen[turn].lo[k]) / 8.0;
+            if (b.lo[k] > seen[turn].hi[k] + near || b.hi[k] < seen[turn].lo[k] - near) return false;
+        }
+    }
+    return true;
+}
+
+/* Bounds at least so wide, and widened to a grid of the world. */
+static void widen_to_grid(double *lo, double *hi, double least)
+{
+    const double lacks = fmax(0.0, least - (*hi - *lo));
+    *lo -= lacks / 2.0;
+    *hi += lacks / 2.0;
+    const double step = exp2(floor(log2((*hi - *lo) * (65.0 / 64.0))) - 5.0);
+    *lo = floor(*lo / step - 1.0 / 64.0) * step;
+    *hi = ceil(*hi / step + 1.0 / 64.0) * step;
+}
+
+/* Leaves of rectangles what casters may shadow. */
+static void crop(const ref_frame *frame, const ref_light_view axes[TURNS], ref_seen seen[TURNS])
+{
+    ref_seen all[TURNS] = {{.any = false}};
+    for (size_t o = 0; o < frame->s->n_objects; o++) {
+        if (frame->s->objects[o].caster == SCENE_CASTER_OFF || !may_shadow(&frame->instances[o], axes, seen)) continue;
+        for (int turn = 0; turn < TURNS; turn++) {
+            const ref_seen b = box_bounds(&frame->instances[o], &axes[turn]);
+            for (int k = 0; k < 2; k++) {
+                const double first = seen[turn].lo[k], last = seen[turn].hi[k];
+                const double lo = fmax(first, fmin(b.lo[k], last)), hi = fmax(first, fmin(b.hi[k], last));
+                all[turn].lo[k] = all[turn].any ? fmin(all[turn].lo[k], lo) : lo;
+                all[turn].hi[k] = all[turn].any ? fmax(all[turn].hi[k], hi) : hi;
+            }
+            all[turn].any = true;
+        }
+    }
+    for (int turn = 0; turn < TURNS; turn++)
+        for (int k = 0; all[turn].any && k < 2; k++) {
+            widen_to_grid(&all[turn].lo[k], &all[turn].hi[k], (seen[turn].hi[k] - seen[turn].lo[k]) / 8.0);
+            seen[turn].lo[k] = fmax(seen[turn].lo[k], all[turn].lo[k]);
+            seen[turn].hi[k] = fmin(seen[turn].hi[k], all[turn].hi[k]);
+        }
+}
+
 /* The smallest rectangle of all turns; of those within a 64th of it the first. None if that saves less than 5/16.
  */
+static int best_turn(const ref_seen seen[TURNS])
+{
+    double limit = HUGE_VAL;
+    int best = 0;
+    for (int turn = 0; turn < TURNS; turn++) {
+        const double area = (seen[turn].hi[0] - seen[turn].lo[0]) * (seen[turn].hi[1] - seen[turn].lo[1]);
+        if (area >= limit) continue;
+        limit = area * (turn ? 63.0 / 64.0 : 11.0 / 16.0);
+        best = turn;
+    }
+    return best;
+}
+
 static void see_directional(const ref_frame *frame, ref_seen *seen, const scene_light *light, double first, double last)
 {
     const frustum f = frustum_part(&frame->camera, first, last);
-    double limit = HUGE_VAL;
+    ref_light_view axes[TURNS];
+    ref_seen all[TURNS];
     for (int turn = 0; turn < TURNS; turn++) {
-        ref_light_view axes;
-        ref_fit_axes(&axes, vec3_load(light->direction));
-        ref_turn_axes(&axes, turn);
-        ref_seen one = rectangle(frame, &axes, &f);
-        const double area = (one.hi[0] - one.lo[0]) * (one.hi[1] - one.lo[1]);
-        if (!one.any || area >= limit) continue;
-        limit = area * (turn ? 63.0 / 64.0 : 11.0 / 16.0);
-        one.turn = turn;
-        *seen = one;
+        ref_fit_axes(&axes[turn], vec3_load(light->direction));
+        ref_turn_axes(&axes[turn], turn);
+        all[turn] = rectangle(frame, &axes[turn], &f);
+        for (int k = 0; k < 3; k++) {
+            const double eye = vec3_dot(frame->camera.position, vec3_load(axes[turn].axis[k]));
+            all[turn].lo[k] += eye;
+            all[turn].hi[k] += eye;
+        }
     }
-    if (seen->any)
-        seen->worth =
-            pixels(&frame->camera, seen->hi[0] - seen->lo[0], seen->hi[1] - seen->lo[1], (first + last) / 2.0);
+    if (!all[0].any) return;
+    const ref_seen *whole = &all[best_turn(all)];
+    const double worth =
+        pixels(&frame->camera, whole->hi[0] - whole->lo[0], whole->hi[1] - whole->lo[1], (first + last) / 2.0);
+    crop(frame, axes, all);
+    const int turn = best_turn(all);
+    *seen = all[turn];
+    seen->turn = turn;
+    seen->worth = worth;
+    for (int k = 0; k < 3; k++) {
+        const double eye = vec3_dot(frame->camera.position, vec3_load(axes[turn].axis[k]));
+        seen->lo[k] -= eye;
+        seen->hi[k] -= eye;
+    }
 }
 
 /* From which depth on points of a cascade blend with the next: where the frustum's edges leave the inner sphere. */

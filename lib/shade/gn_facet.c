@@ -13,6 +13,7 @@
 #include "shade/gn_pixel.h"
 #include "shade/gn_shadow.h"
 #include "shadow/gn_filter.h"
+#include "shadow/gn_texel.h"
 
 #if GN_INTERPOLATES
 
@@ -124,6 +125,7 @@ GN_HOT static int judge(const facet *f, const gn_light_view *view, const vertex_
         lo[i] = gn_min32(p->at[0][i], gn_min32(p->at[1][i], p->at[2][i]));
         hi[i] = gn_max32(p->at[0][i], gn_max32(p->at[1][i], p->at[2][i]));
     }
+    if (gn_beyond_tile(view, lo[0], hi[0], lo[1], hi[1])) return GN_CELL_LIT;
     if (lo[2] <= -(1 << 29) && hi[2] > -(1 << 29)) return GN_CELL_SPLIT; /* a limit, which bends the plane */
     if ((gn_abs32(lo[0]) | gn_abs32(hi[0]) | gn_abs32(lo[1]) | gn_abs32(hi[1])) >> 27) return GN_CELL_SPLIT;
     if (view->filter == GN_FILTER_DISK) return GN_CELL_EDGE;

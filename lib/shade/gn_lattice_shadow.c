@@ -8,6 +8,7 @@
 #include "shade/gn_lattice_window.h"
 #include "shade/gn_shadow.h"
 #include "shadow/gn_filter.h"
+#include "shadow/gn_texel.h"
 
 #if GN_INTERPOLATES
 
@@ -105,6 +106,7 @@ GN_HOT static int verdict(const gn_lattice_cell *cell, uint32_t slot, uint32_t v
     range_of(p->u, &lo.u_q16, &hi.u_q16);
     range_of(p->v, &lo.v_q16, &hi.v_q16);
     range_of(p->depth, &depth_lo, &depth_hi);
+    if (gn_beyond_tile(p->view, lo.u_q16, hi.u_q16, lo.v_q16, hi.v_q16)) return GN_CELL_LIT;
     int32_t limit = p->view->perspective ? 0 : -(1 << 29); /* which bends the plane */
     if (depth_lo <= limit && depth_hi > limit) return GN_CELL_SPLIT;
     if ((gn_abs32(lo.u_q16) | gn_abs32(hi.u_q16) | gn_abs32(lo.v_q16) | gn_abs32(hi.v_q16)) >> 27) return GN_CELL_SPLIT;

@@ -6,6 +6,7 @@
 #include "base/gn_q.h"
 #include "shade/gn_lattice_window.h"
 #include "shade/gn_shadow.h"
+#include "shadow/gn_texel.h"
 
 #if GN_INTERPOLATES && GN_SHADOWS
 
@@ -130,7 +131,6 @@ GN_HOT static int see(gn_lattice *l, const gn_frame *frame, const gn_surface *s,
         place->v_q16 = c->light[slot].v_q16;
         place->depth_q30 = c->light[slot].depth_q30;
     }
-    if ((gn_abs32(place->u_q16) | gn_abs32(place->v_q16)) >> 27) return 0;
     box->lo[0] = gn_min32(box->lo[0], place->u_q16);
     box->hi[0] = gn_max32(box->hi[0], place->u_q16);
     box->lo[1] = gn_min32(box->lo[1], place->v_q16);
@@ -155,6 +155,14 @@ GN_HOT static GN_NOINLINE int see_rows(gn_lattice *l, const gn_frame *frame, con
     return any;
 }
 
+/* A window of texels none of which casts. */
+GN_HOT static void light_up(gn_window *window)
+{
+    window->u0 = window->v0 = INT32_MIN / 2;
+    window->w = window->h = 1;
+    window->any = window->all = window->doubts = 0;
+}
+
 /* Makes it for columns x .. x_end - 1 of cells; for pixels alone, if `rows`. Returns 0 if that is too much. */
 GN_HOT static int make_window(gn_lattice *l, const gn_frame *frame, const gn_surface *s, uint32_t slot,
                               uint32_t view_idx, int32_t x, int32_t x_end, int32_t y_end, int rows, gn_window *window)
@@ -166,7 +174,12 @@ GN_HOT static int make_window(gn_lattice *l, const gn_frame *frame, const gn_sur
         for (int i = 0; i < 2; i++) box.lo[i] = INT32_MAX, box.hi[i] = INT32_MIN;
         if (!rows || !see_rows(l, frame, s, slot, view_idx, x, x_end, &box)) return 0;
     }
+    if (gn_beyond_tile(window->view, box.lo[0], box.hi[0], box.lo[1], box.hi[1])) {
+        light_up(window);
+        return 1;
+    }
     for (int i = 0; i < 2; i++) { /* and what steps over cells are off by */
+        if ((gn_abs32(box.lo[i]) | gn_abs32(box.hi[i])) >> 27) return 0;
         gn_window_reads(window->view, box.lo[i] - 64, box.hi[i] + 1088, &first[i], &n[i]);
         if (n[i] > GN_WINDOW_TEXELS) return 0;
     }

@@ -237,6 +237,7 @@ int gn_ortho_fit_tight(gn_frame *frame, gn_light_view *view, const gn_light *lig
     begin_box(frame, view, near_q16, far_q16, &box);
     find_texel(frame, view, light, &box);
     place_box(frame, view, light, &box);
+    view->tight = 1;
     gn_ortho_rays(frame, view);
     if (GN_DISK_FILTER)
         view->disk_radius_q16 =

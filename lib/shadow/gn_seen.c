@@ -11,16 +11,10 @@
 #include "shadow/gn_light_views.h"
 #include "shadow/gn_persp.h"
 #include "shadow/gn_seen.h"
+#include "shadow/gn_seen_directions.h"
 
 /* ---- Boxes and parts of the frustum, from the camera --------------------------------------------------------------
  */
-
-#define COORD_LIMIT ((1 << 30) - 1) /* differences fit 32 bits */
-
-static int32_t limited(int64_t v)
-{
-    return (int32_t)gn_clamp64(v, -COORD_LIMIT, COORD_LIMIT);
-}
 
 /* Half the frustum's width or height at view depth z, 2^(31 + 23). */
 static int64_t half_width_q32(const gn_frame *frame, uint32_t k, int32_t z_q16)
@@ -37,32 +31,18 @@ static void begin_frustum(gn_seen_job *job, int32_t first_q16, int32_t last_q16)
     job->depth_q16[1] = last_q16;
     for (uint32_t i = 0; i < 8; i++) {
         int32_t *at = job->part[i], p[3];
-        at[2] = limited(job->depth_q16[i >> 2]);
+        at[2] = gn_seen_limited(job->depth_q16[i >> 2]);
         for (uint32_t k = 0; k < 2; k++) {
-            int32_t wide = limited(gn_shr64(half_width_q32(job->frame, k, at[2]), 16));
+            int32_t wide = gn_seen_limited(gn_shr64(half_width_q32(job->frame, k, at[2]), 16));
             at[k] = i >> k & 1 ? wide : -wide;
         }
         for (int k = 0; k < 3; k++) {
             int64_t sum = 0;
             for (int j = 0; j < 3; j++) sum += gn_shr64((int64_t)at[j] * cam->axis_q30[j][k], 30);
-            job->part_world[i][k] = p[k] = limited(sum);
+            job->part_world[i][k] = p[k] = gn_seen_limited(sum);
         }
-        for (int k = 0; k < 3; k++) at[3 + k] = limited(gn_dot_q30(job->axis_q30[k], p));
+        for (int k = 0; k < 3; k++) at[3 + k] = gn_seen_limited(gn_dot_q30(job->axis_q30[k], p));
     }
-}
-
-/* Along an axis: the middle of the box, per axis of the world half of it, and its bounds. */
-static void project_box(gn_seen_job *job, const int32_t axis_q30[3], uint32_t to)
-{
-    int32_t *half = job->half[to];
-    int64_t middle = gn_dot_q30(axis_q30, job->from), wide = 0;
-    for (int j = 0; j < 3; j++) {
-        half[j] = limited(gn_shr64((int64_t)axis_q30[j] * job->object->half_q16[j], 30));
-        wide += (int64_t)gn_abs32(half[j]);
-    }
-    job->middle[to] = limited(middle);
-    job->lo[to] = limited(middle - wide);
-    job->hi[to] = limited(middle + wide);
 }
 
 /* How far a corner of the box is inside of a side of the part: near, far, left, right, bottom, top. 2^55 */
@@ -83,39 +63,6 @@ static int64_t inside_box(const gn_seen_job *job, uint32_t corner, uint32_t side
 
 /* ---- What both have in common ------------------------------------------------------------------------------------ */
 
-/* cos(k / 32 turn) */
-static const int32_t turn_cosine_q30[GN_TURNS + 1] = {1073741824, 1053110176, 992008094, 892783698, 759250125,
-                                                      596538996,  410903207,  209476638, 0};
-
-void gn_seen_turn_axes(gn_light_view *view, uint32_t turn)
-{
-    int64_t c = turn_cosine_q30[turn], s = turn_cosine_q30[GN_TURNS - turn];
-    view->turn = (uint8_t)turn;
-    for (int k = 0; k < 3; k++) {
-        int32_t u = view->axis_q30[0][k], v = view->axis_q30[1][k]; /* |.| <= 2^30 */
-        view->axis_q30[0][k] = (int32_t)gn_shr64(c * u + s * v, 30);
-        view->axis_q30[1][k] = (int32_t)gn_shr64(c * v - s * u, 30);
-    }
-}
-
-/* A point's coordinates, below 2^30, in all directions: sums of 2^60.5. Turn k and turn 8 - k have the same products.
- */
-static void all_directions(const int32_t at[3], int32_t out[GN_SEEN_DIRECTIONS])
-{
-    out[0] = at[0];
-    out[1] = at[1];
-    out[GN_SEEN_DIRECTIONS - 1] = at[2];
-    for (uint32_t k = 1; k <= GN_TURNS / 2; k++) {
-        int32_t *near = out + 2 * k, *far = out + 2 * (GN_TURNS - k);
-        int64_t c = turn_cosine_q30[k], s = turn_cosine_q30[GN_TURNS - k];
-        int64_t cu = c * at[0], cv = c * at[1], su = s * at[0], sv = s * at[1];
-        near[0] = (int32_t)gn_shr64(cu + sv, 30);
-        near[1] = (int32_t)gn_shr64(cv - su, 30);
-        far[0] = (int32_t)gn_shr64(su + cv, 30);
-        far[1] = (int32_t)gn_shr64(sv - cu, 30);
-    }
-}
-
 static void widen_range(int32_t *lo, int32_t *hi, const int32_t *at, int n)
 {
     for (int k = 0; k < n; k++) {
@@ -131,25 +78,16 @@ static void widen(gn_seen_job *job, const int32_t at[6])
         widen_range(job->lo, job->hi, at, 6);
         return;
     }
-    all_directions(at + 3, along);
+    gn_seen_directions(at + 3, along);
     widen_range(job->along_lo, job->along_hi, along, GN_SEEN_DIRECTIONS);
 }
 
 /* What the whole box adds to the bounds of a directional view, which then has it if `whole`. Returns 0 if nothing. */
 static int box_adds(gn_seen_job *job, int whole)
 {
-    int32_t lo[GN_SEEN_DIRECTIONS], hi[GN_SEEN_DIRECTIONS], half[GN_SEEN_DIRECTIONS];
+    int32_t lo[GN_SEEN_DIRECTIONS], hi[GN_SEEN_DIRECTIONS];
     int adds = 0;
-    all_directions(job->middle + 3, lo);
-    all_directions(job->middle + 3, hi);
-    for (int j = 0; j < 3; j++) {
-        const int32_t at[3] = {job->half[3][j], job->half[4][j], job->half[5][j]};
-        all_directions(at, half);
-        for (int d = 0; d < GN_SEEN_DIRECTIONS; d++) {
-            lo[d] = limited((int64_t)lo[d] - gn_abs32(half[d]));
-            hi[d] = limited((int64_t)hi[d] + gn_abs32(half[d]));
-        }
-    }
+    gn_seen_box_along(job, lo, hi);
     for (int d = 0; d < GN_SEEN_DIRECTIONS; d++) adds |= lo[d] < job->along_lo[d] || hi[d] > job->along_hi[d];
     if (!whole) return adds;
     widen_range(job->along_lo, job->along_hi, lo, GN_SEEN_DIRECTIONS);
@@ -208,11 +146,11 @@ static void cut_edges(gn_seen_job *job, int of, const int32_t (*corner)[6], uint
 /* Sides of the part that may cut the box, by its bounds along the camera's axes. Returns 0 if it is outside of one. */
 static int against_part(gn_seen_job *job, uint32_t *sides)
 {
-    project_box(job, job->frame->cam.axis_q30[2], 2);
+    gn_seen_project_box(job, job->frame->cam.axis_q30[2], 2);
     if (job->hi[2] < job->depth_q16[0] || job->lo[2] > job->depth_q16[1]) return 0;
     *sides = (job->lo[2] < job->depth_q16[0] ? 1U : 0U) | (job->hi[2] > job->depth_q16[1] ? 2U : 0U);
     for (uint32_t k = 0; k < 2; k++) {
-        project_box(job, job->frame->cam.axis_q30[k], k);
+        gn_seen_project_box(job, job->frame->cam.axis_q30[k], k);
         int64_t lo = -(int64_t)job->lo[k] * 65536, hi = (int64_t)job->hi[k] * 65536;
         int64_t least = half_width_q32(job->frame, k, job->lo[2]), most = half_width_q32(job->frame, k, job->hi[2]);
         if (-lo > most || -hi > most) return 0;
@@ -228,7 +166,7 @@ static void find_bounds(gn_seen_job *job, uint32_t sides)
         for (uint32_t k = 0; k < 6; k++) {
             int64_t sum = job->middle[k];
             for (int j = 0; j < 3; j++) sum += i >> j & 1 ? job->half[k][j] : -(int64_t)job->half[k][j];
-            job->box[i][k] = limited(sum);
+            job->box[i][k] = gn_seen_limited(sum);
         }
     for (int k = 0; k < 6; k++) job->lo[k] = INT32_MAX, job->hi[k] = INT32_MIN;
     cut_edges(job, CORNERS_OF_BOX, (const int32_t(*)[6])job->box, sides);
@@ -242,11 +180,10 @@ static int see_object(gn_seen_job *job, uint32_t object_idx)
     const gn_frame *frame = job->frame;
     const gn_object *object = &frame->scene->objects[object_idx];
     if (!(object->flags & GN_OBJECT_RECEIVES) || (object->flags & (GN_OBJECT_HIDDEN | GN_OBJECT_UNLIT))) return 0;
-    job->object = &frame->object[object_idx];
-    for (int k = 0; k < 3; k++) job->from[k] = gn_sat32((int64_t)job->object->centre_q16[k] - frame->cam.eye_q16[k]);
+    gn_seen_from(job, object_idx);
     uint32_t sides;
     if (!against_part(job, &sides)) return 0;
-    for (uint32_t k = 0; k < 3; k++) project_box(job, job->axis_q30[k], 3 + k);
+    for (uint32_t k = 0; k < 3; k++) gn_seen_project_box(job, job->axis_q30[k], 3 + k);
     if (job->directional && (!box_adds(job, !sides) || !sides)) return 1;
     if (sides) find_bounds(job, sides);
     return job->lo[0] <= job->hi[0];
@@ -299,36 +236,18 @@ static uint64_t pixels_q16(const gn_frame *frame, int64_t x_q16, int64_t y_q16, 
            (uint64_t)gn_clamp64(gn_bf_apply(y_q16, per_z, -17 + 8), 1, most);
 }
 
-/* The turn with the smallest rectangle, of those within a 64th of it the first. None if that saves less than 5/16:
- * windows of texels are smallest where u is level. */
-static void pick_turn(const gn_seen_job *job, gn_view_seen *seen)
-{
-    const int32_t *lo = job->along_lo, *hi = job->along_hi;
-    uint64_t limit = UINT64_MAX;
-    for (uint32_t turn = 0; turn < GN_TURNS; turn++) {
-        uint32_t u = 2 * turn, v = u + 1;
-        uint64_t area = (uint64_t)((int64_t)hi[u] - lo[u]) * (uint64_t)((int64_t)hi[v] - lo[v]); /* 2^62 */
-        if (area >= limit) continue;
-        limit = area - (turn ? area >> 6 : 5 * (area >> 4));
-        seen->turn = (uint8_t)turn;
-        for (uint32_t k = 0; k < 3; k++) {
-            uint32_t d = k < 2 ? u + k : GN_SEEN_DIRECTIONS - 1;
-            seen->lo_q16[k] = lo[d];
-            seen->hi_q16[k] = hi[d];
-        }
-    }
-}
-
 static void see_directional(gn_seen_job *job, gn_view_seen *seen)
 {
     const gn_frame *frame = job->frame;
     for (int d = 0; d < GN_SEEN_DIRECTIONS; d++) job->along_lo[d] = INT32_MAX, job->along_hi[d] = INT32_MIN;
     for (uint32_t o = 0; o < frame->scene->n_objects; o++) see_object(job, o);
     if (job->along_lo[0] > job->along_hi[0]) return;
-    pick_turn(job, seen);
+    gn_seen_pick_turn(job, seen);
     seen->worth_q16 =
         pixels_q16(frame, (int64_t)seen->hi_q16[0] - seen->lo_q16[0], (int64_t)seen->hi_q16[1] - seen->lo_q16[1],
                    (int64_t)job->depth_q16[0] + job->depth_q16[1]);
+    gn_seen_crop(job);
+    gn_seen_pick_turn(job, seen);
 }
 
 /* ---- Views of spot and point lights ------------------------------------------------------------------------------ */
@@ -432,7 +351,7 @@ static void begin_punctual(gn_seen_job *job, uint32_t light_idx)
     gn_light_view_axes(job->axis_q30, w);
     job->tangent = gn_bf_mul(gn_bf_from_u64((uint64_t)wide), gn_bf_recip(gn_bf_from_u64((uint64_t)deep)));
     for (int k = 0; k < 3; k++) job->from[k] = gn_sat32((int64_t)light->position_q16[k] - job->frame->cam.eye_q16[k]);
-    for (int k = 0; k < 3; k++) job->light_q16[k] = limited(gn_dot_q30(job->axis_q30[k], job->from));
+    for (int k = 0; k < 3; k++) job->light_q16[k] = gn_seen_limited(gn_dot_q30(job->axis_q30[k], job->from));
 }
 #endif
 

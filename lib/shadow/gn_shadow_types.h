@@ -11,15 +11,17 @@
 #define GN_TILE_SIDE(view) ((view)->tile_rows > (view)->tile_texels ? (view)->tile_rows : (view)->tile_texels)
 #define GN_UNSEEN(view)    ((view)->unseen)
 #define GN_VIEW_TURN(view) ((view)->turn)
+#define GN_TIGHT(view)     ((view)->tight)
 #else
 #define GN_TILE_ROWS(view) ((view)->tile_texels)
 #define GN_TILE_SIDE(view) ((view)->tile_texels)
 #define GN_UNSEEN(view)    ((void)(view), 0)
 #define GN_VIEW_TURN(view) ((void)(view), 0)
+#define GN_TIGHT(view)     ((void)(view), 0)
 #endif
 
 #if GN_TIGHT_FIT
-/* What the camera sees that a view is looked up for. */
+/* What the camera sees that a view is looked up for, and of a directional view only where something may cast. */
 typedef struct {
     uint64_t worth_q16;           /* pixels that its tile is worth */
     int32_t lo_q16[3], hi_q16[3]; /* along the view's axes, from the camera; lo > hi: nothing. Spot and point lights:
@@ -131,6 +133,7 @@ typedef struct {
     uint8_t stale; /* by its schedule it keeps the tile of an earlier frame, and the fit that goes with it */
 #if GN_TIGHT_FIT
     uint8_t turn;   /* of a tight fit: see gn_view_seen */
+    uint8_t tight;  /* beyond the tile, and within a filter's reach of its border, nothing casts */
     uint8_t unseen; /* no visible receiver looks into it: an empty tile of 8 x 8 texels that all such views share */
 #endif
     gn_depth_block *block;  /* (T / 8) * (T / 8) */

@@ -43,10 +43,18 @@ GN_HOT static inline uint32_t gn_texel_far(int32_t depth_bits)
     return (uint32_t)(GN_DEPTH_EMPTY_Q32 << (32 - depth_bits));
 }
 
-/* Whether texels outside the tile are lit [D10]. */
+/* Whether texels outside the tile are lit. [D10] [D12] */
 GN_HOT static inline int gn_border_lit(const gn_light_view *view)
 {
-    return GN_MAIN_LIGHT && view->border_lit;
+    return GN_TIGHT(view) || (GN_MAIN_LIGHT && view->border_lit);
+}
+
+/* Whether all between two places lie beyond the tile of a tight fit: nothing casts there. */
+GN_HOT static inline int gn_beyond_tile(const gn_light_view *view, int32_t u_lo_q16, int32_t u_hi_q16, int32_t v_lo_q16,
+                                        int32_t v_hi_q16)
+{
+    return GN_TIGHT(view) &&
+           ((u_hi_q16 | v_hi_q16) < 0 || u_lo_q16 >> 16 >= view->tile_texels || v_lo_q16 >> 16 >= GN_TILE_ROWS(view));
 }
 
 #endif

@@ -1,0 +1,166 @@
+/* What is seen in a directional view, in all directions; of that, what may be shadowed. [D12] */
+#include "gn_internal.h"
+
+#include "base/gn_math.h"
+#include "base/gn_q.h"
+#include "shadow/gn_seen_directions.h"
+
+#if GN_TIGHT_FIT
+
+/* cos(k / 32 turn) */
+static const int32_t turn_cosine_q30[GN_TURNS + 1] = {1073741824, 1053110176, 992008094, 892783698, 759250125,
+                                                      596538996,  410903207,  209476638, 0};
+
+void gn_seen_turn_axes(gn_light_view *view, uint32_t turn)
+{
+    int64_t c = turn_cosine_q30[turn], s = turn_cosine_q30[GN_TURNS - turn];
+    view->turn = (uint8_t)turn;
+    for (int k = 0; k < 3; k++) {
+        int32_t u = view->axis_q30[0][k], v = view->axis_q30[1][k]; /* |.| <= 2^30 */
+        view->axis_q30[0][k] = (int32_t)gn_shr64(c * u + s * v, 30);
+        view->axis_q30[1][k] = (int32_t)gn_shr64(c * v - s * u, 30);
+    }
+}
+
+/* A point's coordinates, below 2^30, in all directions: sums of 2^60.5. Turn k and turn 8 - k have the same products.
+ */
+void gn_seen_directions(const int32_t at[3], int32_t out[GN_SEEN_DIRECTIONS])
+{
+    out[0] = at[0];
+    out[1] = at[1];
+    out[GN_SEEN_DIRECTIONS - 1] = at[2];
+    for (uint32_t k = 1; k <= GN_TURNS / 2; k++) {
+        int32_t *near = out + 2 * k, *far = out + 2 * (GN_TURNS - k);
+        int64_t c = turn_cosine_q30[k], s = turn_cosine_q30[GN_TURNS - k];
+        int64_t cu = c * at[0], cv = c * at[1], su = s * at[0], sv = s * at[1];
+        near[0] = (int32_t)gn_shr64(cu + sv, 30);
+        near[1] = (int32_t)gn_shr64(cv - su, 30);
+        far[0] = (int32_t)gn_shr64(su + cv, 30);
+        far[1] = (int32_t)gn_shr64(sv - cu, 30);
+    }
+}
+
+void gn_seen_from(gn_seen_job *job, uint32_t object_idx)
+{
+    job->object = &job->frame->object[object_idx];
+    for (int k = 0; k < 3; k++)
+        job->from[k] = gn_sat32((int64_t)job->object->centre_q16[k] - job->frame->cam.eye_q16[k]);
+}
+
+/* Along an axis: the middle of the box, per axis of the world half of it, and its bounds. */
+void gn_seen_project_box(gn_seen_job *job, const int32_t axis_q30[3], uint32_t to)
+{
+    int32_t *half = job->half[to];
+    int64_t middle = gn_dot_q30(axis_q30, job->from), wide = 0;
+    for (int j = 0; j < 3; j++) {
+        half[j] = gn_seen_limited(gn_shr64((int64_t)axis_q30[j] * job->object->half_q16[j], 30));
+        wide += (int64_t)gn_abs32(half[j]);
+    }
+    job->middle[to] = gn_seen_limited(middle);
+    job->lo[to] = gn_seen_limited(middle - wide);
+    job->hi[to] = gn_seen_limited(middle + wide);
+}
+
+void gn_seen_box_along(const gn_seen_job *job, int32_t lo[GN_SEEN_DIRECTIONS], int32_t hi[GN_SEEN_DIRECTIONS])
+{
+    int32_t half[GN_SEEN_DIRECTIONS];
+    gn_seen_directions(job->middle + 3, lo);
+    gn_seen_directions(job->middle + 3, hi);
+    for (int j = 0; j < 3; j++) {
+        const int32_t at[3] = {job->half[3][j], job->half[4][j], job->half[5][j]};
+        gn_seen_directions(at, half);
+        for (int d = 0; d < GN_SEEN_DIRECTIONS; d++) {
+            lo[d] = gn_seen_limited((int64_t)lo[d] - gn_abs32(half[d]));
+            hi[d] = gn_seen_limited((int64_t)hi[d] + gn_abs32(half[d]));
+        }
+    }
+}
+
+void gn_seen_pick_turn(const gn_seen_job *job, gn_view_seen *seen)
+{
+    const int32_t *lo = job->along_lo, *hi = job->along_hi;
+    uint64_t limit = UINT64_MAX;
+    for (uint32_t turn = 0; turn < GN_TURNS; turn++) {
+        uint32_t u = 2 * turn, v = u + 1;
+        uint64_t area = (uint64_t)((int64_t)hi[u] - lo[u]) * (uint64_t)((int64_t)hi[v] - lo[v]); /* 2^62 */
+        if (area >= limit) continue;
+        limit = area - (turn ? area >> 6 : 5 * (area >> 4));
+        seen->turn = (uint8_t)turn;
+        for (uint32_t k = 0; k < 3; k++) {
+            uint32_t d = k < 2 ? u + k : GN_SEEN_DIRECTIONS - 1;
+            seen->lo_q16[k] = lo[d];
+            seen->hi_q16[k] = hi[d];
+        }
+    }
+}
+
+/* ---- Casters ----------------------------------------------------------------------------------------------------- */
+
+/* Bounds of casters along u and v of each turn. */
+typedef struct {
+    int32_t lo[2 * GN_TURNS], hi[2 * GN_TURNS];
+} caster_bounds;
+
+/* Whether bounds come within an eighth of what is seen. */
+static int is_near(const gn_seen_job *job, int32_t lo, int32_t hi, int d)
+{
+    int64_t seen_lo = job->along_lo[d], seen_hi = job->along_hi[d], beyond = (seen_hi - seen_lo) >> 3;
+    return lo <= seen_hi + beyond && hi >= seen_lo - beyond;
+}
+
+/* Adds the box of an object whose shadow may fall on what is seen. */
+static void add_caster(gn_seen_job *job, uint32_t object_idx, caster_bounds *all)
+{
+    int32_t lo[GN_SEEN_DIRECTIONS], hi[GN_SEEN_DIRECTIONS];
+    gn_seen_from(job, object_idx);
+    for (uint32_t k = 0; k < 3; k++) {
+        gn_seen_project_box(job, job->axis_q30[k], 3 + k);
+        if (k == 2 ? job->lo[5] > job->along_hi[GN_SEEN_DIRECTIONS - 1]
+                   : !is_near(job, job->lo[3 + k], job->hi[3 + k], (int)k))
+            return;
+    }
+    gn_seen_box_along(job, lo, hi);
+    for (int d = 2; d < 2 * GN_TURNS; d++)
+        if (!is_near(job, lo[d], hi[d], d)) return;
+    for (int d = 0; d < 2 * GN_TURNS; d++) {
+        all->lo[d] = gn_min32(all->lo[d], gn_max32(job->along_lo[d], gn_min32(lo[d], job->along_hi[d])));
+        all->hi[d] = gn_max32(all->hi[d], gn_max32(job->along_lo[d], gn_min32(hi[d], job->along_hi[d])));
+    }
+}
+
+/* Bounds at least so wide, on a grid of the world of 1/16 to 1/32 of their width, so that they change rarely: in steps
+ * of a power of two, with a 64th of it to spare. */
+static void widen_to_grid(int32_t *lo, int32_t *hi, int32_t least_q16, int32_t eye_q16)
+{
+    int32_t lacks = (int32_t)gn_clamp64(least_q16 - ((int64_t)*hi - *lo), 0, least_q16);
+    *lo -= lacks >> 1; /* of up to 2^28 */
+    *hi += lacks >> 1;
+    int64_t wide = (int64_t)*hi - *lo;
+    int32_t step_log2 = gn_max32(63 - gn_clz64((uint64_t)(wide + (wide >> 6)) | 1U) - 5, 0);
+    int64_t spare = ((int64_t)1 << step_log2) >> 6;
+    int64_t first = ((int64_t)eye_q16 + *lo - spare) >> step_log2,
+            last = -(-((int64_t)eye_q16 + *hi + spare) >> step_log2);
+    *lo = gn_seen_limited(first * ((int64_t)1 << step_log2) - eye_q16);
+    *hi = gn_seen_limited(last * ((int64_t)1 << step_log2) - eye_q16);
+}
+
+void gn_seen_crop(gn_seen_job *job)
+{
+    const gn_frame *frame = job->frame;
+    caster_bounds all;
+    int32_t eye[GN_SEEN_DIRECTIONS], at[3];
+    for (int d = 0; d < 2 * GN_TURNS; d++) all.lo[d] = INT32_MAX, all.hi[d] = INT32_MIN;
+    for (uint32_t o = 0; o < frame->scene->n_objects; o++)
+        if (frame->scene->objects[o].flags & GN_OBJECT_CASTS) add_caster(job, o, &all);
+    for (int k = 0; k < 3; k++) at[k] = (int32_t)gn_dot_q30(job->axis_q30[k], frame->cam.eye_q16); /* sqrt(3) * 2^30 */
+    gn_seen_directions(at, eye);
+    for (int d = 0; d < 2 * GN_TURNS; d++) {
+        if (all.lo[d] > all.hi[d]) return;
+        int32_t least_q16 = (int32_t)(((int64_t)job->along_hi[d] - job->along_lo[d]) >> 3);
+        widen_to_grid(&all.lo[d], &all.hi[d], least_q16, eye[d]);
+        job->along_lo[d] = gn_max32(job->along_lo[d], all.lo[d]);
+        job->along_hi[d] = gn_min32(job->along_hi[d], all.hi[d]);
+    }
+}
+
+#endif
