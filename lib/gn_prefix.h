@@ -255,6 +255,7 @@
 #define gn_seen_find GN_PREFIXED_(GN_PREFIX, gn_seen_find)
 #define gn_seen_from GN_PREFIXED_(GN_PREFIX, gn_seen_from)
 #define gn_seen_level GN_PREFIXED_(GN_PREFIX, gn_seen_level)
+#define gn_seen_note GN_PREFIXED_(GN_PREFIX, gn_seen_note)
 #define gn_seen_pick_turn GN_PREFIXED_(GN_PREFIX, gn_seen_pick_turn)
 #define gn_seen_project_box GN_PREFIXED_(GN_PREFIX, gn_seen_project_box)
 #define gn_seen_turn_axes GN_PREFIXED_(GN_PREFIX, gn_seen_turn_axes)

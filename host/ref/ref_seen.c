@@ -188,6 +188,41 @@ static ref_seen box_bounds(const ref_instance *instance, const ref_light_view *a
     return b;
 }
 
+/* Bounds along the world's axes of the boxes of seen objects, less 1/16 of each. */
+typedef struct {
+    double below[3], above[3];
+} reach;
+
+static reach reach_of(const ref_frame *frame, const frustum *f, const ref_light_view *axes)
+{
+    reach r = {{HUGE_VAL, HUGE_VAL, HUGE_VAL}, {-HUGE_VAL, -HUGE_VAL, -HUGE_VAL}};
+    for (size_t o = 0; o < frame->s->n_objects; o++) {
+        double centre[3], half[3];
+        if (!is_seen(&frame->s->objects[o]) || !bounds_of(frame, &frame->instances[o], f, axes).any) continue;
+        vec3_store(centre, frame->instances[o].box_centre);
+        vec3_store(half, frame->instances[o].box_half);
+        for (int k = 0; k < 3; k++) {
+            r.below[k] = fmin(r.below[k], centre[k] - 7.0 / 8.0 * half[k]);
+            r.above[k] = fmax(r.above[k], centre[k] + 7.0 / 8.0 * half[k]);
+        }
+    }
+    return r;
+}
+
+/* Whether the box is a sheet, with all that is seen on its lit side. w: away from the light. */
+static bool shadows_nothing(const ref_instance *instance, const reach *seen, const double w[3])
+{
+    double centre[3], half[3];
+    vec3_store(centre, instance->box_centre);
+    vec3_store(half, instance->box_half);
+    const double longest = fmax(half[0], fmax(half[1], half[2])), slack = longest / 1024.0;
+    for (int k = 0; k < 3; k++)
+        if (half[k] <= longest / 4096.0 &&
+            (w[k] < 0.0 ? seen->below[k] >= centre[k] - slack : seen->above[k] <= centre[k] + slack))
+            return fabs(w[k]) > 1.0 / 1024.0;
+    return false;
+}
+
 /* Whether an object's shadow may fall on what is seen: bounds from the world's origin. */
 static bool may_shadow(const ref_instance *instance, const ref_light_view axes[TURNS], const ref_seen seen[TURNS])
 {
@@ -214,11 +249,13 @@ static void widen_to_grid(double *lo, double *hi, double least)
 }
 
 /* Leaves of rectangles what casters may shadow. */
-static void crop(const ref_frame *frame, const ref_light_view axes[TURNS], ref_seen seen[TURNS])
+static void crop(const ref_frame *frame, const reach *near, const ref_light_view axes[TURNS], ref_seen seen[TURNS])
 {
     ref_seen all[TURNS] = {{.any = false}};
     for (size_t o = 0; o < frame->s->n_objects; o++) {
-        if (frame->s->objects[o].caster == SCENE_CASTER_OFF || !may_shadow(&frame->instances[o], axes, seen)) continue;
+        if (frame->s->objects[o].caster == SCENE_CASTER_OFF || !may_shadow(&frame->instances[o], axes, seen) ||
+            shadows_nothing(&frame->instances[o], near, axes[0].axis[2]))
+            continue;
         for (int turn = 0; turn < TURNS; turn++) {
             const ref_seen b = box_bounds(&frame->instances[o], &axes[turn]);
             for (int k = 0; k < 2; k++) {
@@ -272,7 +309,8 @@ static void see_directional(const ref_frame *frame, ref_seen *seen, const scene_
     const ref_seen *whole = &all[best_turn(all)];
     const double worth =
         pixels(&frame->camera, whole->hi[0] - whole->lo[0], whole->hi[1] - whole->lo[1], (first + last) / 2.0);
-    crop(frame, axes, all);
+    const reach near = reach_of(frame, &f, &axes[0]);
+    crop(frame, &near, axes, all);
     const int turn = best_turn(all);
     *seen = all[turn];
     seen->turn = turn;

@@ -184,6 +184,7 @@ static int see_object(gn_seen_job *job, uint32_t object_idx)
     uint32_t sides;
     if (!against_part(job, &sides)) return 0;
     for (uint32_t k = 0; k < 3; k++) gn_seen_project_box(job, job->axis_q30[k], 3 + k);
+    if (job->directional) gn_seen_note(job);
     if (job->directional && (!box_adds(job, !sides) || !sides)) return 1;
     if (sides) find_bounds(job, sides);
     return job->lo[0] <= job->hi[0];
@@ -240,6 +241,7 @@ static void see_directional(gn_seen_job *job, gn_view_seen *seen)
 {
     const gn_frame *frame = job->frame;
     for (int d = 0; d < GN_SEEN_DIRECTIONS; d++) job->along_lo[d] = INT32_MAX, job->along_hi[d] = INT32_MIN;
+    for (int k = 0; k < 3; k++) job->below[k] = INT32_MAX, job->above[k] = INT32_MIN;
     for (uint32_t o = 0; o < frame->scene->n_objects; o++) see_object(job, o);
     if (job->along_lo[0] > job->along_hi[0]) return;
     gn_seen_pick_turn(job, seen);

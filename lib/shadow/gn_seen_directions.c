@@ -101,6 +101,30 @@ typedef struct {
     int32_t lo[2 * GN_TURNS], hi[2 * GN_TURNS];
 } caster_bounds;
 
+void gn_seen_note(gn_seen_job *job)
+{
+    for (int k = 0; k < 3; k++) {
+        int32_t half = job->object->half_q16[k] - (job->object->half_q16[k] >> 3);
+        job->below[k] = gn_min32(job->below[k], gn_sat32((int64_t)job->from[k] - half));
+        job->above[k] = gn_max32(job->above[k], gn_sat32((int64_t)job->from[k] + half));
+    }
+}
+
+/* Whether the box is as flat as a sheet, with all that is seen on the side of it that faces the light: a ground that
+ * casts shadows nothing. */
+static int shadows_nothing(const gn_seen_job *job)
+{
+    const int32_t *half = job->object->half_q16, *away = job->axis_q30[2];
+    int32_t longest = gn_max32(half[0], gn_max32(half[1], half[2]));
+    for (int k = 0; k < 3; k++) {
+        int64_t slack = longest >> 10;
+        if (half[k] > longest >> 12) continue;
+        if (away[k] < 0 ? job->below[k] >= job->from[k] - slack : job->above[k] <= job->from[k] + slack)
+            return gn_abs32(away[k]) > 1 << 20;
+    }
+    return 0;
+}
+
 /* Whether bounds come within an eighth of what is seen. */
 static int is_near(const gn_seen_job *job, int32_t lo, int32_t hi, int d)
 {
@@ -113,6 +137,7 @@ static void add_caster(gn_seen_job *job, uint32_t object_idx, caster_bounds *all
 {
     int32_t lo[GN_SEEN_DIRECTIONS], hi[GN_SEEN_DIRECTIONS];
     gn_seen_from(job, object_idx);
+    if (shadows_nothing(job)) return;
     for (uint32_t k = 0; k < 3; k++) {
         gn_seen_project_box(job, job->axis_q30[k], 3 + k);
         if (k == 2 ? job->lo[5] > job->along_hi[GN_SEEN_DIRECTIONS - 1]

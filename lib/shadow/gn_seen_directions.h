@@ -19,6 +19,9 @@ void gn_seen_directions(const int32_t at[3], int32_t out[GN_SEEN_DIRECTIONS]);
 /* The job's box is that of an object, from the camera. */
 void gn_seen_from(gn_seen_job *job, uint32_t object_idx);
 
+/* What is seen reaches as far as the box along the world's axes. */
+void gn_seen_note(gn_seen_job *job);
+
 /* Along an axis: the middle of the box, per axis of the world half of it, and its bounds. */
 void gn_seen_project_box(gn_seen_job *job, const int32_t axis_q30[3], uint32_t to);
 

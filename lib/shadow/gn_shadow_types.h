@@ -49,6 +49,7 @@ typedef struct {
     int32_t box[8][6];
     int directional;
     int32_t along_lo[GN_SEEN_DIRECTIONS], along_hi[GN_SEEN_DIRECTIONS]; /* u and v of each turn, and w */
+    int32_t below[3], above[3]; /* along the world's axes, bounds of seen objects less 1/16 of each */
 #if GN_PUNCTUAL_LIGHTS
     int32_t light_q16[3]; /* its position, along its axes */
     gn_bfloat tangent;    /* of half its view */
