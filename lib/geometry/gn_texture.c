@@ -56,7 +56,7 @@ GN_HOT static inline uint32_t texel_alpha(const gn_texture *t, const uint8_t *ro
     return 65535U;
 }
 
-GN_HOT uint32_t gn_texture_alpha(const gn_texture *texture, int32_t u_q20, int32_t v_q20)
+GN_HOT static inline uint32_t filtered_alpha(const gn_texture *texture, int32_t u_q20, int32_t v_q20)
 {
     footprint f;
     uint32_t stride = gn_texel_stride(texture);
@@ -68,6 +68,30 @@ GN_HOT uint32_t gn_texture_alpha(const gn_texture *texture, int32_t u_q20, int32
              d = texel_alpha(texture, lower, f.u.second);
     if ((a ^ b) | (a ^ c) | (a ^ d)) a = blend(&f, a, b, c, d);
     return gn_texture_to_uq16(a);
+}
+
+GN_HOT void gn_texture_alphas(const gn_texture *texture, const gn_texture_curve *curve, uint32_t bits, uint32_t *alpha)
+{
+    const gn_texture own = *texture;
+    uint32_t u = (uint32_t)curve->at_q24[0], v = (uint32_t)curve->at_q24[1], du = (uint32_t)curve->step_q24[0],
+             dv = (uint32_t)curve->step_q24[1];
+    for (; bits; bits >>= 1, alpha++) {
+        if (bits & 1U)
+            *alpha = filtered_alpha(&own, (int32_t)((uint32_t)curve->from_q20[0] + (uint32_t)((int32_t)u >> 4)),
+                                    (int32_t)((uint32_t)curve->from_q20[1] + (uint32_t)((int32_t)v >> 4)));
+        u += du;
+        v += dv;
+        du += (uint32_t)curve->bend_q24[0];
+        dv += (uint32_t)curve->bend_q24[1];
+    }
+}
+
+GN_HOT uint32_t gn_texture_alpha(const gn_texture *texture, int32_t u_q20, int32_t v_q20)
+{
+    const gn_texture_curve curve = {{u_q20, v_q20}, {0, 0}, {0, 0}, {0, 0}};
+    uint32_t alpha;
+    gn_texture_alphas(texture, &curve, 1, &alpha);
+    return alpha;
 }
 #endif
 
@@ -88,8 +112,9 @@ GN_HOT int32_t gn_texture_coord(const gn_texture_triangle *triangle, const gn_te
                                 int32_t which)
 {
     int64_t at = triangle->uv_q16[0][which], e1 = triangle->uv_q16[1][which], e2 = triangle->uv_q16[2][which];
-    /* 2^30 * 2^33 would not fit; the lowest bit of differences of at most 15 fraction bits is zero */
-    int64_t c_q20 = at * 16 + gn_shr64(b_q30[0] * (e1 >> 1), 25) + gn_shr64(b_q30[1] * (e2 >> 1), 25);
+    /* the lowest bit of differences of at most 15 fraction bits is zero; half of them is below 2^31 */
+    int64_t c_q20 = at * 16 + gn_shr64((int64_t)b_q30[0] * (int32_t)(e1 >> 1), 25) +
+                    gn_shr64((int64_t)b_q30[1] * (int32_t)(e2 >> 1), 25);
     return gn_texture_clamps(texture, which) ? gn_sat32(c_q20) : (int32_t)(uint32_t)c_q20;
 }
 
