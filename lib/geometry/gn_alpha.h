@@ -37,7 +37,7 @@ uint32_t gn_alpha_keeps(gn_alpha_cut *cut, int32_t x, uint32_t asked);
 /* Texture coordinates of the triangle's corners. */
 void gn_alpha_corners(gn_alpha_cut *cut, const uint16_t idx[3]);
 
-#define GN_ALPHA_STEP_MAX 8 /* pixels: screen tiles begin at multiples of it */
+#define GN_ALPHA_STEP_MAX GN_TEXTURE_CURVE_MAX /* pixels: screen tiles begin at multiples of it */
 
 /* Texture coordinates from pixel x of the row on. Returns for how many pixels: with persp_step > 1 they are
  * interpolated between exact ones at most 8 pixels apart; error below 2^-8 texel (NUMERICS 4.9). */

@@ -14,8 +14,10 @@ typedef struct {
     int32_t from_q20[2], at_q24[2], step_q24[2], bend_q24[2];
 } gn_texture_curve;
 
-/* The alphas of pixels of such a row, those of `bits`, the lowest first. */
-void gn_texture_alphas(const gn_texture *texture, const gn_texture_curve *curve, uint32_t bits, uint32_t *alpha);
+#define GN_TEXTURE_CURVE_MAX 8
+
+/* The alphas of the first n <= GN_TEXTURE_CURVE_MAX pixels of such a row. */
+void gn_texture_alphas(const gn_texture *texture, const gn_texture_curve *curve, int32_t n, uint32_t *alpha);
 
 /* A channel of a mask image: bilinear and clamped, whatever its flags say, and lit in a channel that it lacks. */
 uint32_t gn_texture_mask(const gn_texture *image, int32_t u_q16, int32_t v_q16, uint32_t channel);
