@@ -289,19 +289,32 @@ typedef struct {
     uint32_t settled[2][SETTLED_ROWS]; /* dark, doubt */
 } window_rows;
 
-/* A row's texels of 16 bits, from s on, against two levels of depth: bit i of dark[k] for texel s + i. */
-GN_HOT static inline void compare_levels(const gn_window *window, int32_t s, int32_t j, int32_t n,
-                                         const uint32_t level[2], uint32_t dark[2])
+/* Texels of 16 bits before a level of depth, n > 0: bit i for texel i. */
+GN_INLINE uint32_t below_16(const uint16_t *texel, int32_t n, uint32_t level)
 {
-    const uint16_t *first = gn_view_texels(window->view, window->u0 + s, window->v0 + j).d16;
-    uint32_t far = 0, near = 0;
-    for (const uint16_t *texel = first + n; texel != first;) {
-        uint32_t depth = *--texel;
-        far = gn_borrow(far, depth, level[0]);
-        near = gn_borrow(near, depth, level[1]);
+    uint32_t below = 0;
+    for (const uint16_t *at = texel + n; at != texel;) {
+        below = gn_borrow(below, *--at, level);
+        GN_KEEP(at); /* one pointer */
     }
-    dark[0] = far;
-    dark[1] = near;
+    return below;
+}
+
+/* What settle() finds of rows of 16 bits inside the tile: the texels of `range` are compared, n from texel s on. */
+GN_HOT static GN_NOINLINE void settle_16(window_rows *rows, int32_t h, int32_t s, int32_t n, uint32_t mask,
+                                         const uint32_t least[2])
+{
+    const gn_window *window = rows->window;
+    const gn_light_view *view = window->view;
+    const uint16_t *texel = gn_view_texels(view, window->u0 + s, window->v0 + rows->v0).d16;
+    const uint32_t kept = ~((UINT32_MAX >> (32 - n)) << s), near = (least[0] + 0xFFFFU) >> 16,
+                   far = (least[1] + 0xFFFFU) >> 16;
+    for (int32_t j = 0; j < h; j++, texel += view->tile_texels) {
+        uint32_t known = rows->dark[j] & ~(rows->doubt[j] & mask) & kept, dark = below_16(texel, n, far), both = 0;
+        if (dark && near != far) both = dark ^ below_16(texel, n, near);
+        rows->settled[0][j] = known | dark << s;
+        rows->settled[1][j] = both << s;
+    }
 }
 
 /* Columns that lookups of texels in doubt read, too. */
@@ -318,24 +331,18 @@ GN_HOT static GN_NOINLINE int settle(const gn_frame *frame, window_rows *rows, i
                                      const int32_t depth_q30[2])
 {
     const gn_window *window = rows->window;
-    uint32_t near = least_depth(frame, window->view, gn_min32(depth_q30[0], depth_q30[1])),
-             far = least_depth(frame, window->view, gn_max32(depth_q30[0], depth_q30[1]));
-    uint32_t level[2] = {(far + 0xFFFFU) >> 16, (near + 0xFFFFU) >> 16};
+    const uint32_t least[2] = {least_depth(frame, window->view, gn_min32(depth_q30[0], depth_q30[1])),
+                               least_depth(frame, window->view, gn_max32(depth_q30[0], depth_q30[1]))};
     uint32_t asked = columns_of(rows->doubts, 2 * window->view->filter_idx + 1, mask);
     int32_t s = 31 - gn_clz32(asked & (0U - asked)), n = 32 - gn_clz32(asked) - s;
-    uint32_t range = (UINT32_MAX >> (32 - n)) << s;
-    for (int32_t j = 0; j < h; j++) {
-        uint32_t dark[2] = {0, 0}, doubt = rows->doubt[j] & mask, known = rows->dark[j] & ~doubt;
-        if (window->plain) {
-            compare_levels(window, s, rows->v0 + j, n, level, dark);
-            dark[0] <<= s;
-            dark[1] <<= s;
-            known &= ~range;
-        } else if (doubt) {
-            dark[0] = compare_doubts(window, rows->v0 + j, doubt, far);
-            if (dark[0]) dark[1] = near == far ? dark[0] : compare_doubts(window, rows->v0 + j, dark[0], near);
+    if (window->plain) settle_16(rows, h, s, n, mask, least);
+    for (int32_t j = 0; j < h && !window->plain; j++) {
+        uint32_t dark[2] = {0, 0}, doubt = rows->doubt[j] & mask;
+        if (doubt) {
+            dark[0] = compare_doubts(window, rows->v0 + j, doubt, least[1]);
+            dark[1] = least[0] == least[1] ? dark[0] : compare_doubts(window, rows->v0 + j, dark[0], least[0]);
         }
-        rows->settled[0][j] = known | dark[0];
+        rows->settled[0][j] = (rows->dark[j] & ~doubt) | dark[0];
         rows->settled[1][j] = dark[0] ^ dark[1];
     }
     rows->dark = rows->settled[0];
