@@ -7,6 +7,7 @@
 #include "base/gn_tables.h"
 #include "shadow/gn_lookup.h"
 #include "shadow/gn_tent.h"
+#include "shadow/gn_texel_rows.h"
 #include "shadow/gn_window.h"
 
 /* ---- Comparing --------------------------------------------------------------------------------------------------- */
@@ -64,35 +65,6 @@ GN_HOT void gn_window_reads(const gn_light_view *view, int32_t lo_q16, int32_t h
     *n = ((hi_q16 + 32768) >> 16) + k + 1 - *first;
 }
 
-/* Texels of a row of 16 bits before depths that grow by `step`: bit i for texel i, n > 0. */
-GN_INLINE uint32_t before_16(const uint16_t *texel, int32_t n, int32_t depth_q30, int32_t step_q30)
-{
-    const uint16_t *at = texel + (n & ~3);
-    uint32_t near = 0, step = (uint32_t)step_q30, depth = (uint32_t)depth_q30 + (uint32_t)n * step;
-    switch (n & 3) { /* each goes on with those after it */
-    case 3:
-        near = gn_borrow(near, (uint32_t)at[2] << 14, depth -= step);
-        GN_GOES_ON;
-    case 2:
-        near = gn_borrow(near, (uint32_t)at[1] << 14, depth -= step);
-        GN_GOES_ON;
-    case 1:
-        near = gn_borrow(near, (uint32_t)at[0] << 14, depth -= step);
-        GN_GOES_ON;
-    default:
-        break;
-    }
-    while (at != texel) {
-        at -= 4;
-        GN_KEEP(at); /* one pointer */
-        near = gn_borrow(near, (uint32_t)at[3] << 14, depth -= step);
-        near = gn_borrow(near, (uint32_t)at[2] << 14, depth -= step);
-        near = gn_borrow(near, (uint32_t)at[1] << 14, depth -= step);
-        near = gn_borrow(near, (uint32_t)at[0] << 14, depth -= step);
-    }
-    return near;
-}
-
 /* Part of a tile whose texels are compared, and the depth at its first one. */
 typedef struct {
     const gn_light_view *view;
@@ -106,7 +78,8 @@ GN_HOT static GN_NOINLINE void rows_before_16(const texel_rows *rows, uint32_t *
 {
     const uint16_t *texel = gn_view_texels(rows->view, rows->u, rows->v).d16;
     int32_t depth = rows->depth_q30, step = rows->step_q30[0], n = rows->n, pitch = rows->view->tile_texels;
-    for (; near != end; near++, texel += pitch, depth += rows->step_q30[1]) *near = before_16(texel, n, depth, step);
+    for (; near != end; near++, texel += pitch, depth += rows->step_q30[1])
+        *near = gn_texels_before(texel, n, depth, step);
 }
 
 /* Of texels of row j that may be before the plane, those that surely are. */
@@ -114,7 +87,7 @@ GN_HOT static GN_NOINLINE uint32_t surely_16(const texel_rows *rows, int32_t j, 
 {
     int32_t s = 31 - gn_clz32(maybe & (0U - maybe)), n = 32 - gn_clz32(maybe) - s, step = rows->step_q30[0],
             depth = rows->depth_q30 - rows->reach_q30 + s * step + j * rows->step_q30[1];
-    return before_16(gn_view_texels(rows->view, rows->u + s, rows->v + j).d16, n, depth, step) << s;
+    return gn_texels_before(gn_view_texels(rows->view, rows->u + s, rows->v + j).d16, n, depth, step) << s;
 }
 
 /* Row j of texels of any size. */
@@ -289,17 +262,6 @@ typedef struct {
     uint32_t settled[2][SETTLED_ROWS]; /* dark, doubt */
 } window_rows;
 
-/* Texels of 16 bits before a level of depth, n > 0: bit i for texel i. */
-GN_INLINE uint32_t below_16(const uint16_t *texel, int32_t n, uint32_t level)
-{
-    uint32_t below = 0;
-    for (const uint16_t *at = texel + n; at != texel;) {
-        below = gn_borrow(below, *--at, level);
-        GN_KEEP(at); /* one pointer */
-    }
-    return below;
-}
-
 /* What settle() finds of rows of 16 bits inside the tile: the texels of `range` are compared, n from texel s on. */
 GN_HOT static GN_NOINLINE void settle_16(window_rows *rows, int32_t h, int32_t s, int32_t n, uint32_t mask,
                                          const uint32_t least[2])
@@ -310,8 +272,9 @@ GN_HOT static GN_NOINLINE void settle_16(window_rows *rows, int32_t h, int32_t s
     const uint32_t kept = ~((UINT32_MAX >> (32 - n)) << s), near = (least[0] + 0xFFFFU) >> 16,
                    far = (least[1] + 0xFFFFU) >> 16;
     for (int32_t j = 0; j < h; j++, texel += view->tile_texels) {
-        uint32_t known = rows->dark[j] & ~(rows->doubt[j] & mask) & kept, dark = below_16(texel, n, far), both = 0;
-        if (dark && near != far) both = dark ^ below_16(texel, n, near);
+        uint32_t known = rows->dark[j] & ~(rows->doubt[j] & mask) & kept, dark = gn_texels_below(texel, n, far),
+                 both = 0;
+        if (dark && near != far) both = dark ^ gn_texels_below(texel, n, near);
         rows->settled[0][j] = known | dark << s;
         rows->settled[1][j] = both << s;
     }
@@ -384,6 +347,19 @@ GN_HOT static uint32_t dark_texels(const gn_frame *frame, const window_rows *row
 }
 
 #if GN_FILTER_MAX >= 2
+/* The same of 4 x 4 texels of which some may be in doubt. */
+GN_HOT static inline uint32_t dark_4x4(const gn_frame *frame, const window_rows *rows, int32_t s, int32_t j,
+                                       int32_t depth_q30, uint8_t *dark)
+{
+    const gn_window *window = rows->window;
+    const uint32_t *doubt = &rows->doubt[j - rows->v0];
+    if (GN_SIZE_FIRST || !window->plain || !((doubt[0] | doubt[1] | doubt[2] | doubt[3]) >> s & 15U))
+        return dark_texels(frame, rows, s, j, 4, depth_q30, dark);
+    return gn_kernel_dark_texels16(gn_view_texels(window->view, window->u0 + s, window->v0 + j).d16,
+                                   (size_t)window->view->tile_texels, least_depth(frame, window->view, depth_q30), 4,
+                                   dark);
+}
+
 /* 3x3, positions to 1/32 texel. */
 GN_HOT static void row_3x3(const gn_frame *frame, const window_rows *rows, int32_t u, int32_t v, int32_t depth_q30,
                            const gn_receiver_step *step, int32_t n, uint32_t *out)
@@ -401,7 +377,7 @@ GN_HOT static void row_3x3(const gn_frame *frame, const window_rows *rows, int32
         if (!(a | b | c | d)) continue;
         if (doubts >> s & 15U) {
             uint8_t dark[4];
-            if (!(dark_texels(frame, rows, s, v >> 16, 4, depth_q30, dark) & 15U)) continue;
+            if (!(dark_4x4(frame, rows, s, v >> 16, depth_q30, dark) & 15U)) continue;
             a = dark[0], b = dark[1], c = dark[2], d = dark[3];
         }
         *out = 0;
