@@ -28,16 +28,19 @@ GN_HOT static inline void gn_alpha_row(gn_alpha_cut *cut, int32_t y, int32_t py,
 #endif
 }
 
-/* Whether pixel x of the row is cut, x_begin <= x < x_end; (x, y) picks the noise of the dither. */
-int gn_alpha_cuts(gn_alpha_cut *cut, int32_t x);
+/* Of pixels x .. x + 31 of the row those of `asked` that are not cut: the lowest bit is pixel x, and all that are asked
+ * are of x_begin .. x_end - 1. (x, y) picks the noise of the dither. */
+uint32_t gn_alpha_keeps(gn_alpha_cut *cut, int32_t x, uint32_t asked);
 
 /* ---- Textured ones: gn_alpha_coords.c ---------------------------------------------------------------------------- */
 
 /* Texture coordinates of the triangle's corners. */
 void gn_alpha_corners(gn_alpha_cut *cut, const uint16_t idx[3]);
 
-/* Texture coordinates at pixel x of the row. With persp_step > 1 they are interpolated between exact ones at most 8
- * pixels apart; error below 2^-8 texel (NUMERICS 4.9). */
-void gn_alpha_coords(gn_alpha_cut *cut, int32_t x, int32_t uv_q20[2]);
+#define GN_ALPHA_STEP_MAX GN_TEXTURE_CURVE_MAX /* pixels: screen tiles begin at multiples of it */
+
+/* Texture coordinates from pixel x of the row on. Returns for how many pixels: with persp_step > 1 they are
+ * interpolated between exact ones at most 8 pixels apart; error below 2^-8 texel (NUMERICS 4.9). */
+int32_t gn_alpha_coords(gn_alpha_cut *cut, int32_t x, gn_texture_curve *curve);
 
 #endif

@@ -12,8 +12,6 @@ GN_HOT void gn_alpha_corners(gn_alpha_cut *cut, const uint16_t idx[3])
     gn_texture_corners(&cut->uv, cut->object->mesh, cut->object->texture, idx);
 }
 
-#define GN_ALPHA_STEP_MAX 8 /* pixels: screen tiles begin at multiples of it */
-
 GN_HOT void gn_alpha_plane(gn_alpha_cut *cut, const gn_frame *frame, int32_t (*v)[3], uint32_t focal2_px_q16,
                            int32_t width, int32_t newton_steps)
 {
@@ -99,19 +97,24 @@ GN_HOT static void alpha_steps(gn_alpha_cut *cut, int32_t x)
     steps->hold = 1;
 }
 
-GN_HOT void gn_alpha_coords(gn_alpha_cut *cut, int32_t x, int32_t uv_q20[2])
+GN_HOT int32_t gn_alpha_coords(gn_alpha_cut *cut, int32_t x, gn_texture_curve *curve)
 {
+    const gn_alpha_steps *steps = &cut->steps;
+    gn_ray_recip recip;
     if (GN_ALPHA_STEPS && cut->px_per_step > 1) {
-        const gn_alpha_steps *steps = &cut->steps;
         if (x >= steps->end || x < steps->first) alpha_steps(cut, x);
         if (steps->hold) {
             int32_t k = x - steps->first, bends = k * (k - 1) / 2;
-            for (int i = 0; i < 2; i++)
-                uv_q20[i] = (int32_t)((uint32_t)steps->from_q20[i] +
-                                      (uint32_t)((k * steps->step_q24[i] + bends * steps->bend_q24[i] + 8) >> 4));
-            return;
+            for (int i = 0; i < 2; i++) {
+                curve->from_q20[i] = steps->from_q20[i];
+                curve->at_q24[i] = k * steps->step_q24[i] + bends * steps->bend_q24[i] + 8;
+                curve->step_q24[i] = steps->step_q24[i] + k * steps->bend_q24[i];
+                curve->bend_q24[i] = steps->bend_q24[i];
+            }
+            return steps->end - x;
         }
     }
-    gn_ray_recip recip;
-    exact_coords(cut, x, uv_q20, &recip);
+    exact_coords(cut, x, curve->from_q20, &recip);
+    for (int i = 0; i < 2; i++) curve->at_q24[i] = curve->step_q24[i] = curve->bend_q24[i] = 0;
+    return 1;
 }

@@ -38,10 +38,9 @@ GN_HOT static GN_SHARED void find_texels(footprint *out, const gn_texture *textu
     out->v = find_taps(v_q20, gn_texture_size(texture, 1), gn_texture_clamps(texture, 1), out->bilinear);
 }
 
-GN_HOT static uint32_t blend(const footprint *f, uint32_t a, uint32_t b, uint32_t c, uint32_t d)
+GN_HOT static uint32_t blend(uint32_t wu, uint32_t wv, uint32_t a, uint32_t b, uint32_t c, uint32_t d)
 {
-    return gn_texture_mix(gn_texture_mix(a, b, f->u.weight_uq16), gn_texture_mix(c, d, f->u.weight_uq16),
-                          f->v.weight_uq16);
+    return gn_texture_mix(gn_texture_mix(a, b, wu), gn_texture_mix(c, d, wu), wv);
 }
 
 #if GN_CASTER_ALPHA || GN_VISIBLE_ALPHA
@@ -56,7 +55,7 @@ GN_HOT static inline uint32_t texel_alpha(const gn_texture *t, const uint8_t *ro
     return 65535U;
 }
 
-GN_HOT uint32_t gn_texture_alpha(const gn_texture *texture, int32_t u_q20, int32_t v_q20)
+GN_HOT static inline uint32_t filtered_alpha(const gn_texture *texture, int32_t u_q20, int32_t v_q20)
 {
     footprint f;
     uint32_t stride = gn_texel_stride(texture);
@@ -66,8 +65,112 @@ GN_HOT uint32_t gn_texture_alpha(const gn_texture *texture, int32_t u_q20, int32
     if (!f.bilinear) return gn_texture_to_uq16(a);
     uint32_t b = texel_alpha(texture, upper, f.u.second), c = texel_alpha(texture, lower, f.u.first),
              d = texel_alpha(texture, lower, f.u.second);
-    if ((a ^ b) | (a ^ c) | (a ^ d)) a = blend(&f, a, b, c, d);
+    if ((a ^ b) | (a ^ c) | (a ^ d)) a = blend(f.u.weight_uq16, f.v.weight_uq16, a, b, c, d);
     return gn_texture_to_uq16(a);
+}
+
+/* Bilinear taps along a curve, which need no look at the border: it repeats a power of two, or is not met. */
+typedef struct {
+    uint32_t at_q24, step_q24, bend_q24;
+    uint32_t size, first_q20; /* of texels, less half of one: size times the pixel's coordinate and this, modulo 2^32 */
+    uint32_t mask;            /* of texels */
+} inner_axis;
+
+/* Texels, Q20, of the pixel that is reached. */
+GN_INLINE uint32_t inner_at(inner_axis *axis)
+{
+    uint32_t at_q20 = (uint32_t)((int32_t)axis->at_q24 >> 4) * axis->size + axis->first_q20;
+    axis->at_q24 += axis->step_q24;
+    axis->step_q24 += axis->bend_q24;
+    return at_q20;
+}
+
+/* Whether n pixels of a curve lie in one turn, and none reads beyond the texture's border: coordinates ascend or
+ * descend all along it. */
+GN_HOT static int is_inside(const gn_texture *texture, const gn_texture_curve *curve, int i, int32_t n)
+{
+    uint32_t size = gn_texture_size(texture, i), at = (uint32_t)curve->at_q24[i], k = (uint32_t)n - 1, half = 1U << 19,
+             last = at + k * (uint32_t)curve->step_q24[i] + k * (k - 1) / 2 * (uint32_t)curve->bend_q24[i],
+             a = (uint32_t)curve->from_q20[i] + (uint32_t)((int32_t)at >> 4),
+             b = (uint32_t)curve->from_q20[i] + (uint32_t)((int32_t)last >> 4);
+    if ((a ^ b) >> 20 || (gn_texture_clamps(texture, i) && a >> 20)) return 0;
+    a = (a & 0xFFFFFU) * size - half;
+    b = (b & 0xFFFFFU) * size - half;
+    return a >> 20 < size - 1 && b >> 20 < size - 1;
+}
+
+/* Returns 0 if a pixel may read beyond the border. */
+GN_HOT static inline int begin_inner(inner_axis *axis, const gn_texture *texture, const gn_texture_curve *curve, int i,
+                                     int32_t n)
+{
+    uint32_t size = gn_texture_size(texture, i);
+    axis->at_q24 = (uint32_t)curve->at_q24[i];
+    axis->step_q24 = (uint32_t)curve->step_q24[i];
+    axis->bend_q24 = (uint32_t)curve->bend_q24[i];
+    axis->size = size;
+    const uint32_t before = (uint32_t)(curve->at_q24[i] >> 4), c = (uint32_t)curve->from_q20[i] + before;
+    axis->first_q20 = ((c & 0xFFFFFU) - before) * size - (1U << 19);
+    axis->mask = size - 1;
+    if (!gn_texture_clamps(texture, i) && !(size & (size - 1))) return 1;
+    axis->mask = 4095;
+    return is_inside(texture, curve, i, n);
+}
+
+/* Bytes from a texel's alpha to the next one's; 0: it is not a byte. */
+GN_HOT static inline uint32_t alpha_pitch(const gn_texture *t)
+{
+    return GN_TEXEL_IS(t, GN_TEXTURE_RGBA8888) ? 4 : GN_TEXEL_IS(t, GN_TEXTURE_ALPHA8) ? 1 : 0;
+}
+
+/* The same as of each alone, but most pixels are in the midst of a texture, and among texels of one alpha. */
+GN_HOT static GN_NOINLINE int inner_alphas(const gn_texture *texture, const gn_texture_curve *curve, int32_t n,
+                                           uint32_t *alpha)
+{
+    inner_axis u, v;
+    uint32_t pitch = alpha_pitch(texture), stride = gn_texel_stride(texture);
+    const uint8_t *first = texture->rgba + (pitch == 4 ? 3 : 0);
+    if (!pitch || !(texture->flags & GN_TEXTURE_BILINEAR) || !begin_inner(&u, texture, curve, 0, n) ||
+        !begin_inner(&v, texture, curve, 1, n))
+        return 0;
+    for (const uint32_t *end = alpha + n; alpha != end; alpha++) {
+        uint32_t at_u = inner_at(&u), at_v = inner_at(&v);
+        uint32_t left = (at_u >> 20 & u.mask) * pitch, right = (((at_u >> 20) + 1) & u.mask) * pitch;
+        const uint8_t *upper = first + (at_v >> 20 & v.mask) * stride,
+                      *lower = first + (((at_v >> 20) + 1) & v.mask) * stride;
+        uint32_t a = upper[left], b = upper[right], c = lower[left], d = lower[right];
+        uint32_t mixed = a * 257U;
+        if (a != b || a != c || a != d)
+            mixed = blend(at_u >> 4 & 0xFFFFU, at_v >> 4 & 0xFFFFU, a * 257U, b * 257U, c * 257U, d * 257U);
+        *alpha = gn_texture_to_uq16(mixed);
+    }
+    return 1;
+}
+
+GN_HOT void gn_texture_alphas(const gn_texture *texture, const gn_texture_curve *curve, int32_t n, uint32_t *alpha)
+{
+    uint32_t at[2], step[2];
+    if (!GN_SIZE_FIRST && n > 1 && inner_alphas(texture, curve, n, alpha)) return;
+    for (int i = 0; i < 2; i++) {
+        at[i] = (uint32_t)curve->at_q24[i];
+        step[i] = (uint32_t)curve->step_q24[i];
+    }
+    for (; n > 0; n--) {
+        int32_t uv[2];
+        for (int i = 0; i < 2; i++) {
+            uv[i] = (int32_t)((uint32_t)curve->from_q20[i] + (uint32_t)((int32_t)at[i] >> 4));
+            at[i] += step[i];
+            step[i] += (uint32_t)curve->bend_q24[i];
+        }
+        *alpha++ = filtered_alpha(texture, uv[0], uv[1]);
+    }
+}
+
+GN_HOT uint32_t gn_texture_alpha(const gn_texture *texture, int32_t u_q20, int32_t v_q20)
+{
+    const gn_texture_curve curve = {{u_q20, v_q20}, {0, 0}, {0, 0}, {0, 0}};
+    uint32_t alpha;
+    gn_texture_alphas(texture, &curve, 1, &alpha);
+    return alpha;
 }
 #endif
 
@@ -88,8 +191,9 @@ GN_HOT int32_t gn_texture_coord(const gn_texture_triangle *triangle, const gn_te
                                 int32_t which)
 {
     int64_t at = triangle->uv_q16[0][which], e1 = triangle->uv_q16[1][which], e2 = triangle->uv_q16[2][which];
-    /* 2^30 * 2^33 would not fit; the lowest bit of differences of at most 15 fraction bits is zero */
-    int64_t c_q20 = at * 16 + gn_shr64(b_q30[0] * (e1 >> 1), 25) + gn_shr64(b_q30[1] * (e2 >> 1), 25);
+    /* the lowest bit of differences of at most 15 fraction bits is zero; half of them is below 2^31 */
+    int64_t c_q20 = at * 16 + gn_shr64((int64_t)b_q30[0] * (int32_t)(e1 >> 1), 25) +
+                    gn_shr64((int64_t)b_q30[1] * (int32_t)(e2 >> 1), 25);
     return gn_texture_clamps(texture, which) ? gn_sat32(c_q20) : (int32_t)(uint32_t)c_q20;
 }
 
@@ -122,7 +226,7 @@ GN_HOT void gn_texture_colour(const gn_texture *texture, int32_t u_q20, int32_t 
     }
     for (int c = 0; c < 3; c++) {
         uint32_t v = texel[0][c];
-        if (f.bilinear) v = blend(&f, v, texel[1][c], texel[2][c], texel[3][c]);
+        if (f.bilinear) v = blend(f.u.weight_uq16, f.v.weight_uq16, v, texel[1][c], texel[2][c], texel[3][c]);
         rgb_uq16[c] = gn_texture_to_uq16(v);
     }
 }

@@ -8,6 +8,17 @@
 /* Alpha, 0..65536. u and v of any value, v downwards, 20 fraction bits: 1/256 of a texel of the largest texture. */
 uint32_t gn_texture_alpha(const gn_texture *texture, int32_t u_q20, int32_t v_q20);
 
+/* Coordinates along a row of pixels, k of them on: from + (at + k step + k (k - 1) / 2 bend), of the sum in brackets
+ * without its lowest 4 bits. */
+typedef struct {
+    int32_t from_q20[2], at_q24[2], step_q24[2], bend_q24[2];
+} gn_texture_curve;
+
+#define GN_TEXTURE_CURVE_MAX 8
+
+/* The alphas of the first n <= GN_TEXTURE_CURVE_MAX pixels of such a row. */
+void gn_texture_alphas(const gn_texture *texture, const gn_texture_curve *curve, int32_t n, uint32_t *alpha);
+
 /* A channel of a mask image: bilinear and clamped, whatever its flags say, and lit in a channel that it lacks. */
 uint32_t gn_texture_mask(const gn_texture *image, int32_t u_q16, int32_t v_q16, uint32_t channel);
 

@@ -9,16 +9,11 @@
 #include "shadow/gn_caster.h"
 #include "shadow/gn_texel.h"
 
-/* Keeps the smaller depth, unless alpha cuts texel u. z in Q32, rounded to the texel's bits. [A4] */
-GN_HOT static void store(gn_texels row, int32_t bits, int32_t u, int64_t z, gn_alpha_cut *alpha)
+/* What is stored for a depth in Q32: rounded to the texel's bits. [A4] */
+GN_HOT static inline uint32_t stored_depth(int64_t z, int32_t bits)
 {
     const int32_t drop = 32 - bits;
-    const uint32_t v = (uint32_t)gn_clamp64((z + ((int64_t)1 << drop >> 1)) >> drop, 0, UINT32_MAX >> drop);
-    if (v << drop >= gn_texel_load(row, bits, (size_t)(uint32_t)u)) return;
-    if (GN_CASTER_ALPHA && alpha && gn_alpha_cuts(alpha, u)) return;
-    if (bits == 16) row.d16[u] = (uint16_t)v;
-    else if (bits == 8) row.d8[u] = (uint8_t)v;
-    else row.d32[u] = v;
+    return (uint32_t)gn_clamp64((z + ((int64_t)1 << drop >> 1)) >> drop, 0, UINT32_MAX >> drop);
 }
 
 /* Depth of a caster in 16-bit texels, if it is nowhere limited, nor so steep that it could leave its range by half of
@@ -71,7 +66,24 @@ GN_HOT static caster_depth16 depth16_begin(const gn_light_view *view, const gn_c
     return d;
 }
 
-/* Any row of texels, one at a time. */
+/* At most 32 texels of any row, one at a time: the smaller depth is kept, unless alpha cuts the texel. */
+GN_HOT static void some_texels(const gn_caster *caster, gn_texels row, int32_t bits, int32_t u, int32_t n, int64_t z,
+                               gn_alpha_cut *alpha)
+{
+    uint32_t v[32], nearer = 0;
+    for (int32_t i = 0; i < n; i++, z += caster->dz_du) {
+        v[i] = stored_depth(gn_clamp64(z, caster->lo, caster->hi) + caster->bias, bits);
+        if (v[i] << (32 - bits) < gn_texel_load(row, bits, (size_t)(uint32_t)(u + i))) nearer |= 1U << i;
+    }
+    if (GN_CASTER_ALPHA && alpha) nearer = gn_alpha_keeps(alpha, u, nearer);
+    for (int32_t i = 0; i < n; i++) {
+        if (!(nearer >> i & 1U)) continue;
+        if (bits == 16) row.d16[u + i] = (uint16_t)v[i];
+        else if (bits == 8) row.d8[u + i] = (uint8_t)v[i];
+        else row.d32[u + i] = v[i];
+    }
+}
+
 GN_HOT static GN_NOINLINE void span(const gn_light_view *view, const gn_caster *caster, gn_alpha_cut *alpha, int32_t v,
                                     int32_t u, int32_t u_end)
 {
@@ -80,9 +92,8 @@ GN_HOT static GN_NOINLINE void span(const gn_light_view *view, const gn_caster *
     gn_texels row = gn_texels_at(view->depth, bits, (size_t)(uint32_t)(v * view->tile_texels));
     GN_COUNT(texels_cut, alpha ? u_end - u : 0);
     GN_COUNT(texels_wide, alpha ? 0 : u_end - u);
-    for (; u < u_end; u++, z += caster->dz_du) {
-        store(row, bits, u, gn_clamp64(z, caster->lo, caster->hi) + caster->bias, alpha);
-    }
+    for (; u < u_end; u += 32, z += 32 * caster->dz_du)
+        some_texels(caster, row, bits, u, gn_min32(u_end - u, 32), z, alpha);
 }
 
 GN_HOT int32_t gn_caster_begin(const gn_frame *frame, const gn_light_view *view, gn_walk *walk, const int32_t x[3],

@@ -127,16 +127,17 @@ GN_HOT static inline uint32_t gn_linear_attenuation(const uint8_t *dark, int32_t
                                          : 1588375U); /* round(2^32 / whole) */
 }
 
-/* Attenuation of a lookup with both dark and lit texels, a byte of `dark` per row, by the scene's kernel of index k.
- * cu, cv: the receiver, half a texel down and right, Q16, of which the fraction counts. */
-GN_HOT static GN_SHARED uint32_t gn_tent_of_dark(const gn_frame *frame, const uint8_t *dark, int32_t k, int32_t cu,
-                                                 int32_t cv, int32_t bits)
+GN_INLINE uint32_t gn_tent_of_dark_inline(const uint8_t *dark, int32_t k, int32_t cu, int32_t cv, int32_t bits)
 {
     uint32_t wu[GN_TENT_TAPS_MAX], wv[GN_TENT_TAPS_MAX];
-    if (GN_LINEAR_KERNELS && frame->scene->shadow.kernel == GN_KERNEL_LINEAR)
-        return gn_linear_attenuation(dark, k, cu, cv, bits);
-    gn_tent_weights(wu, k, gn_filter_fraction(cu, bits), bits);
-    gn_tent_weights(wv, k, gn_filter_fraction(cv, bits), bits);
+    uint32_t u = gn_filter_fraction(cu, bits), v = gn_filter_fraction(cv, bits);
+    if (GN_SIZE_FIRST) {
+        gn_tent_weights(wu, k, u, bits);
+        gn_tent_weights(wv, k, v, bits);
+    } else {
+        gn_tent_weights_inline(wu, k, u, bits);
+        gn_tent_weights_inline(wv, k, v, bits);
+    }
     /* along a row <= 49 F^2 < 2^30, all <= (2k + 1)^4 F^4 <= 2401 * 2^48 */
     uint32_t whole = k == 1 ? 81 : k == 2 ? 625 : 2401;
     uint64_t sum = ((uint64_t)whole << 4 * bits) - gn_weighted(dark, 2 * (k + 1), wu, wv, 0);
@@ -144,6 +145,17 @@ GN_HOT static GN_SHARED uint32_t gn_tent_of_dark(const gn_frame *frame, const ui
                                 k == 1   ? 53024288U
                                 : k == 2 ? 6871948U
                                          : 1788824U); /* round(2^32 / whole) */
+}
+
+/* Attenuation of a lookup with both dark and lit texels, a byte of `dark` per row, by the scene's kernel of index k.
+ * cu, cv: the receiver, half a texel down and right, Q16, of which the fraction counts. */
+GN_HOT static GN_SHARED uint32_t gn_tent_of_dark(const gn_frame *frame, const uint8_t *dark, int32_t k, int32_t cu,
+                                                 int32_t cv, int32_t bits)
+{
+    if (GN_LINEAR_KERNELS && frame->scene->shadow.kernel == GN_KERNEL_LINEAR)
+        return gn_linear_attenuation(dark, k, cu, cv, bits);
+    if (k == 1 && !GN_SIZE_FIRST) return gn_tent_of_dark_inline(dark, 1, cu, cv, bits); /* without its loops */
+    return gn_tent_of_dark_inline(dark, k, cu, cv, bits);
 }
 
 /* Texel by texel. With GN_SIZE_FIRST its arrays are not on the stack while bounds decide. */

@@ -7,6 +7,7 @@
 #include "base/gn_tables.h"
 #include "shadow/gn_lookup.h"
 #include "shadow/gn_tent.h"
+#include "shadow/gn_texel_rows.h"
 #include "shadow/gn_window.h"
 
 /* ---- Comparing --------------------------------------------------------------------------------------------------- */
@@ -64,38 +65,54 @@ GN_HOT void gn_window_reads(const gn_light_view *view, int32_t lo_q16, int32_t h
     *n = ((hi_q16 + 32768) >> 16) + k + 1 - *first;
 }
 
-/* Texels of one row against depths that grow by `step` from `depth` on: bit i for texel i. */
-GN_HOT static inline void compare_16(const uint16_t *texel, int32_t n, int32_t depth_q30, int32_t step_q30,
-                                     int32_t reach_q30, uint32_t *maybe, uint32_t *surely)
+/* Part of a tile whose texels are compared, and the depth at its first one. */
+typedef struct {
+    const gn_light_view *view;
+    int32_t u, v, n;
+    int32_t depth_q30, step_q30[2];
+    int32_t reach_q30; /* so much farther than what may be before the plane is what surely is */
+} texel_rows;
+
+/* Rows of 16 bits, each before the plane moved away from the light. */
+GN_HOT static GN_NOINLINE void rows_before_16(const texel_rows *rows, uint32_t *near, const uint32_t *end)
 {
-    const uint16_t *end = texel + n;
-    uint32_t near = 0, sure = 0;
-    depth_q30 += step_q30 * n;
-    do {
-        depth_q30 -= step_q30;
-        int32_t beyond =
-            ((int32_t) * --end << 14) - depth_q30; /* of the plane, moved away from the light by the reach */
-        near = near << 1 | (uint32_t)beyond >> 31;
-        sure = sure << 1 | (uint32_t)(beyond + reach_q30) >> 31;
-    } while (end != texel);
-    *maybe = near;
-    *surely = sure;
+    const uint16_t *texel = gn_view_texels(rows->view, rows->u, rows->v).d16;
+    int32_t depth = rows->depth_q30, step = rows->step_q30[0], n = rows->n, pitch = rows->view->tile_texels;
+    for (; near != end; near++, texel += pitch, depth += rows->step_q30[1])
+        *near = gn_texels_before(texel, n, depth, step);
 }
 
-GN_HOT static void compare_row(const gn_light_view *view, int32_t u, int32_t v, int32_t n, int32_t depth_q30,
-                               int32_t step_q30, int32_t reach_q30, uint32_t *maybe, uint32_t *surely)
+/* Of texels of row j that may be before the plane, those that surely are. */
+GN_HOT static GN_NOINLINE uint32_t surely_16(const texel_rows *rows, int32_t j, uint32_t maybe)
 {
-    int32_t bits = GN_VIEW_BITS(view);
-    gn_texels row = gn_view_texels(view, u, v);
-    if (bits == 16) {
-        compare_16(row.d16, n, depth_q30, step_q30, reach_q30, maybe, surely);
-        return;
-    }
+    int32_t s = 31 - gn_clz32(maybe & (0U - maybe)), n = 32 - gn_clz32(maybe) - s, step = rows->step_q30[0],
+            depth = rows->depth_q30 - rows->reach_q30 + s * step + j * rows->step_q30[1];
+    return gn_texels_before(gn_view_texels(rows->view, rows->u + s, rows->v + j).d16, n, depth, step) << s;
+}
+
+/* Row j of texels of any size. */
+GN_HOT static void compare_row(const texel_rows *rows, int32_t j, uint32_t *maybe, uint32_t *surely)
+{
+    int32_t bits = GN_VIEW_BITS(rows->view), depth = rows->depth_q30 + j * rows->step_q30[1];
+    gn_texels row = gn_view_texels(rows->view, rows->u, rows->v + j);
     *maybe = *surely = 0;
-    for (int32_t i = n - 1; i >= 0; i--) {
-        int32_t beyond = (int32_t)(gn_texel_load(row, bits, (uint32_t)i) >> 2) - (depth_q30 + i * step_q30);
+    for (int32_t i = rows->n - 1; i >= 0; i--) {
+        int32_t beyond = (int32_t)(gn_texel_load(row, bits, (uint32_t)i) >> 2) - (depth + i * rows->step_q30[0]);
         *maybe = *maybe << 1 | (uint32_t)beyond >> 31;
-        *surely = *surely << 1 | (uint32_t)(beyond + reach_q30) >> 31;
+        *surely = *surely << 1 | (uint32_t)(beyond + rows->reach_q30) >> 31;
+    }
+}
+
+/* Which texels of n rows are dark, and which of them are in doubt. */
+GN_HOT static void compare_rows(const texel_rows *rows, int32_t n, uint32_t *dark, uint32_t *doubt)
+{
+    int by_16 = GN_VIEW_BITS(rows->view) == 16;
+    if (by_16) rows_before_16(rows, dark, dark + n);
+    for (int32_t j = 0; j < n; j++) {
+        uint32_t surely = 0;
+        if (!by_16) compare_row(rows, j, &dark[j], &surely);
+        else if (dark[j]) surely = surely_16(rows, j, dark[j]);
+        doubt[j] = dark[j] & ~surely;
     }
 }
 
@@ -108,12 +125,22 @@ GN_HOT static uint32_t repeat_border(uint32_t bits, int32_t left, int32_t n, int
     return out;
 }
 
-/* Row j beyond the tile is what row `from` is, or lit. Returns what is surely dark. */
-GN_HOT static uint32_t repeat_row(gn_window *window, int32_t j, int32_t from, int lit)
+/* Texels beyond the border repeat it, with its depth, or are lit: so do their bits. The tile has n_rows rows of the
+ * window from row `first` on, of n texels. */
+GN_HOT static GN_NOINLINE void repeat_borders(gn_window *window, int32_t left, int32_t n, int32_t first, int32_t n_rows)
 {
-    window->dark[j] = lit ? 0 : window->dark[from];
-    window->doubt[j] = lit ? 0 : window->doubt[from];
-    return window->dark[j] & ~window->doubt[j];
+    int lit = gn_border_lit(window->view);
+    int32_t right = window->w - n - left;
+    for (int32_t j = first; j < first + n_rows; j++) {
+        window->dark[j] = repeat_border(window->dark[j], left, n, right, lit);
+        window->doubt[j] = repeat_border(window->doubt[j], left, n, right, lit);
+    }
+    for (int32_t j = 0; j < window->h; j++) {
+        int32_t from = gn_max32(first, gn_min32(j, first + n_rows - 1));
+        if (j == from) continue;
+        window->dark[j] = lit ? 0 : window->dark[from];
+        window->doubt[j] = lit ? 0 : window->doubt[from];
+    }
 }
 
 /* Whether depths on the plane over w x h texels can be stepped: the first of them has `first`. */
@@ -127,6 +154,20 @@ GN_HOT static int in_range(const gn_window *window, int64_t first, int32_t apart
            hi + apart + window->behind_q30 < gn_texel_far(GN_VIEW_BITS(window->view)) >> 2;
 }
 
+/* What all rows say. */
+GN_HOT static void sum_up(gn_window *window)
+{
+    uint32_t any = 0, all = UINT32_MAX, doubts = 0;
+    for (int32_t j = 0; j < window->h; j++) {
+        any |= window->dark[j];
+        all &= window->dark[j] & ~window->doubt[j];
+        doubts |= window->doubt[j];
+    }
+    window->any = any;
+    window->all = all | (window->w < 32 ? UINT32_MAX << window->w : 0);
+    window->doubts = doubts;
+}
+
 GN_HOT int gn_window_compare(gn_window *window, const gn_window_place *place, int32_t u0, int32_t v0, int32_t w,
                              int32_t h)
 {
@@ -134,41 +175,29 @@ GN_HOT int gn_window_compare(gn_window *window, const gn_window_place *place, in
     const int32_t *slope = window->slope_q30, last = view->tile_texels - 1, last_row = GN_TILE_ROWS(view) - 1;
     int64_t du = u0 * 65536 + 32768 - place->u_q16, dv = v0 * 65536 + 32768 - place->v_q16;
     int64_t first = place->depth_q30 + ((du * slope[0] + dv * slope[1]) >> 16);
-    int64_t apart = place->apart_q30, front = window->front_q30 + apart, behind = window->behind_q30 + apart;
     window->w = 0;
     if (!in_range(window, first, place->apart_q30, w, h)) return 0;
     if (u0 + w <= 0 || v0 + h <= 0 || u0 > last || v0 > last_row) return 0;
-    /* texels beyond the border repeat it, with its depth: so do their bits */
-    int32_t ua = gn_max32(u0, 0), n = gn_min32(u0 + w - 1, last) - ua + 1, left = ua - u0, right = w - n - left;
-    int32_t va = gn_max32(v0, 0), vb = gn_min32(v0 + h - 1, last_row);
-    int32_t depth = (int32_t)(first + behind) + slope[0] * left + slope[1] * (va - v0);
-    int lit = gn_border_lit(view);
-    uint32_t any = 0, all = UINT32_MAX, doubts = 0;
-    window->depth_q30 = (int32_t)first;
+    int32_t ua = gn_max32(u0, 0), n = gn_min32(u0 + w - 1, last) - ua + 1, left = ua - u0;
+    int32_t va = gn_max32(v0, 0), n_rows = gn_min32(v0 + h - 1, last_row) - va + 1, above = va - v0;
+    const texel_rows rows = {view,
+                             ua,
+                             va,
+                             n,
+                             (int32_t)(first + window->behind_q30 + place->apart_q30) + slope[0] * left +
+                                 slope[1] * above,
+                             {slope[0], slope[1]},
+                             window->front_q30 + window->behind_q30 + 2 * place->apart_q30};
     GN_COUNT(window_texels, w * h);
-    for (int32_t v = va, j = va - v0; v <= vb; v++, j++, depth += slope[1]) {
-        uint32_t maybe, surely;
-        compare_row(view, ua, v, n, depth, slope[0], (int32_t)(front + behind), &maybe, &surely);
-        if (left | right) {
-            maybe = repeat_border(maybe, left, n, right, lit);
-            surely = repeat_border(surely, left, n, right, lit);
-        }
-        window->dark[j] = maybe;
-        window->doubt[j] = maybe & ~surely;
-        any |= maybe;
-        all &= surely;
-        doubts |= maybe & ~surely;
-    }
-    for (int32_t j = 0; j < h; j++)
-        if (v0 + j < va || v0 + j > vb) all &= repeat_row(window, j, gn_max32(va, gn_min32(v0 + j, vb)) - v0, lit);
+    window->depth_q30 = (int32_t)first;
     window->u0 = u0;
     window->v0 = v0;
     window->w = w;
     window->h = h;
-    window->plain = GN_VIEW_BITS(view) == 16 && u0 >= 0 && v0 >= 0 && u0 + w <= last + 1 && v0 + h <= last_row + 1;
-    window->any = any;
-    window->all = all | (w < 32 ? UINT32_MAX << w : 0);
-    window->doubts = doubts;
+    compare_rows(&rows, n_rows, window->dark + above, window->doubt + above);
+    window->plain = GN_VIEW_BITS(view) == 16 && n == w && n_rows == h;
+    if (n != w || n_rows != h) repeat_borders(window, left, n, above, n_rows);
+    sum_up(window);
     return 1;
 }
 
@@ -233,19 +262,22 @@ typedef struct {
     uint32_t settled[2][SETTLED_ROWS]; /* dark, doubt */
 } window_rows;
 
-/* A row's texels of 16 bits, from s on, against two levels of depth: bit i of dark[k] for texel s + i. */
-GN_HOT static inline void compare_levels(const gn_window *window, int32_t s, int32_t j, int32_t n,
-                                         const uint32_t level[2], uint32_t dark[2])
+/* What settle() finds of rows of 16 bits inside the tile: the texels of `range` are compared, n from texel s on. */
+GN_HOT static GN_NOINLINE void settle_16(window_rows *rows, int32_t h, int32_t s, int32_t n, uint32_t mask,
+                                         const uint32_t least[2])
 {
-    const uint16_t *first = gn_view_texels(window->view, window->u0 + s, window->v0 + j).d16;
-    uint32_t far = 0, near = 0;
-    for (const uint16_t *texel = first + n; texel != first;) {
-        uint32_t depth = *--texel;
-        far = gn_borrow(far, depth, level[0]);
-        near = gn_borrow(near, depth, level[1]);
+    const gn_window *window = rows->window;
+    const gn_light_view *view = window->view;
+    const uint16_t *texel = gn_view_texels(view, window->u0 + s, window->v0 + rows->v0).d16;
+    const uint32_t kept = ~((UINT32_MAX >> (32 - n)) << s), near = (least[0] + 0xFFFFU) >> 16,
+                   far = (least[1] + 0xFFFFU) >> 16;
+    for (int32_t j = 0; j < h; j++, texel += view->tile_texels) {
+        uint32_t known = rows->dark[j] & ~(rows->doubt[j] & mask) & kept, dark = gn_texels_below(texel, n, far),
+                 both = 0;
+        if (dark && near != far) both = dark ^ gn_texels_below(texel, n, near);
+        rows->settled[0][j] = known | dark << s;
+        rows->settled[1][j] = both << s;
     }
-    dark[0] = far;
-    dark[1] = near;
 }
 
 /* Columns that lookups of texels in doubt read, too. */
@@ -262,24 +294,18 @@ GN_HOT static GN_NOINLINE int settle(const gn_frame *frame, window_rows *rows, i
                                      const int32_t depth_q30[2])
 {
     const gn_window *window = rows->window;
-    uint32_t near = least_depth(frame, window->view, gn_min32(depth_q30[0], depth_q30[1])),
-             far = least_depth(frame, window->view, gn_max32(depth_q30[0], depth_q30[1]));
-    uint32_t level[2] = {(far + 0xFFFFU) >> 16, (near + 0xFFFFU) >> 16};
+    const uint32_t least[2] = {least_depth(frame, window->view, gn_min32(depth_q30[0], depth_q30[1])),
+                               least_depth(frame, window->view, gn_max32(depth_q30[0], depth_q30[1]))};
     uint32_t asked = columns_of(rows->doubts, 2 * window->view->filter_idx + 1, mask);
     int32_t s = 31 - gn_clz32(asked & (0U - asked)), n = 32 - gn_clz32(asked) - s;
-    uint32_t range = (UINT32_MAX >> (32 - n)) << s;
-    for (int32_t j = 0; j < h; j++) {
-        uint32_t dark[2] = {0, 0}, doubt = rows->doubt[j] & mask, known = rows->dark[j] & ~doubt;
-        if (window->plain) {
-            compare_levels(window, s, rows->v0 + j, n, level, dark);
-            dark[0] <<= s;
-            dark[1] <<= s;
-            known &= ~range;
-        } else if (doubt) {
-            dark[0] = compare_doubts(window, rows->v0 + j, doubt, far);
-            if (dark[0]) dark[1] = near == far ? dark[0] : compare_doubts(window, rows->v0 + j, dark[0], near);
+    if (window->plain) settle_16(rows, h, s, n, mask, least);
+    for (int32_t j = 0; j < h && !window->plain; j++) {
+        uint32_t dark[2] = {0, 0}, doubt = rows->doubt[j] & mask;
+        if (doubt) {
+            dark[0] = compare_doubts(window, rows->v0 + j, doubt, least[1]);
+            dark[1] = least[0] == least[1] ? dark[0] : compare_doubts(window, rows->v0 + j, dark[0], least[0]);
         }
-        rows->settled[0][j] = known | dark[0];
+        rows->settled[0][j] = (rows->dark[j] & ~doubt) | dark[0];
         rows->settled[1][j] = dark[0] ^ dark[1];
     }
     rows->dark = rows->settled[0];
@@ -321,6 +347,19 @@ GN_HOT static uint32_t dark_texels(const gn_frame *frame, const window_rows *row
 }
 
 #if GN_FILTER_MAX >= 2
+/* The same of 4 x 4 texels of which some may be in doubt. */
+GN_HOT static inline uint32_t dark_4x4(const gn_frame *frame, const window_rows *rows, int32_t s, int32_t j,
+                                       int32_t depth_q30, uint8_t *dark)
+{
+    const gn_window *window = rows->window;
+    const uint32_t *doubt = &rows->doubt[j - rows->v0];
+    if (GN_SIZE_FIRST || !window->plain || !((doubt[0] | doubt[1] | doubt[2] | doubt[3]) >> s & 15U))
+        return dark_texels(frame, rows, s, j, 4, depth_q30, dark);
+    return gn_kernel_dark_texels16(gn_view_texels(window->view, window->u0 + s, window->v0 + j).d16,
+                                   (size_t)window->view->tile_texels, least_depth(frame, window->view, depth_q30), 4,
+                                   dark);
+}
+
 /* 3x3, positions to 1/32 texel. */
 GN_HOT static void row_3x3(const gn_frame *frame, const window_rows *rows, int32_t u, int32_t v, int32_t depth_q30,
                            const gn_receiver_step *step, int32_t n, uint32_t *out)
@@ -338,7 +377,7 @@ GN_HOT static void row_3x3(const gn_frame *frame, const window_rows *rows, int32
         if (!(a | b | c | d)) continue;
         if (doubts >> s & 15U) {
             uint8_t dark[4];
-            if (!(dark_texels(frame, rows, s, v >> 16, 4, depth_q30, dark) & 15U)) continue;
+            if (!(dark_4x4(frame, rows, s, v >> 16, depth_q30, dark) & 15U)) continue;
             a = dark[0], b = dark[1], c = dark[2], d = dark[3];
         }
         *out = 0;

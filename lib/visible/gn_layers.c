@@ -3,8 +3,6 @@
 
 #include <string.h>
 
-#include "base/gn_count.h"
-#include "geometry/gn_alpha.h"
 #include "visible/gn_layers.h"
 
 #if GN_LAYERS_MAX
@@ -24,20 +22,14 @@ GN_HOT void gn_layers_use(const gn_frame *frame, gn_scratch *scratch)
                sizeof(uint32_t) * (uint32_t)(GN_K(frame, tile_width) * GN_K(frame, tile_height)));
 }
 
-GN_HOT void gn_layers_span(gn_scratch *scratch, int32_t n_layers, const gn_raster_depth *depth, const uint32_t *cell,
-                           int32_t n, uint32_t iz, gn_alpha_cut *cut, int32_t x)
+GN_HOT void gn_layers_put(gn_scratch *scratch, int32_t n_layers, const uint32_t *cell, uint32_t nearer)
 {
-    const int32_t first = (int32_t)(cell - GN_CELLS(scratch));
-    GN_COUNT(covered_cut, n);
-    for (int32_t i = 0; i < n; i++, iz -= depth->minus_dx) {
-        uint32_t nearer = (gn_raster_clamp(iz, depth) | depth->id_mask) - depth->below;
-        if (nearer < cell[i] || gn_alpha_cuts(cut, x + i)) continue;
-        for (int32_t k = 0; k < n_layers; k++) { /* each takes the place of the next */
-            uint32_t *at = &scratch->layers.layer[k].cell[first + i], last = *at;
-            if (nearer < last) continue;
-            *at = nearer;
-            nearer = last;
-        }
+    const int32_t i = (int32_t)(cell - GN_CELLS(scratch));
+    for (int32_t k = 0; k < n_layers; k++) { /* each takes the place of the next */
+        uint32_t *at = &scratch->layers.layer[k].cell[i], last = *at;
+        if (nearer < last) continue;
+        *at = nearer;
+        nearer = last;
     }
 }
 

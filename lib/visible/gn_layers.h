@@ -16,10 +16,8 @@ void gn_layers_clear(gn_scratch *scratch);
 /* Clears the layers before a tile's first transparent triangle. */
 void gn_layers_use(const gn_frame *frame, gn_scratch *scratch);
 
-/* Pixels of a row of a transparent triangle, from `cell` on, x of the picture, whose depth there is iz: those that
- * nothing opaque hides so far, and that alpha leaves, are put between the others of n_layers. */
-void gn_layers_span(gn_scratch *scratch, int32_t n_layers, const gn_raster_depth *depth, const uint32_t *cell,
-                    int32_t n, uint32_t iz, gn_alpha_cut *cut, int32_t x);
+/* Puts a transparent pixel between the others of n_layers: `nearer` would be in the tile's `cell` if it were opaque. */
+void gn_layers_put(gn_scratch *scratch, int32_t n_layers, const uint32_t *cell, uint32_t nearer);
 
 /* Drops what lies behind opaque surfaces, once all are known. */
 void gn_layers_drop_hidden(const gn_frame *frame, gn_scratch *scratch, int32_t n_rows);

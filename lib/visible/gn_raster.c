@@ -194,29 +194,48 @@ typedef struct gn_raster_target {
     uint32_t id_mask;
 } raster_tile;
 
-/* Pixels of a row that need a check each: alpha may cut them, or depth may leave the triangle's range. Alpha is looked
- * up only where the surface would be the nearest. */
-GN_HOT static GN_NOINLINE void raster_span_slow(const raster_depth *depth, uint32_t *cell, int32_t n, uint32_t iz,
-                                                gn_alpha_cut *cut, int32_t x)
+/* Pixels of a row whose depth may leave the triangle's range. */
+GN_HOT static GN_NOINLINE void raster_span_slow(const raster_depth *depth, uint32_t *cell, int32_t n, uint32_t iz)
 {
-    for (int32_t i = 0; i < n; i++, cell++, iz -= depth->minus_dx) {
+    GN_COUNT(covered, n);
+    for (const uint32_t *end = cell + n; cell != end; cell++, iz -= depth->minus_dx) {
         uint32_t candidate = gn_raster_clamp(iz, depth) | depth->id_mask;
-        if (candidate < *cell) continue;
-        if (GN_VISIBLE_ALPHA && cut && gn_alpha_cuts(cut, x + i)) continue;
-        *cell = candidate - depth->below;
+        if (candidate >= *cell) *cell = candidate - depth->below;
     }
-    GN_COUNT(covered_cut, cut ? n : 0);
-    GN_COUNT(covered, cut ? 0 : n);
 }
 
-/* The same, but transparent surfaces go into layers. */
-GN_HOT static inline void raster_span_checked(const raster_tile *tile, const raster_depth *depth, uint32_t *cell,
-                                              int32_t n, uint32_t iz, gn_alpha_cut *cut, int32_t x)
+#if GN_VISIBLE_ALPHA
+/* At most 32 pixels of a row that alpha may cut: it is looked up only where the surface would be the nearest.
+ * Transparent surfaces go into layers. */
+GN_HOT static void raster_cut(const raster_tile *tile, const raster_depth *depth, uint32_t *cell, int32_t n,
+                              uint32_t iz, gn_alpha_cut *cut, int32_t x)
 {
-    if (GN_LAYERS_MAX && cut && cut->mode == GN_ALPHA_BLEND)
-        gn_layers_span(tile->scratch, GN_LAYERS(tile->frame), depth, cell, n, iz, cut, x);
-    else raster_span_slow(depth, cell, n, iz, cut, x);
+    uint32_t bits = 0, at = iz;
+    for (int32_t i = 0; i < n; i++, at -= depth->minus_dx)
+        if ((gn_raster_clamp(at, depth) | depth->id_mask) >= cell[i]) bits |= 1U << i;
+    for (bits = gn_alpha_keeps(cut, x, bits); bits; bits >>= 1, cell++, iz -= depth->minus_dx) {
+        if (!(bits & 1U)) continue;
+        uint32_t nearest = (gn_raster_clamp(iz, depth) | depth->id_mask) - depth->below;
+        if (GN_LAYERS_MAX && cut->mode == GN_ALPHA_BLEND)
+            gn_layers_put(tile->scratch, GN_LAYERS(tile->frame), cell, nearest);
+        else *cell = nearest;
+    }
 }
+
+GN_HOT static GN_NOINLINE void raster_span_cut(const raster_tile *tile, const raster_depth *depth, uint32_t *cell,
+                                               int32_t n, uint32_t iz, gn_alpha_cut *cut, int32_t x)
+{
+    GN_COUNT(covered_cut, n);
+    for (; n > 0; n -= 32, cell += 32, x += 32, iz -= 32 * depth->minus_dx)
+        raster_cut(tile, depth, cell, gn_min32(n, 32), iz, cut, x);
+}
+#else
+GN_HOT static void raster_span_cut(const raster_tile *tile, const raster_depth *depth, uint32_t *cell, int32_t n,
+                                   uint32_t iz, gn_alpha_cut *cut, int32_t x)
+{
+    (void)tile, (void)depth, (void)cell, (void)n, (void)iz, (void)cut, (void)x;
+}
+#endif
 
 /* A small triangle without alpha whose depth needs no bounds (gn_tri): its edges are stepped in fixed point, row by
  * row. */
@@ -339,9 +358,10 @@ GN_HOT static void raster_triangle(const raster_tile *tile, const gn_tri *tri, u
                 raster_span(row + xa, n, above + depth.lo + (uint32_t)(n - 1) * iz_dx, &depth);
                 continue;
             }
-            if (GN_VISIBLE_ALPHA && cut) cut_row(tile, cut, (int32_t)(row - GN_CELLS(tile->scratch)) / stride, span);
-            /* with the same results */
-            raster_span_checked(tile, &depth, row + xa, n, above + depth.lo, cut, tile->rect.x0 + xa);
+            if (GN_VISIBLE_ALPHA && cut) {
+                cut_row(tile, cut, (int32_t)(row - GN_CELLS(tile->scratch)) / stride, span);
+                raster_span_cut(tile, &depth, row + xa, n, above + depth.lo, cut, tile->rect.x0 + xa);
+            } else raster_span_slow(&depth, row + xa, n, above + depth.lo); /* with the same results */
         }
     }
 }

@@ -114,13 +114,25 @@ typedef struct {
     unsigned long n, n_held;
 } outcome;
 
+/* Texture coordinates of the pixel k beyond x; returns for how many from x on they are told. */
+static int32_t coordinates_at(gn_alpha_cut *cut, int32_t x, int32_t k, int32_t uv_q20[2])
+{
+    gn_texture_curve curve;
+    int32_t n = gn_alpha_coords(cut, x, &curve);
+    for (int i = 0; i < 2; i++) {
+        int64_t sum = curve.at_q24[i] + (int64_t)k * curve.step_q24[i] + (int64_t)(k * (k - 1) / 2) * curve.bend_q24[i];
+        uv_q20[i] = (int32_t)(uint32_t)(curve.from_q20[i] + (sum >> 4));
+    }
+    return n;
+}
+
 static void try_row(outcome *out, triangle *t, int32_t y, int32_t x0, int n, int step)
 {
     gn_alpha_row(&t->cut, y, HEIGHT - 1 - 2 * y, x0, x0 + n);
     for (int32_t x = x0; x < x0 + n; x += 1 + (int32_t)rng_below(&random_state, 2)) { /* as some are hidden */
         int32_t uv_q20[2];
         double b[3], ill = barycentrics(t, x, y, b);
-        gn_alpha_coords(&t->cut, x, uv_q20);
+        coordinates_at(&t->cut, x, 0, uv_q20);
         out->n++;
         out->n_held += step > 1 && t->cut.steps.hold;
         for (int k = 0; k < 2; k++) {
@@ -165,12 +177,15 @@ static void test_tiles(void)
         int n = inside(&t, y, &x0);
         if (!n) continue;
         gn_alpha_row(&t.cut, y, HEIGHT - 1 - 2 * y, x0, x0 + n);
-        for (int32_t x = x0; x < x0 + n; x++) gn_alpha_coords(&t.cut, x, whole[x]);
+        for (int32_t x = x0; x < x0 + n; x++) coordinates_at(&t.cut, x, 0, whole[x]);
         for (int32_t x = x0 + n - 1; x >= x0;
              x -= 1 + (int32_t)rng_below(&random_state, 12)) { /* in any order, with any left out */
-            int32_t uv_q20[2];
-            gn_alpha_coords(&t.cut, x, uv_q20);
+            int32_t uv_q20[2], n_on = coordinates_at(&t.cut, x, 0, uv_q20);
             HOLDS(&same, memcmp(uv_q20, whole[x], sizeof uv_q20) == 0, "x %d", (int)x);
+            for (int32_t k = 1; k < n_on; k++) {
+                coordinates_at(&t.cut, x, k, uv_q20);
+                HOLDS(&same, memcmp(uv_q20, whole[x + k], sizeof uv_q20) == 0, "x %d, %d on", (int)x, (int)k);
+            }
         }
     }
     CHECK_TALLY(same, "coordinates do not depend on what was found before");

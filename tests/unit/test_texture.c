@@ -188,6 +188,32 @@ static void try_lookup(verdict *result, const gn_texture *t)
     }
 }
 
+/* Along a curve every pixel has the alpha of its coordinates. */
+static void try_curve(tally *same, const gn_texture *t)
+{
+    gn_texture_curve curve;
+    uint32_t alpha[GN_TEXTURE_CURVE_MAX + 1];
+    int32_t n = rng_range(&random_state, 1, GN_TEXTURE_CURVE_MAX);
+    for (int i = 0; i < 2; i++) {
+        curve.from_q20[i] = random_coordinate(side(t, i));
+        curve.at_q24[i] = rng_range(&random_state, -(1 << 20), 1 << 20);
+        curve.step_q24[i] = rng_range(&random_state, -(1 << 22), 1 << 22) >> rng_below(&random_state, 8);
+        curve.bend_q24[i] = curve.step_q24[i] / rng_range(&random_state, 9, 90);
+    }
+    alpha[n] = 0xDEADBEEFU;
+    gn_texture_alphas(t, &curve, n, alpha);
+    for (int32_t k = 0; k < n; k++) {
+        uint32_t c[2];
+        for (int i = 0; i < 2; i++)
+            c[i] = (uint32_t)curve.from_q20[i] +
+                   (uint32_t)((curve.at_q24[i] + k * curve.step_q24[i] + k * (k - 1) / 2 * curve.bend_q24[i]) >> 4);
+        HOLDS(same, alpha[k] == gn_texture_alpha(t, (int32_t)c[0], (int32_t)c[1]),
+              "format %d, %dx%d, flags %d, (%d, %d): pixel %d of %d", (int)t->format, (int)side(t, 0), (int)side(t, 1),
+              (int)t->flags, (int)c[0], (int)c[1], (int)k, (int)n);
+    }
+    HOLDS(same, alpha[n] == 0xDEADBEEFU, "more than %d written", (int)n);
+}
+
 #if GN_INTERPOLATES
 /* A row of pixels: texels of the oracle, weighted with what 8 bits leave of the place. Rounded down once, and each
  * texel to the nearest: NUMERICS 4.12. */
@@ -232,7 +258,7 @@ static void try_row(tally *close, tally *kept, const gn_texture *t)
 static void test_lookups(void)
 {
     static verdict result;
-    tally row = {0}, kept = {0};
+    tally row = {0}, kept = {0}, curve = {0};
     for (uint32_t i = 0; i < 3003; i++) {
         gn_texture t = {.format = (uint8_t)(i % GN_TEXTURE_FORMAT_COUNT)};
         int large = i >= 3000; /* 4096 texels on one side or both */
@@ -249,6 +275,7 @@ static void test_lookups(void)
         }
         for (t.flags = 0; t.flags < 8; t.flags++) {
             for (int k = 0; k < (large ? 20000 : 12); k++) try_lookup(&result, &t);
+            for (int k = 0; k < (large ? 2000 : 12); k++) try_curve(&curve, &t);
 #if GN_INTERPOLATES
             for (int k = 0; k < (large ? 300 : 2); k++) try_row(&row, &kept, &t);
 #endif
@@ -257,6 +284,7 @@ static void test_lookups(void)
     }
     CHECK_TALLY(result.nearest, "nearest: the rounded value of the right texel");
     CHECK_TALLY(result.bilinear, "bilinear alpha");
+    CHECK_TALLY(curve, "alphas along a curve");
     CHECK_TALLY(result.colour_nearest, "nearest colour");
     CHECK_TALLY(result.colour_bilinear, "bilinear colour");
 #if GN_INTERPOLATES
