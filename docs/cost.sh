@@ -28,7 +28,7 @@ speed() {
             if ($1 == "core") cycles[$2] = $4
             next
         }
-        $1 != "scene" { next }
+        $1 != "scene" || $13 != 320 * 240 { next }
         {
             total = 0
             for (i = 5; i <= 12; i++) total += $i

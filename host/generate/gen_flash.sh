@@ -71,3 +71,17 @@ for feature in $features; do
 done
 row preset_accurate "quality of preset accurate" $(flags $typical) -DGN_PRESET=GN_PRESET_ACCURATE
 row linear "srgb 0" $(flags $typical) -DGN_SRGB=0
+
+# Compact arithmetic, and what more than that
+compact() { # compact NAME COMMENT FLAGS...
+    name=$1 comment=$2
+    shift 2
+    for cpu in m0 m4; do
+        eval "$cpu"=$(size cortex-$cpu -DGN_COMPACT=1 -DGN_VALIDATION=0 -DGN_AUTO_BIAS=0)
+    done
+    row "$name" "$comment" -DGN_COMPACT=1 "$@"
+}
+row compact "compact arithmetic" -DGN_COMPACT=1 -DGN_VALIDATION=0 -DGN_AUTO_BIAS=0
+compact compact_validation "with" -DGN_VALIDATION=1 -DGN_AUTO_BIAS=0
+compact compact_auto_bias "with" -DGN_VALIDATION=0 -DGN_AUTO_BIAS=1
+compact compact_linear "srgb 0" -DGN_VALIDATION=0 -DGN_AUTO_BIAS=0 -DGN_SRGB=0

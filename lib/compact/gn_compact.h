@@ -44,9 +44,12 @@ int gn_compact_project(gn_compact_corner *corner, const gn_compact_view *view, c
 int gn_compact_clip(gn_compact_polygon *polygon, gn_compact_polygon *spare, int n, const gn_compact_view *view);
 
 /* From keys of the light, Q18 texels, to steps of depth: a tile's width is 2^16 of them. */
-#define GN_COMPACT_TILE_LOG2                                                                                           \
-    (GN_ATLAS_SIZE == 16 ? 4 : GN_ATLAS_SIZE == 32 ? 5 : GN_ATLAS_SIZE == 64 ? 6 : GN_ATLAS_SIZE == 128 ? 7 : 8)
-#define GN_COMPACT_STEP_SHIFT (GN_COMPACT_TILE_LOG2 + 2)
+#define GN_COMPACT_STEP_SHIFT(frame)                                                                                   \
+    (GN_K(frame, atlas_size) == 16    ? 6                                                                              \
+     : GN_K(frame, atlas_size) == 32  ? 7                                                                              \
+     : GN_K(frame, atlas_size) == 64  ? 8                                                                              \
+     : GN_K(frame, atlas_size) == 128 ? 9                                                                              \
+                                      : 10)
 
 /* U, V, D of a corner that the light has projected: texels, Q16. */
 static inline void gn_compact_place(int32_t out_q16[3], const gn_compact_corner *corner)
@@ -60,6 +63,7 @@ static inline void gn_compact_place(int32_t out_q16[3], const gn_compact_corner 
 
 /* The cells or texels that triangles are drawn into: one of them, of `rect` of the raster. */
 typedef struct {
+    const gn_frame *frame;
     gn_rect rect;
     uint32_t *cell;
     uint16_t *texel;

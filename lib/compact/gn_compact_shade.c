@@ -77,15 +77,15 @@ static int point_at(const gn_frame *frame, const gn_tri *tri, int32_t x, int32_t
     return 1;
 }
 
-/* What the light's shadow leaves of it. */
-static uint32_t shadow_at(const gn_frame *frame, const surface *s, int32_t x, int32_t y)
+/* The receiver's place in the shadow tile. Returns how much of the shadow is left at its distance. */
+static uint32_t receiver_at(const gn_frame *frame, const surface *s, int32_t x, int32_t y, int32_t at[3])
 {
     gn_compact_corner corner;
-    int32_t p[3], at[3];
+    int32_t p[3];
     int64_t rest = (int64_t)frame->radius2_q32;
-    if (!point_at(frame, s->tri, x, y, p)) return ONE_UQ16;
+    if (!point_at(frame, s->tri, x, y, p)) return 0;
     uint32_t strength = share_uq16(&frame->distance, frame->scene->shadow.max_distance_q16 + p[2]);
-    if (!strength || !gn_compact_transform(at, &frame->to_light, p)) return ONE_UQ16;
+    if (!strength || !gn_compact_transform(at, &frame->to_light, p)) return 0;
     gn_compact_project(&corner, &frame->view[0].project, at);
     gn_compact_place(at, &corner);
     for (int i = 0; i < 3; i++) {
@@ -93,18 +93,79 @@ static uint32_t shadow_at(const gn_frame *frame, const surface *s, int32_t x, in
         rest -= d * d;
         at[i] += s->offset_q16[i];
     }
-    if (rest <= 0) return ONE_UQ16;
-    strength = gn_mul_uq16(strength, share_uq16(&frame->sphere, (int32_t)(rest >> 16)));
-    const int32_t last = GN_ATLAS_SIZE - 1;
+    if (rest <= 0) return 0;
+    return gn_mul_uq16(strength, share_uq16(&frame->sphere, (int32_t)(rest >> 16)));
+}
+
+/* What the light's shadow leaves of it. */
+static uint32_t shadow_at(const gn_frame *frame, const surface *s, int32_t x, int32_t y)
+{
+    int32_t at[3];
+    uint32_t strength = receiver_at(frame, s, x, y, at);
+    if (!strength) return ONE_UQ16;
+    const int32_t last = GN_K(frame, atlas_size) - 1;
     int32_t u = gn_max32(gn_min32(at[0] >> 16, last), 0), v = gn_max32(gn_min32(at[1] >> 16, last), 0);
-    int32_t depth = gn_min32(at[2] >> (GN_COMPACT_STEP_SHIFT - 2), 65535);
-    if (depth <= frame->atlas[v * GN_ATLAS_SIZE + u]) return ONE_UQ16;
+    int32_t depth = gn_min32(at[2] >> (GN_COMPACT_STEP_SHIFT(frame) - 2), 65535);
+    if (depth <= frame->atlas[v * GN_K(frame, atlas_size) + u]) return ONE_UQ16;
     return ONE_UQ16 - gn_mul_uq16(strength, frame->scene->lights->shadow_strength_uq16);
 }
+
+#if GN_RAW_VIEWS
+/* The normal in the world, 10 bits per axis; without a light none is known. */
+static uint32_t raw_normal(const gn_frame *frame, const gn_tri *tri)
+{
+    uint32_t packed = 0;
+    for (int i = 0; i < 3; i++) {
+        int64_t sum = 0;
+        for (int k = 0; k < 3; k++) sum += (int64_t)frame->view[0].project.axis_q30[k][i] * tri->normal_q14[k];
+        const int32_t n = (int32_t)(((sum >> 30) * 511 + 8192) >> 14);
+        packed = packed << 10 | (uint32_t)(512 + gn_max32(gn_min32(n, 511), -511));
+    }
+    return packed;
+}
+
+/* A pixel of a raw view: gn_view. */
+static uint32_t raw_at(const gn_frame *frame, const surface *s, const gn_tri *tri, int32_t x, int32_t y)
+{
+    int32_t p[3];
+    switch (frame->picture.view) {
+    case GN_VIEW_SHADOW:
+        return s->tri ? shadow_at(frame, s, x, y) : tri->normal_q14[2] < 0 ? ONE_UQ16 : 0;
+    case GN_VIEW_DEPTH:
+        return point_at(frame, tri, x, y, p) ? (uint32_t)-p[2] : GN_COMPACT_LENGTH_Q16;
+    case GN_VIEW_CASCADE:
+        return s->tri && receiver_at(frame, s, x, y, p) ? 0 : 4;
+    case GN_VIEW_NORMAL:
+        return raw_normal(frame, tri);
+    default:
+        return (uint32_t)tri->object_idx << 16 | tri->triangle_idx;
+    }
+}
+
+static void raw_tile(const gn_frame *frame, gn_scratch *scratch, const gn_rect *rect)
+{
+    const uint32_t *cell = scratch->cell;
+    uint32_t *raw = scratch->pixel.raw;
+    for (int32_t y = rect->y0; y < rect->y1; y++) {
+        for (int32_t x = rect->x0; x < rect->x1; x++) {
+            const uint32_t id = *cell++ & ((1U << frame->id_bits) - 1);
+            surface s;
+            surface_begin(frame, &s, id);
+            *raw++ = id ? raw_at(frame, &s, gn_cell_tri(frame, id), x, y) : UINT32_MAX;
+        }
+    }
+}
+#endif
 
 void gn_shade_tile(const gn_frame *frame, gn_scratch *scratch, uint32_t tile_idx)
 {
     gn_rect rect = gn_screen_rect(frame, tile_idx);
+#if GN_RAW_VIEWS
+    if (frame->picture.format == GN_FORMAT_RAW32) {
+        raw_tile(frame, scratch, &rect);
+        return;
+    }
+#endif
     uint32_t last = UINT32_MAX, light = ONE_UQ16, packed = 0;
     const uint32_t *cell = scratch->cell;
     uint16_t *pixel = scratch->pixel.rgb565;

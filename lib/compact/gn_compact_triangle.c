@@ -149,6 +149,9 @@ static void emit(gn_frame *frame, gn_compact_job *job, const gn_compact_view *vi
     } else {
         tri->object_idx = (uint16_t)object_idx;
         for (int i = 0; i < 3; i++) tri->normal_q14[i] = job->normal_q14[i];
+#if GN_RAW_VIEWS
+        tri->triangle_idx = job->tri.triangle_idx;
+#endif
         frame->stats.n_triangles++;
     }
 }
@@ -159,6 +162,9 @@ static gn_status triangle(gn_frame *frame, gn_compact_job *job, const gn_compact
     gn_status status = fetch(job, frame->scene->objects[object_idx].mesh, idx);
     if (status) return status;
     if (!raster) compact_face_normal(job->normal_q14, frame, job->polygon.v_q16);
+#if GN_RAW_VIEWS
+    job->tri.triangle_idx = (uint16_t)((idx - frame->scene->objects[object_idx].mesh->idx) / 3);
+#endif
     int n = gn_compact_clip(&job->polygon, &job->spare, 3, view);
     for (int i = 0; i < n; i++) { /* a fan */
         if (!gn_compact_project(&job->corner[gn_min32(i, 2)], view, job->polygon.v_q16[i])) return GN_ERR_VERTEX_RANGE;
@@ -202,7 +208,8 @@ gn_status gn_atlas_render_tile(gn_frame *frame, gn_casting *casting, uint32_t vi
 {
     (void)memory, (void)n_words;
     const gn_light_view *view = &frame->view[view_idx];
-    gn_compact_raster raster = {{0, 0, GN_ATLAS_SIZE, GN_ATLAS_SIZE}, NULL, frame->atlas, 0, 0, 0};
+    gn_compact_raster raster = {
+        frame, {0, 0, GN_K(frame, atlas_size), GN_K(frame, atlas_size)}, NULL, frame->atlas, 0, 0, 0};
     memset(frame->atlas, 0xFF, sizeof frame->atlas);
     return objects(frame, casting, &view->project, &raster);
 }
@@ -251,7 +258,8 @@ void gn_compact_draw(const gn_compact_raster *raster, const gn_tri *tri)
                         ((uint32_t)gn_max32((int32_t)key, 0) << 1 >> raster->id_bits << raster->id_bits) + raster->id;
                     if (cell > raster->cell[at]) raster->cell[at] = cell;
                 } else { /* pancaking [D9]; what lies beyond the range stays out */
-                    uint32_t depth = (uint32_t)(gn_max32(-(int32_t)key, 0) + raster->bias) >> GN_COMPACT_STEP_SHIFT;
+                    uint32_t depth =
+                        (uint32_t)(gn_max32(-(int32_t)key, 0) + raster->bias) >> GN_COMPACT_STEP_SHIFT(raster->frame);
                     if (depth < raster->texel[at]) raster->texel[at] = (uint16_t)depth;
                 }
             }
@@ -265,7 +273,7 @@ void gn_compact_draw(const gn_compact_raster *raster, const gn_tri *tri)
 
 void gn_raster_tile(const gn_frame *frame, gn_scratch *scratch, uint32_t tile_idx)
 {
-    gn_compact_raster raster = {gn_screen_rect(frame, tile_idx), scratch->cell, NULL, 0, frame->id_bits, 0};
+    gn_compact_raster raster = {frame, gn_screen_rect(frame, tile_idx), scratch->cell, NULL, 0, frame->id_bits, 0};
     memset(scratch->cell, 0, sizeof scratch->cell);
     for (uint32_t i = 0; i < frame->stats.n_triangles; i++) {
         raster.id = gn_cell_id(frame, i);

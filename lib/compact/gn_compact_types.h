@@ -70,6 +70,9 @@ typedef struct {
     int32_t frac_bits;        /* 8, or 0 where steep */
     int16_t normal_q14[3];    /* of the face, in the light's axes, towards the viewer */
     uint16_t object_idx;
+#if GN_RAW_VIEWS
+    uint16_t triangle_idx; /* in its mesh */
+#endif
 } gn_tri;
 
 /* Along the projector's axes. */
@@ -97,6 +100,9 @@ typedef union {
 } gn_work;
 
 typedef struct gn_frame {
+#if GN_RUNTIME_KNOBS
+    gn_knobs knobs;
+#endif
     const gn_scene *scene;
     gn_picture picture;
     uint8_t stage;   /* gn_stage in gn_stages.h */

@@ -175,7 +175,7 @@ static int fit_sphere(const gn_frame *frame, int32_t *centre, int32_t *radius)
  * significant digits. */
 static uint32_t fit_texel(const gn_frame *frame, gn_compact_view *view, int32_t radius_q28, int32_t reach_q16)
 {
-    const int32_t t_q16 = GN_ATLAS_SIZE << 16;
+    const int32_t t_q16 = GN_K(frame, atlas_size) << 16;
     uint64_t product = (uint64_t)(uint32_t)radius_q28 * (uint32_t)frame->scene->shadow.max_distance_q16; /* Q44 */
     int32_t sphere_q16 = gn_max32(t_q16 - 2 * (65536 + reach_q16) - 65536, t_q16 / 4);
     int32_t product_clz = gn_clz64(product), clz = gn_clz32((uint32_t)sphere_q16), exp = 37 - product_clz + clz;
@@ -210,7 +210,7 @@ static int compact_place_tile(const gn_frame *frame, gn_compact_view *view, uint
         int32_t part =
             (int32_t)((uint32_t)((((int64_t)place_q16 * (int64_t)view->scale) >> view->shift) + 32768) & 65535U) -
             32768;
-        if (k == 2) part += GN_ATLAS_SIZE << 15;
+        if (k == 2) part += GN_K(frame, atlas_size) << 15;
         along_q16[k] = place_q16 - (((int64_t)part * (int64_t)(digits << 8)) >> (47 - view->shift));
     }
     for (int i = 0; i < 3; i++) {
@@ -248,7 +248,8 @@ static int32_t receiver_reach(gn_frame *frame, const gn_light *light)
     frame->offset_q16 = (int32_t)gn_compact_mul((uint32_t)light->bias_normal_q16, 0xB504F334U, 0)
                         << 1; /* sqrt(2) 2^31 */
     frame->flat_offset_q16 = 0;
-    if (GN_AUTO_BIAS && gn_scene_auto_bias(light)) return 92877 + GN_ATLAS_SIZE; /* sqrt(2) (1 + delta) + T 2^-16 */
+    if (GN_AUTO_BIAS && gn_scene_auto_bias(light))
+        return 92877 + GN_K(frame, atlas_size); /* sqrt(2) (1 + delta) + T 2^-16 */
     return frame->offset_q16;
 }
 
@@ -259,7 +260,7 @@ static void auto_offsets(gn_frame *frame, const gn_light *light, int32_t max_q16
     int32_t epsilon = 512 + compact_texels_q16(view, 8) +
                       (int32_t)(((int64_t)compact_texels_q16(view, max_q16) * frame->per_px_q29) >> 36);
     frame->offset_q16 = 32768 + 138 + epsilon; /* R + delta + epsilon_r */
-    frame->flat_offset_q16 = GN_ATLAS_SIZE + GN_ATLAS_SIZE / 64 + 11 + epsilon;
+    frame->flat_offset_q16 = GN_K(frame, atlas_size) + GN_K(frame, atlas_size) / 64 + 11 + epsilon;
 }
 
 static gn_status fit_light(gn_frame *frame, const gn_light *light)
@@ -275,7 +276,7 @@ static gn_status fit_light(gn_frame *frame, const gn_light *light)
     if ((uint32_t)(project->shift - 24) > 22) return GN_ERR_SHADOW_DISTANCE; /* texels of 2^-8 units or more */
     /* a texel is digits 2^(shift - 23) */
     project->guard = project->shift > 33 ? 1 << 30 : (int32_t)(digits * GUARD_PX) << (project->shift - 23);
-    project->size[0] = project->size[1] = GN_ATLAS_SIZE;
+    project->size[0] = project->size[1] = GN_K(frame, atlas_size);
     project->flags = project->mask = GN_OBJECT_CASTS;
     project->two_sided = GN_OBJECT_TWO_SIDED | GN_OBJECT_CASTS_TWO_SIDED;
     int32_t centre_q16 = (int32_t)(((int64_t)centre_q28 * max_q16) >> 28);
@@ -295,7 +296,7 @@ static gn_status fit_light(gn_frame *frame, const gn_light *light)
     share_of(&frame->distance, (int32_t)(((uint64_t)(uint32_t)max_q16 * shadow->distance_fade_uq16) >> 16));
     if (GN_AUTO_BIAS) auto_offsets(frame, light, max_q16);
     view->depth.d16 = frame->atlas;
-    view->tile_texels = GN_ATLAS_SIZE;
+    view->tile_texels = (uint16_t)GN_K(frame, atlas_size);
     view->tile_done = 0;
     return GN_OK;
 }

@@ -55,6 +55,15 @@ scenes() { # scenes CORE PRESET...
     done
 }
 
+# Compact arithmetic beside the general one with the same shadows, in a small picture
+small() {
+    for scene in sundial avenue; do
+        flags="--size 128x96 --set output=rgb565 --set cascades=1 --set filter=hard"
+        one "scene M3 $scene,128x96,hard balanced" "bench-M3-$scene-hard" M3 0 SCENE="host/scenes/$scene.gltf" SCENE_FLAGS="$flags"
+        one "scene M3 $scene,128x96,hard compact" "bench-M3-$scene-compact" M3 0 SCENE="host/scenes/$scene.gltf" SCENE_FLAGS="$flags --set compact=1"
+    done
+}
+
 measure() { # measure QUICK
     echo "# Written by tests/bench/bench_target.sh --write. Instructions of: $STAGES; then pixels, triangles, caster triangles, shadow texels drawn."
     echo "compiler $(arm-none-eabi-gcc --version | sed 1q); $(riscv64-unknown-elf-gcc --version | sed 1q)"
@@ -63,6 +72,7 @@ measure() { # measure QUICK
     [ "$1" = quick ] && return
     for core in M3-fast M0 M4 RV32; do workload "$core"; done
     scenes M3 tiny fast balanced accurate
+    small
     for core in M0 M4 RV32; do scenes "$core" balanced; done
 }
 

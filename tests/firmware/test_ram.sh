@@ -105,6 +105,10 @@ if [ -n "$target" ]; then
         predicted $preset transparent_layers=1 triangle_groups=8 shadows=0
         predicted $preset atlas_texels=8192 other_atlas_texels=64 static_layer=1
     done
+    compact="compact=1 max_width=256 max_lights=1 max_shadow_tiles=1"
+    predicted tiny $compact
+    predicted tiny $compact max_triangles=7 atlas_size=16 tile_width=24 tile_height=5
+    predicted accurate $compact max_objects=1 validation=0 auto_bias=0
 fi
 # the promise of lib/gnomon.h: directional lights alone, which need no other atlas
 if size_is '<= 73728' -DGN_PRESET=GN_PRESET_BALANCED -DGN_MAX_WIDTH=320 -DGN_MAX_HEIGHT=240 -DGN_ATLAS_SIZE=128 -DGN_MAX_TRIANGLES=500 \

@@ -230,7 +230,7 @@ static double light_at(const gn_frame *frame, const surface *s, const lit_place 
     int at[2];
     for (int k = 0; k < 3; k++) rest -= pow(p->at[k] - frame->centre_q16[k], 2) / 65536;
     const double radius = sqrt(ldexp((double)frame->radius2_q32, -16)) * 256, error = p->error * 8 * radius / 65536;
-    const double depth = (p->at[2] + s->offset_q16[2]) / (1 << (GN_COMPACT_STEP_SHIFT - 2));
+    const double depth = (p->at[2] + s->offset_q16[2]) / (1 << (GN_COMPACT_STEP_SHIFT(frame) - 2));
     for (int k = 0; k < 2; k++) {
         const double texel = (p->at[k] + s->offset_q16[k]) / 65536;
         at[k] = (int)fmax(fmin(floor(texel), GN_ATLAS_SIZE - 1), 0);

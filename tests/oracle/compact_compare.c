@@ -1,6 +1,6 @@
 /* Compact arithmetic (GN_COMPACT) against the reference: the project's scenes, reduced to what it can draw, and random
- * ones. tests/oracle/test_compact.sh builds the compact library beside the host's own.
- * usage: compact_compare [--table] [-o PREFIX]
+ * ones, as the tool draws them with compact=1.
+ * usage: compact_compare [--table] [--srgb] [-o PREFIX]
  * --table prints the table of docs/ACCURACY.md. -o writes PREFIXSCENE-compact.png and PREFIXSCENE-reference.png of each
  * scene's first view. */
 #include <math.h>
@@ -9,45 +9,14 @@
 
 #include "../host/scene/image/png.h"
 #include "../host/tool/picture/metrics.h"
-#include "../host/tool/fixed/quantise.h"
-#include "compact_engine.h"
 #include "ref_fixture.h"
 
 enum { N_VIEWS = 20, N_RANDOM = 60, WIDTH = 256, HEIGHT = 192 };
 
 static int table;
-static const char *prefix;
+static const char *prefix, *srgb = "srgb=0";
 
 /* ---- Pictures ---------------------------------------------------------------------------------------------------- */
-
-/* 8-bit channels from RGB565, for the metrics: 5 bits are 0..31, 6 bits 0..63. */
-static void expand(engine_picture *p)
-{
-    for (size_t i = 0; i < (size_t)(p->width * p->height); i++) {
-        unsigned v = p->rgb565[i];
-        p->rgb8[3 * i] = (uint8_t)(((v >> 11) * 255 + 15) / 31);
-        p->rgb8[3 * i + 1] = (uint8_t)(((v >> 5 & 63) * 255 + 31) / 63);
-        p->rgb8[3 * i + 2] = (uint8_t)(((v & 31) * 255 + 15) / 31);
-    }
-}
-
-/* The compact library's picture: RGB565, triangles, and the light's attenuation. */
-static gn_status draw(engine_picture *out, const gn_scene *what)
-{
-    const size_t n = WIDTH * HEIGHT;
-    uint32_t *shadow = malloc(4 * n);
-    *out = (engine_picture){.width = WIDTH, .height = HEIGHT, .n_lights = 1};
-    out->rgb565 = malloc(2 * n);
-    out->rgb8 = malloc(3 * n);
-    out->triangle = malloc(8 * n);
-    out->shadow[0] = malloc(8 * n);
-    if (!shadow || !out->rgb565 || !out->rgb8 || !out->triangle || !out->shadow[0]) abort();
-    gn_status status = compact_render(what, WIDTH, HEIGHT, out->rgb565, out->triangle, shadow);
-    for (size_t i = 0; !status && i < n; i++) out->shadow[0][i] = shadow[i] / 65536.0;
-    if (!status) expand(out);
-    free(shadow);
-    return status;
-}
 
 static void write_pictures(const engine_picture *fixed, const engine_picture *reference, const char *name)
 {
@@ -58,24 +27,22 @@ static void write_pictures(const engine_picture *fixed, const engine_picture *re
     CHECK_EQ_INT(png_write_rgb8(path, WIDTH, HEIGHT, reference->rgb8, error, sizeof error), 0);
 }
 
-/* Metrics between the two engines' pictures of a scene. name: of the pictures that -o asks for, or NULL. */
-static gn_status compare(metrics *m, const scene *s, settings *set, const char *name)
+/* Metrics between the two engines' pictures of a scene, both as RGB565. name: of the pictures that -o asks for, or
+ * NULL. Returns 0, or -1 if it is refused. */
+static int compare(metrics *m, const scene *s, const settings *set, const char *name)
 {
     char error[512] = "";
-    fixed_scene f;
     engine_picture fixed, reference;
-    if (quantise_scene(&f, s, error, sizeof error)) abort();
-    gn_status status = draw(&fixed, &f.scene);
-    quantise_free(&f);
-    if (!status) {
-        if (engine_reference(&reference, s, set, WIDTH, HEIGHT, error, sizeof error)) abort();
-        expand(&reference); /* both pictures are compared after RGB565 */
-        metrics_compute(m, &fixed, &reference);
-        if (prefix && name) write_pictures(&fixed, &reference, name);
-        engine_free(&reference);
+    if (engine_fixed(&fixed, s, set, WIDTH, HEIGHT, ENGINE_ALL, error, sizeof error)) {
+        printf("  %s\n", error);
+        return -1;
     }
+    if (engine_reference(&reference, s, set, WIDTH, HEIGHT, error, sizeof error)) abort();
+    metrics_compute(m, &fixed, &reference);
+    if (prefix && name) write_pictures(&fixed, &reference, name);
+    engine_free(&reference);
     engine_free(&fixed);
-    return status;
+    return 0;
 }
 
 /* ---- Floors ------------------------------------------------------------------------------------------------------ */
@@ -120,12 +87,9 @@ static void report(series *all, const char *what)
 
 /* ---- Own scenes -------------------------------------------------------------------------------------------------- */
 
-/* What compact arithmetic has: one cascade, the hard filter, an atlas of a single tile. */
 static settings settings_for(scene *s)
 {
-    static const char *const sets[] = {"filter=hard",   "cascades=1", "atlas_size=128",         "fit=stable",
-                                       "tiles=equal",   SRGB,         "shadow_subpixel_bits=8", "weight_bits=12",
-                                       "newton_steps=1"};
+    const char *const sets[] = {"compact=1", "atlas_size=128", srgb};
     char error[512] = "";
     settings set;
     settings_init(&set);
@@ -183,7 +147,7 @@ static void own_scene(const char *name, int frame)
     for (int n = 0; n < N_VIEWS; n++) {
         metrics m;
         if (n) swing(&s, n, &original);
-        if (CHECK_EQ_INT(compare(&m, &s, &set, n ? NULL : name), GN_OK)) add(&all, &m, 41, name, n);
+        if (CHECK_EQ_INT(compare(&m, &s, &set, n ? NULL : name), 0)) add(&all, &m, 41, name, n);
     }
     report(&all, name);
     scene_free(&s);
@@ -244,8 +208,7 @@ static void random_scenes(void)
         settings set = settings_for(&f.s);
         f.lights[0].bias_normal = all.n % 2 ? random_between(1, 2) : 0;
         f.lights[0].auto_bias = all.n % 2 ? SCENE_AUTO_BIAS_OFF : SCENE_AUTO_BIAS_NORMAL;
-        gn_status status = compare(&m, &f.s, &set, all.n ? NULL : "random");
-        if (CHECK_EQ_INT(status, GN_OK)) add(&all, &m, 36, "random", all.n);
+        if (CHECK_EQ_INT(compare(&m, &f.s, &set, all.n ? NULL : "random"), 0)) add(&all, &m, 36, "random", all.n);
         else break;
         end(&f);
     }
@@ -258,7 +221,6 @@ static void planes_without_acne(void)
     long seen = 0, dark = 0;
     for (int n = 0; n < 60; n++) {
         fixture f;
-        fixed_scene fixed;
         engine_picture p;
         char error[200];
         random_scene(&f);
@@ -272,15 +234,14 @@ static void planes_without_acne(void)
                                .shadow = true,
                                .strength = 0.5,
                                .auto_bias = SCENE_AUTO_BIAS_NORMAL};
-        if (quantise_scene(&fixed, &f.s, error, sizeof error)) abort();
-        if (CHECK_EQ_INT(draw(&p, &fixed.scene), GN_OK)) {
+        const settings set = settings_for(&f.s);
+        if (CHECK_EQ_INT(engine_fixed(&p, &f.s, &set, WIDTH, HEIGHT, ENGINE_ALL, error, sizeof error), 0)) {
             for (size_t i = 0; i < WIDTH * HEIGHT; i++) {
                 seen += p.triangle[i] >= 0 && p.shadow[0][i] > 0;
                 dark += p.triangle[i] >= 0 && p.shadow[0][i] > 0 && p.shadow[0][i] < 1;
             }
+            engine_free(&p);
         }
-        engine_free(&p);
-        quantise_free(&fixed);
         end(&f);
     }
     CHECK(seen > 200000);
@@ -291,6 +252,7 @@ int main(int argc, char **argv)
 {
     for (int i = 1; i < argc; i++) {
         if (!strcmp(argv[i], "--table")) table = 1;
+        if (!strcmp(argv[i], "--srgb")) srgb = "srgb=1";
         if (!strcmp(argv[i], "-o") && i + 1 < argc) prefix = argv[++i];
     }
     if (table)

@@ -359,7 +359,7 @@ static void drawings(void)
             uint32_t expected = light ? far : before;
             if (covers(&t, x, y) && x < view.size[0] && y < view.size[1]) {
                 int64_t key = (int32_t)(uint32_t)((int32_t)t.key + (x - t.begin[0]) * dx + (y - t.begin[1]) * dy), now;
-                if (light) now = floored((key < 0 ? -key : 0) + raster.bias, GN_COMPACT_STEP_SHIFT);
+                if (light) now = floored((key < 0 ? -key : 0) + raster.bias, GN_COMPACT_STEP_SHIFT(NULL));
                 else now = floored((key > 0 ? key : 0) * 2, bits) * (1 << bits) + raster.id;
                 if (light ? now < expected : now > expected) expected = (uint32_t)now;
                 drawn++;

@@ -16,22 +16,16 @@ counted() {
     [ -n "$line" ] || tail -n 5 "$tmp/out"
 }
 
-# ---- Accuracy: beside the host's own library, of which the engine shares no symbol ------------------------------------------------
+# ---- Accuracy ----------------------------------------------------------------------------------------------------------------------
 
-comparison() { # with the sRGB curve or without: $1
-    gcc -std=c11 -w -O2 $flags -UGN_SRGB -DGN_SRGB=$1 -DGN_ATLAS_SIZE=128 -DGN_MAX_TRIANGLES=2000 -DGN_MAX_OBJECTS=100 -DGN_MAX_HEIGHT=256 -Ilib -I. "-DLIBRARY=\"lib/gnomon.c\"" \
-        -c tests/oracle/compact_engine.c -o "$tmp/all.o" && objcopy --keep-global-symbol=compact_render "$tmp/all.o" "$tmp/engine.o" &&
-        gcc -std=c11 -D_POSIX_C_SOURCE=200809L $warn -O2 "-DSRGB=\"srgb=$1\"" -Ilib -Itests -Itests/support $(variable HOST_KNOBS) -c tests/oracle/compact_compare.c -o "$tmp/compare.o" &&
-        gcc -o "$tmp/compare" "$tmp/compare.o" "$tmp/engine.o" $(variable HOST_OBJ) $(variable LIB_OBJ) -lm || fail "the comparison does not build"
-}
-comparison 0
+gcc -std=c11 -D_POSIX_C_SOURCE=200809L $warn -O2 -Ilib -Itests -Itests/support $(variable HOST_KNOBS) -c tests/oracle/compact_compare.c -o "$tmp/compare.o" &&
+    gcc -o "$tmp/compare" "$tmp/compare.o" $(variable HOST_OBJ) $(variable LIB_OBJ) -lm || fail "the comparison does not build"
 if [ "${1:-}" = --table ]; then
     "$tmp/compare" --table | grep '^|'
     exit
 fi
 counted "$tmp/compare"
-comparison 1
-counted "$tmp/compare"
+counted "$tmp/compare" --srgb
 
 for stages in compact_exact compact_bounds; do
     gcc -std=c11 -w -O2 -fsanitize=address,undefined -fno-sanitize-recover=all $flags -DGN_ATLAS_SIZE=128 -Ilib -I. -Itests -Itests/support "-DLIBRARY=\"lib/gnomon.c\"" \
@@ -49,12 +43,37 @@ done
 for knobs in "-DGN_COMPACT=1" "-DGN_COMPACT=1 -DGN_PRESET=GN_PRESET_ACCURATE -DGN_VALIDATION=0" "-DGN_COMPACT=1 -DGN_AUTO_BIAS=0" "-DGN_COMPACT=1 -DGN_ERROR_FIELDS=1"; do
     gcc -std=c99 -pedantic $warn -O2 -Ilib $knobs -c -o "$tmp/warnings.o" lib/gnomon.c 2>"$tmp/log" && pass || fail "$knobs: $(grep -m 1 -E 'error|warning' "$tmp/log")"
 done
-for contradiction in TEXTURES MANY_CASCADES FILTER_MAX PUNCTUAL_LIGHTS RAW_VIEWS OTHER_FORMATS INCREMENTAL STATIC_LAYER; do
+for contradiction in TEXTURES MANY_CASCADES FILTER_MAX PUNCTUAL_LIGHTS OTHER_FORMATS INCREMENTAL STATIC_LAYER; do
     gcc -std=c99 -w -Ilib -DGN_COMPACT=1 -DGN_$contradiction=1 -fsyntax-only lib/frame/gn_frame.c 2>"$tmp/log" && fail "compact builds with $contradiction"
     grep -q 'error.*compact_' "$tmp/log" && pass || fail "$contradiction: the message does not name compact: $(grep -m 1 error "$tmp/log")"
 done
-build/gnomon render host/scenes/sundial.gltf -o "$tmp/no.png" --set compact=1 2>"$tmp/log" && fail "the tool renders with compact=1"
-grep -q 'GN_COMPACT' "$tmp/log" && pass || fail "the tool does not say why not: $(cat "$tmp/log")"
+# The tool refuses by name what it has not, in a scene, in what is set afterwards, and in the picture.
+refused() { # refused MESSAGE SCENE OPTIONS...
+    message=$1 scene=$2
+    shift 2
+    build/gnomon render "host/scenes/$scene.gltf" -o "$tmp/no.png" --size 64x48 --set compact=1 "$@" >"$tmp/log" 2>&1 && fail "the tool renders $scene with compact=1 $*"
+    grep -q "$message" "$tmp/log" && pass || fail "$scene, compact=1 $*: $(cat "$tmp/log")"
+}
+refused "'textures': 0, and the texture of object 'cube'" cube
+refused "'punctual_lights': 0, and spot light 'lamp'" desk
+refused 'lights: 5, and compact arithmetic has one' mixed
+refused 'atlas_size 512, and .* up to 256' fence
+refused 'picture has 320x240, .* up to 256x256' sundial --size 320x240
+refused "'filter_max': 0, and filter 3x3" sundial --set filter=3x3
+refused "'many_cascades': 0, and cascades 2" sundial --set cascades=2
+refused 'output is grey8, .* rgb565' sundial --set output=grey8
+refused 'textures 1, ' sundial --set textures=1
+refused 'depth_bits 8, .* 16' sundial --set depth_bits=8
+refused 'triangle_groups 64' sundial --set triangle_groups=64
+refused 'distance_mode is radius, .* depth' sundial --set distance_mode=radius
+refused "light '.*': bias_caster\|'caster_bias': 0" sundial --set bias_caster=1
+refused "'compact': '2' is not a whole number from 0 to 1" sundial --set compact=2
+build/gnomon sweep host/scenes/sundial.gltf --size 64x48 --set compact=1 >"$tmp/log" 2>&1 && fail "it is swept, and nothing counts" || pass
+# and is the general arithmetic again
+for sets in "" "--set compact=1 --set compact=0 --set output=rgb888 --set preset=balanced --set filter=3x3 --set cascades=4"; do
+    build/gnomon render host/scenes/sundial.gltf -o "$tmp/again${sets:+2}.png" --size 64x48 --set filter=3x3 --set cascades=4 $sets >"$tmp/log" 2>&1
+done
+cmp -s "$tmp/again.png" "$tmp/again2.png" && pass || fail "compact=0 leaves something of compact=1"
 
 # ---- The same bits ------------------------------------------------------------------------------------------------------------------
 

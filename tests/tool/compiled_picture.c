@@ -13,13 +13,21 @@ static unsigned char picture[SCENE_HEIGHT][SCENE_WIDTH][3];
 static void flush(void *user, int x, int y, int w, int h, const void *pixels)
 {
     (void)user;
-    for (int row = 0; row < h; row++)
+    for (int row = 0; row < h && !GN_COMPACT; row++)
         memcpy(picture[y + row][x], (const unsigned char *)pixels + 3 * row * w, 3 * (size_t)w);
+    for (int i = 0; i < w * h && GN_COMPACT; i++) {
+        const unsigned v = ((const uint16_t *)pixels)[i], r = v >> 11, g = v >> 5 & 63U, b = v & 31U;
+        unsigned char *rgb = picture[y + i / w][x + i % w];
+        rgb[0] = (unsigned char)(r << 3 | r >> 2);
+        rgb[1] = (unsigned char)(g << 2 | g >> 4);
+        rgb[2] = (unsigned char)(b << 3 | b >> 2);
+    }
 }
 
 int main(int argc, char **argv)
 {
-    const gn_picture wanted = {SCENE_WIDTH, SCENE_HEIGHT, GN_FORMAT_RGB888, GN_VIEW_COLOUR, 0};
+    const gn_picture wanted = {SCENE_WIDTH, SCENE_HEIGHT, GN_COMPACT ? GN_FORMAT_RGB565 : GN_FORMAT_RGB888,
+                               GN_VIEW_COLOUR, 0};
     gn_status status = gn_init(&renderer, &wanted);
     for (int i = 1; i < argc && !status; i++) { /* one after another: what is kept from frame to frame must not show */
         status = gn_render(&renderer, scene_frame(&state, (uint32_t)atoi(argv[i])), flush, NULL);

@@ -57,6 +57,9 @@ same fence host/scenes/fence.gltf 0 "--set output=grey4" --size 160x120
 same cube host/scenes/cube.gltf "9 0 48" "" --size 96x64
 same snake docs/scenes/snake.gltf "1 5 0" "--frames 0-5" --size 96x64 # [R12]
 same mixed host/scenes/mixed.gltf "1 0" "--frames 0-1" --size 96x64 --set preset=tiny
+same compact host/scenes/sundial.gltf "1 0 4" "--frames 0-4" --size 160x120 --set compact=1
+same compact-avenue host/scenes/avenue.gltf 0 "--simplify none" --size 96x64 --set compact=1 --set srgb=0 --set atlas_size=64
+grep -q '^#define GN_COMPACT  *1 ' "$tmp/compact/gn_scene_config.h" && ! grep -q GN_COMPACT "$tmp/sundial/gn_scene_config.h" && pass || fail "GN_COMPACT is not where it was set"
 
 # vertices in half the bytes: the tool quantises alike
 same short host/scenes/sundial.gltf "0 2" "--frames 0-2" --size 96x64 --set position_bits=16 --set normal_bits=8
@@ -96,14 +99,14 @@ takes() {
         nm -S -t d "$tmp/takes.o" | awk '{ size[$4] = $2 + 0 } END { print size["renderer_bytes"], size["state_bytes"] }'
 }
 # to the byte, on targets whose enumerations are words, and on Arm
-for name in sundial desk room mixed-tiny fence avenue-accurate; do
+for name in sundial desk room mixed-tiny fence avenue-accurate compact; do
     said=$(sed -n 's/^ \* RAM, bytes: gn_renderer \([0-9]*\), scene_state \([0-9]*\); on Arm, .*, \([0-9]*\) and \([0-9]*\)\..*/\1 \2 \3 \4/p' "$tmp/$name/gn_scene_config.h")
     is="$(takes "$name" gcc -m32 -malign-double) $(takes "$name" arm-none-eabi-gcc -mcpu=cortex-m0 -mthumb)"
     if [ -n "$said" ] && [ "$said" = "$is" ]; then pass; else fail "$name: RAM is said to be $said, is $is"; fi
 done
 
 # flash: the scene's data to its alignment, the library's code within a fifth
-for name in sundial room mixed-tiny short; do
+for name in sundial room mixed-tiny short compact compact-avenue; do
     arm="arm-none-eabi-gcc -mcpu=cortex-m0 -mthumb -std=c99 -Os -ffreestanding -isystem boards/common/include -Ilib -I$tmp/$name"
     $arm '-DGN_USER_CONFIG="gn_scene_config.h"' -c -o "$tmp/data.o" "$tmp/$name/scene.c" 2>"$tmp/log"
     data=$(arm-none-eabi-size -A "$tmp/data.o" | awk '$1 ~ /^\.rodata/ { n += $2 } END { print n + 0 }')
@@ -142,6 +145,8 @@ nearest sundial-small host/scenes/sundial.gltf --board microbit --size 64x48 --f
 # in the picture's own size, as groups take the place of records of triangles
 nearest sundial-groups host/scenes/sundial.gltf --board microbit --size 160x120 --frames 72-73
 echo "$near" | grep -q -e '--set triangle_groups=256' && ! echo "$near" | grep -q -e '--size' && pass || fail "16 KB for the sundial: '$near'"
+nearest sundial-compact host/scenes/sundial.gltf --flash 20000 --size 160x120 --frames 72-74
+echo "$near" | grep -q -e '--set compact=1$' && pass || fail "20000 bytes of flash for the sundial: '$near'"
 nearest edge-flash docs/scenes/edge.gltf --flash 30000 --size 64x48
 "$tool" compile docs/scenes/slopes.gltf -o "$tmp/no" --flash 20000 2>"$tmp/err" && fail "20000 bytes of flash are enough" || pass
 grep -q 'bytes of flash (scene [0-9]*, code about [0-9]*) of 20000' "$tmp/err" && pass || fail "too much flash: $(cat "$tmp/err")"

@@ -1,5 +1,7 @@
-/* What the loader adds to a file stands still while the file's animation plays: camera, ground and lights. */
-#define TMP "build/tmp/test_scene_poses"
+/* What the loader adds to a file stands still while the file's animation plays: camera, ground and lights; and what it
+ * fits to the file's own lamps. */
+#define TMP      "build/tmp/test_scene_poses"
+#define BASE_URI "test%5Fscene%5Fposes.bin"
 
 #include "../host/scene/core/vec.h"
 #include "data/scene_fixture.h"
@@ -132,10 +134,34 @@ static void test_filmed(void)
     }
 }
 
+/* P4: the near plane of a lamp of the file's that moves about moving objects. */
+static void test_lamp(void)
+{
+    char text[16384];
+    double near = 0, at[3] = {0};
+    snprintf(text, sizeof text, "%s", replaced(base_json, "\"type\":\"directional\"", "\"type\":\"point\""));
+    snprintf(text, sizeof text, "%s",
+             replaced(text, "\"node\":0,\"path\":\"scale\"", "\"node\":3,\"path\":\"translation\""));
+    write_file(TMP ".gltf", text, strlen(text));
+    for (int frame = 0; frame <= 8; frame += 2) {
+        if (!CHECK_EQ_INT(load(TMP ".gltf", &(scene_options){.frame = frame, .width = 64, .height = 48}), 0))
+            return (void)puts(error);
+        const scene_light *lamp = &s.lights[0];
+        CHECK(lamp->kind == SCENE_LIGHT_POINT && lamp->near > 0);
+        if (frame == 0) near = lamp->near;
+        else if (!CHECK(lamp->near == near)) printf("  frame %d: %g, not %g\n", frame, lamp->near, near);
+        if (frame == 4) CHECK(memcmp(at, lamp->position, sizeof at) != 0);
+        memcpy(at, lamp->position, sizeof at);
+        scene_free(&s);
+    }
+}
+
 int main(void)
 {
     make_base_bin();
+    write_file(TMP ".bin", base_bin, sizeof base_bin);
     test_still();
+    test_lamp();
     test_skin();
     test_filmed();
     return check_report();

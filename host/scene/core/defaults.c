@@ -273,7 +273,7 @@ bool loader_add_defaults(loader *l)
 {
     static const double ambient[3] = {0.18, 0.18, 0.18}, background[3] = {0.35, 0.45, 0.6};
     scene *s = l->s;
-    bounds b, now;
+    bounds b;
     if (!find_bounds(l, &b)) return false;
     const floor_parts parts = find_floor(l, &b);
     l->wants_ground = decide_ground(l, &b, &parts);
@@ -286,8 +286,7 @@ bool loader_add_defaults(loader *l)
         s->stage.camera = s->camera.to_world;
     }
     if (s->n_lights == 0 && !lights_add(l, "default", SCENE_LIGHT_DIRECTIONAL)) return false;
-    /* As the frame has it: a lamp of the file may move, too. */
-    if (bounds_of_scene(&now, s, NULL)) lights_set_near(s, now.low, now.high);
+    lights_set_near(s, &l->poses, b.low, b.high);
     if (!l->has_camera) s->shadow.max_distance = find_shadow_distance(l, &b);
     lights_find_stage(l);
     return !l->wants_ground || add_ground(l, &b, parts.coplanar);

@@ -42,12 +42,15 @@ static double farthest_corner(const double *from, const double *low, const doubl
     return sqrt(sum);
 }
 
-void lights_set_near(scene *s, const double *low, const double *high)
+void lights_set_near(scene *s, const scene_poses *poses, const double *low, const double *high)
 {
     for (size_t i = 0; i < s->n_lights; i++) {
         scene_light *light = &s->lights[i];
         if (light->kind == SCENE_LIGHT_DIRECTIONAL || light->near > 0) continue;
-        double distance = fmin(light->range, farthest_corner(light->position, low, high));
+        double distance = light->range;
+        if (i >= poses->n_lights) distance = fmin(distance, farthest_corner(light->position, low, high));
+        for (size_t k = 0; i < poses->n_lights && k < poses->n; k++)
+            distance = fmin(distance, farthest_corner(poses->light[k * poses->n_lights + i], low, high));
         light->near = near_ratio * fmax(distance, LIGHT_MIN_RANGE);
     }
 }

@@ -155,8 +155,9 @@ const uint32_t *mesh_order(loader *l, const scene_mesh *input, const uint32_t *i
 /* Everything that has a default but the kind and the name; range unlimited, near 0: to be found by lights_set_near. */
 void light_set_defaults(scene_light *light);
 /* Spot and point lights without a near distance get one: a fraction of how far they light anything, the range or the
- * box's farthest corner. A range far beyond the scene says nothing of what is in it. */
-void lights_set_near(scene *s, const double *low, const double *high);
+ * farthest corner of the whole animation's box from the place that is nearest to it, one for all frames: shadows do not
+ * swim. A range far beyond the scene says nothing of what is in it. */
+void lights_set_near(scene *s, const scene_poses *poses, const double *low, const double *high);
 bool lights_add(loader *l, const char *name, scene_light_kind kind);
 /* For those that settings add: around what, if something moves. */
 void lights_find_stage(loader *l);

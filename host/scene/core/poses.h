@@ -1,5 +1,5 @@
-/* Where an animation takes objects and joints, frame by frame: what a tool adds to a scene stands still in all of it.
- */
+/* Where an animation takes objects, joints and lights, frame by frame: what a tool adds to a scene, or fits, is the
+ * same in all of it. */
 #ifndef GNOMON_HOST_POSES_H
 #define GNOMON_HOST_POSES_H
 
@@ -10,6 +10,8 @@ typedef struct {
     size_t n_affines;
     scene_affine
         *affines; /* per pose, object by object: its to_world and its joints; behind the last pose the scene's */
+    size_t n_lights;
+    double (*light)[3]; /* positions, per pose, light by light of the file */
 } scene_poses;
 
 /* Of one pose of this scene. */

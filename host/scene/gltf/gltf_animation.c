@@ -185,9 +185,10 @@ bool gltf_keep_poses(gltf *g, const json_value *used_scene)
     scene *s = g->l->s;
     if (g->n_played == 0) return true;
     const double last = ceil(s->duration * s->fps - 1e-6), n_frames = fmax(last, 0) + 1;
-    scene_poses p = {count_poses(g, n_frames), poses_count_affines(s), NULL};
+    scene_poses p = {.n = count_poses(g, n_frames), .n_affines = poses_count_affines(s), .n_lights = s->n_lights};
     p.affines = loader_alloc(g->l, (p.n + 1) * p.n_affines, sizeof *p.affines);
-    if (!p.affines) return false;
+    p.light = loader_alloc(g->l, p.n * p.n_lights + 1, sizeof *p.light);
+    if (!p.affines || !p.light) return false;
     poses_store(&p, p.n, s);
     s->stage = (scene_stage){.moves = true, .camera = s->camera.to_world};
     for (size_t i = 0; i < p.n; i++) {
@@ -197,6 +198,8 @@ bool gltf_keep_poses(gltf *g, const json_value *used_scene)
         arena_release(&g->l->memory, mark);
         pose_objects(g, s);
         poses_store(&p, i, s);
+        for (size_t k = 0; k < p.n_lights; k++)
+            affine_column(p.light[i * p.n_lights + k], &g->node[s->lights[k].node_idx].world, 3);
         if (i == 0 && g->l->has_camera && !gltf_camera_axes(g, &g->node[g->camera_node], &s->stage.camera))
             return false;
     }

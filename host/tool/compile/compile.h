@@ -9,6 +9,7 @@
 
 #include "../cost/board.h"
 #include "../fixed/quantise.h"
+#include "../library/library.h"
 #include "../cli/tool.h"
 
 enum { COMPILE_FRAMES_MAX = 20000 };
@@ -120,14 +121,15 @@ void compile_tick_end(compile_progress *p);
 
 /* compile_frames.c: what draws frames. */
 typedef struct {
-    gn_renderer *renderer;
+    const library *lib;
+    void *renderer;
     gn_scene scene;
     gn_object *objects;
     gn_skin *skins; /* beside the objects */
     gn_light *lights;
     bool begun;
     count_all counts; /* of one format */
-    size_t pixel_bytes;
+    gn_format format; /* that tiles have */
     uint64_t hash;
     compile_progress progress;
 } compile_stage;
@@ -139,16 +141,16 @@ void compile_stage_close(compile_stage *st);
 const gn_scene *compile_frame(compile_stage *st, const compiled *c, int i);
 
 /* One frame's picture, as RGB888 and RGB565, and the grey format that was set: what rounds to the same bytes in one may
- * not in another; no more than the first format if that is not the one wanted. 0, or -1: the library refuses, and its
- * detail says why. */
+ * not in another; no more than the first format if that is not the one wanted. Compact arithmetic has RGB565 alone. 0,
+ * or -1: the library refuses, and its detail says why. */
 int compile_draw(compile_stage *st, const compiled *c, int i, const compile_hash *wanted, compile_hash *hash);
 bool compile_same(const compile_hash *a, const compile_hash *b);
 
 /* All frames; with wanted, until one is another picture. run->hash: capacity n_frames. */
 int compile_run_all(compile_run *run, compile_stage *st, const compiled *c, const compile_run *wanted);
 
-/* One frame by itself, as RGB888. */
-int compile_show(compile_stage *st, const compiled *c, int i, gn_flush_fn to, void *user);
+/* One frame by itself, as it is seen: 3 bytes per pixel. */
+int compile_show(compile_stage *st, const compiled *c, int i, uint8_t *rgb8);
 
 /* One more frame of a run. */
 int compile_run_one(compile_run *run, compile_stage *st, const compiled *c, int i);
@@ -199,8 +201,8 @@ long compile_state_bytes(const compiled *c, bool short_enums);
 typedef struct {
     long renderer, state, data, code;
 } compile_memory;
-enum { COMPILE_SHORT_ENUMS_LESS = 16 }; /* gn_renderer */
-enum { COMPILE_CODE_TOLERANCE = 10 };   /* per cent that code may take more than estimated */
+long compile_short_enums_less(const compiled *c); /* of gn_renderer, where enumerations are short */
+enum { COMPILE_CODE_TOLERANCE = 10 };             /* per cent that code may take more than estimated */
 compile_memory compile_measure(const compiled *c, const board *b);
 long compile_ram_bytes(const compile_memory *m, const board *b); /* all of it, stack and board included */
 long compile_rom_bytes(const compile_memory *m);

@@ -318,6 +318,10 @@ static void choose_checks(compiled *c)
 {
     const bool rgb565 = c->set.output == GN_FORMAT_RGB565, path = compile_simplifies(c) == TOOL_SIMPLIFY_PATH;
     if (path) c->set.feature.validation = 0;
+    if (c->set.build.compact) {
+        c->set.feature.shadows = 1; /* always built */
+        because(c, "compact", "as set: --set compact=1 draws these pictures");
+    }
     because(c, "validation",
             c->set.feature.validation ? "scenes of --simplify none and safe may be moved otherwise"
                                       : "every frame was checked when it was compiled");
@@ -391,7 +395,7 @@ static void write_costs(FILE *f, const compiled *c)
             " *\n * RAM, bytes: gn_renderer %ld, scene_state %ld; on Arm, where enumerations are short, %ld and %ld. "
             "Stack beside "
             "that.\n",
-            ram, compile_state_bytes(c, false), ram - COMPILE_SHORT_ENUMS_LESS, compile_state_bytes(c, true));
+            ram, compile_state_bytes(c, false), ram - compile_short_enums_less(c), compile_state_bytes(c, true));
     fprintf(f, " * Flash, bytes: scene.c %ld; the library with -Os about %ld on Cortex-M0, %ld on Cortex-M4.\n",
             compile_flash_bytes(c, true), flash_estimate(&c->set, FLASH_CORTEX_M0),
             flash_estimate(&c->set, FLASH_CORTEX_M4));
@@ -405,8 +409,10 @@ static void write_savings(FILE *f, const compiled *c)
         const compile_saving *s = &c->savings[i];
         fprintf(f, " * - %zu ", s->n);
         compile_write_text(f, s->what);
-        fprintf(f, ": %ld bytes of flash, %ld of RAM, %.1f %% of instructions\n", s->flash_bytes, s->ram_bytes,
-                100 * s->instructions);
+        fprintf(f, ": %ld bytes of flash, %ld of RAM", s->flash_bytes, s->ram_bytes);
+        if (!c->set.build.compact)
+            fprintf(f, ", %.1f %% of instructions", 100 * s->instructions); /* no model of cost */
+        fprintf(f, "\n");
     }
 }
 
@@ -420,6 +426,7 @@ void compile_write_config(FILE *f, const compiled *c)
     write_costs(f, c);
     write_savings(f, c);
     fprintf(f, " */\n#ifndef GN_SCENE_CONFIG_H\n#define GN_SCENE_CONFIG_H\n");
+    if (c->set.build.compact) write_knob(f, c, "compact", "COMPACT", 1);
     fprintf(f, "\n/* Quality: these make the picture. */\n");
     GN_QUALITY_KNOBS(QUALITY_)
     fprintf(f, "\n/* Capacity: found by playing the frames. */\n");

@@ -4,10 +4,13 @@
 
 #include "compile.h"
 #include "../cost/cost.h"
+#include "../fixed/output.h"
 
 int compile_stage_open(compile_stage *st, const compiled *c)
 {
-    *st = (compile_stage){.renderer = malloc(sizeof *st->renderer),
+    const library *lib = library_of(&c->set);
+    *st = (compile_stage){.lib = lib,
+                          .renderer = malloc(lib->renderer_bytes),
                           .objects = malloc((c->fixed.scene.n_objects + 1) * sizeof *st->objects),
                           .skins = malloc((c->fixed.scene.n_objects + 1) * sizeof *st->skins),
                           .lights = malloc((c->fixed.scene.n_lights + 1) * sizeof *st->lights)};
@@ -58,9 +61,7 @@ static void hash_tile(void *user, int x, int y, int w, int h, const void *pixels
 {
     compile_stage *st = user;
     const uint8_t *p = pixels;
-    size_t n = (size_t)w * (size_t)h * st->pixel_bytes;
-    if (st->renderer->frame.picture.format == GN_FORMAT_GREY4) n = ((size_t)w + 1) / 2 * (size_t)h;
-    if (st->renderer->frame.picture.format == GN_FORMAT_MONO1) n = ((size_t)w + 7) / 8 * (size_t)h;
+    const size_t n = gn_format_bytes(st->format, (uint32_t)w, (uint32_t)h);
     (void)x, (void)y;
     uint64_t hash = st->hash;
     for (size_t i = 0; i < n; i++) hash = (hash ^ p[i]) * 0x100000001B3U;
@@ -70,45 +71,36 @@ static void hash_tile(void *user, int x, int y, int w, int h, const void *pixels
 static gn_status begin(compile_stage *st, const compiled *c, gn_format format, gn_view view)
 {
     const gn_picture picture = {(uint16_t)c->options->width, (uint16_t)c->options->height, format, view, 0};
-    st->pixel_bytes = format == GN_FORMAT_RGB888 ? 3 : format == GN_FORMAT_RAW32 ? 4 : 2;
-    gn_status status = gn_init(st->renderer, &picture);
-    st->renderer->frame.knobs = c->set.quality;
-    return status;
+    st->format = format;
+    return st->lib->begin(st->renderer, &picture, &c->set.quality);
 }
 
-/* Everything before the screen tiles. */
-static gn_status prepare(gn_renderer *r, const gn_scene *now)
+/* The format that tells most of a picture. */
+static gn_format finest(const compiled *c)
 {
-    gn_status status = gn_begin(r, now);
-    for (uint32_t i = 0; !status && i < gn_shadow_tile_count(r); i++) status = gn_shadow_tile(r, i);
-    return status ? status : gn_prepare(r);
+    return c->set.build.compact ? GN_FORMAT_RGB565 : GN_FORMAT_RGB888;
 }
 
 static gn_status draw_tiles(compile_stage *st, gn_format format)
 {
-    gn_renderer *r = st->renderer;
-    gn_status status = GN_OK;
-    r->frame.picture.format = format; /* read by screen tiles alone */
-    st->pixel_bytes = format == GN_FORMAT_RGB888 ? 3 : format == GN_FORMAT_RGB565 ? 2 : 1;
-    for (uint32_t i = 0; !status && i < gn_screen_tile_count(r); i++)
-        status = gn_screen_tile(&r->frame, &r->scratch, i, hash_tile, st);
-    return status;
+    st->format = format;
+    return st->lib->screen_tiles(st->renderer, format, hash_tile, st);
 }
 
 int compile_draw(compile_stage *st, const compiled *c, int i, const compile_hash *wanted, compile_hash *hash)
 {
-    gn_status status = st->begun ? GN_OK : begin(st, c, GN_FORMAT_RGB888, GN_VIEW_COLOUR);
+    gn_status status = st->begun ? GN_OK : begin(st, c, finest(c), GN_VIEW_COLOUR);
     const bool grey = c->set.output >= GN_FORMAT_GREY8 && c->set.output <= GN_FORMAT_MONO1;
     st->begun = true;
     compile_tick(&st->progress, i, c->n_frames);
     st->hash = 0xCBF29CE484222325U;
-    if (!status) status = prepare(st->renderer, compile_frame(st, c, i));
-    if (!status) status = draw_tiles(st, GN_FORMAT_RGB888);
+    if (!status) status = st->lib->prepare(st->renderer, compile_frame(st, c, i));
+    if (!status) status = draw_tiles(st, finest(c));
     st->counts = count_get();
     hash->first = st->hash;
     if (!status && wanted && wanted->first != hash->first)
         return 0; /* another picture, whatever it is in the other formats */
-    if (!status) status = draw_tiles(st, GN_FORMAT_RGB565);
+    if (!status && finest(c) != GN_FORMAT_RGB565) status = draw_tiles(st, GN_FORMAT_RGB565);
     if (!status && grey) status = draw_tiles(st, c->set.output);
     hash->all = st->hash;
     return status ? -1 : 0;
@@ -147,16 +139,16 @@ static void take_demand(compile_run *run, const settings_demand *frame, int i)
 static void take_frame(compile_run *run, const compile_stage *st, int i)
 {
     settings_demand demand;
-    const gn_stats *stats = gn_get_stats(st->renderer);
+    const gn_stats *stats = st->lib->get_stats(st->renderer);
     const count_all counts = st->counts;
-    engine_demand(st->renderer, &demand);
+    st->lib->get_demand(st->renderer, &demand);
     take_demand(run, &demand, i);
     run->clipped += stats->n_clipped;
     run->culled += stats->n_casters_culled;
     run->caster_triangles += stats->n_caster_triangles;
     run->instructions += cost_instructions(&counts);
     run->lookups += (double)(counts.n[GN_COUNT_lookups] + counts.n[GN_COUNT_lookups_persp]);
-    compile_casters(run, st->renderer);
+    if (st->lib == &library_general) compile_casters(run, st->renderer);
 }
 
 int compile_run_one(compile_run *run, compile_stage *st, const compiled *c, int i)
@@ -174,7 +166,7 @@ int compile_run_all(compile_run *run, compile_stage *st, const compiled *c, cons
     *run = (compile_run){.hash = hash, .differs = -1};
     for (int i = 0; i < c->n_frames; i++) {
         count_reset();
-        if (st->begun) gn_forget_shadows(st->renderer); /* each picture by itself */
+        if (st->begun) st->lib->forget_shadows(st->renderer); /* each picture by itself */
         if (compile_draw(st, c, i, wanted ? &wanted->hash[i] : NULL, &run->hash[i])) return -1;
         take_frame(run, st, i);
         if (!wanted || compile_same(&wanted->hash[i], &run->hash[i])) continue;
@@ -209,16 +201,16 @@ int compile_see(compile_stage *st, const compiled *c, bool **seen)
     st->begun = false; /* another format */
     if (begin(st, c, GN_FORMAT_RAW32, GN_VIEW_TRIANGLE)) return -1;
     for (int i = 0; i < c->n_frames; i++)
-        if (gn_render(st->renderer, compile_frame(st, c, i), see_tile, &to)) return -1;
+        if (st->lib->render(st->renderer, compile_frame(st, c, i), see_tile, &to)) return -1;
     return 0;
 }
 
-int compile_show(compile_stage *st, const compiled *c, int i, gn_flush_fn to, void *user)
+int compile_show(compile_stage *st, const compiled *c, int i, uint8_t *rgb8)
 {
+    output_panel to = {rgb8, c->options->width, finest(c)};
     st->begun = false;
-    return begin(st, c, GN_FORMAT_RGB888, GN_VIEW_COLOUR) || gn_render(st->renderer, compile_frame(st, c, i), to, user)
-               ? -1
-               : 0;
+    if (begin(st, c, to.format, GN_VIEW_COLOUR)) return -1;
+    return st->lib->render(st->renderer, compile_frame(st, c, i), output_flush, &to) ? -1 : 0;
 }
 
 static size_t tiles_of(const gn_renderer *r)
@@ -233,10 +225,11 @@ int compile_keeps_tiles(compile_stage *st, const compiled *c, size_t *n_kept)
 {
     *n_kept = 0;
     st->begun = false;
+    if (st->lib != &library_general) return 0; /* compact arithmetic keeps none */
     if (begin(st, c, GN_FORMAT_RGB565, GN_VIEW_COLOUR)) return -1;
     for (int i = 0; i < c->n_frames; i++) {
-        if (gn_render(st->renderer, compile_frame(st, c, i), hash_tile, st)) return -1;
-        *n_kept += tiles_of(st->renderer) - gn_get_stats(st->renderer)->n_tiles_drawn;
+        if (st->lib->render(st->renderer, compile_frame(st, c, i), hash_tile, st)) return -1;
+        *n_kept += tiles_of(st->renderer) - st->lib->get_stats(st->renderer)->n_tiles_drawn;
     }
     return 0;
 }

@@ -116,19 +116,6 @@ static bool take(vertices *v, compiled *c)
 
 /* ---- What it would change ---------------------------------------------------------------------------------------- */
 
-typedef struct {
-    uint8_t *pixels;
-    size_t n;
-} strip;
-
-static void append_tile(void *user, int x, int y, int w, int h, const void *pixels)
-{
-    strip *s = user;
-    (void)x, (void)y;
-    memcpy(s->pixels + s->n, pixels, 3 * (size_t)w * (size_t)h);
-    s->n += 3 * (size_t)w * (size_t)h;
-}
-
 static void add_difference(compile_change *change, const uint8_t *a, const uint8_t *b, size_t bytes)
 {
     change->n_pixels += bytes / 3;
@@ -140,7 +127,7 @@ static void add_difference(compile_change *change, const uint8_t *a, const uint8
     }
 }
 
-/* Some frames with and without, as RGB888. */
+/* Some frames with and without. */
 static int measure(vertices *v, compiled *c, compile_stage *st, compile_change *change)
 {
     const size_t bytes = 3 * (size_t)c->options->width * (size_t)c->options->height;
@@ -150,12 +137,11 @@ static int measure(vertices *v, compiled *c, compile_stage *st, compile_change *
     *change = (compile_change){0};
     for (int i = 0; !failed && i < n; i++) {
         const int frame = n > 1 ? (c->n_frames - 1) * i / (n - 1) : 0;
-        strip without = {both, 0}, with = {both ? both + bytes : NULL, 0};
-        failed = compile_show(st, c, frame, append_tile, &without);
+        failed = compile_show(st, c, frame, both);
         bool fits = take(v, c);
-        failed |= !fits || compile_show(st, c, frame, append_tile, &with);
+        failed |= !fits || compile_show(st, c, frame, both + bytes);
         give_back(v, c);
-        if (!failed) add_difference(change, without.pixels, with.pixels, bytes);
+        if (!failed) add_difference(change, both, both + bytes, bytes);
     }
     free(both);
     return failed ? -1 : 0;

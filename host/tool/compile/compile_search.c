@@ -2,9 +2,9 @@
  *
  * What changes the picture (shadow maps, depth, fractions of pixels, filters) is tried in every combination by the
  * prediction of memory alone; of those that fit, all that could be had with less change are dropped, and the others are
- * drawn and compared with what was requested. What changes no picture but costs instructions (screen tiles, caches,
- * bounds, last of all records of triangles) is then given up as far as it must be. Only where nothing fits, or shadows
- * would be lost, the picture gets smaller. */
+ * drawn and compared with what was requested, compact arithmetic among them. What changes no picture but costs
+ * instructions (screen tiles, caches, bounds, last of all records of triangles) is then given up as far as it must be.
+ * Only where nothing fits, or shadows would be lost, the picture gets smaller. */
 #include <math.h>
 #include <stdarg.h>
 #include <stdlib.h>
@@ -75,7 +75,8 @@ static void find_losses(search *s, bool flash_is_short)
         s->n_steps[OTHER_DEPTH] = q->other_depth_bits == 32 ? 2 : q->other_depth_bits == 16;
         s->n_steps[OTHER_FILTER] = other_weighs ? (int)shadow->other_filter : 0;
     }
-    s->n_steps[SUBPIXEL] = q->subpixel_bits > 7;
+    if (s->c->set.build.compact) s->n_steps[DEPTH] = 0;
+    s->n_steps[SUBPIXEL] = q->subpixel_bits > 7 && !s->c->set.build.compact;
     s->n_steps[STEP] = flash_is_short && q->persp_step > 1;
     s->n_steps[FIT] = shadow->fit == GN_FIT_TIGHT || shadow->tile_sizes == GN_TILES_WORTH; /* code, and boxes in RAM */
 }
@@ -107,7 +108,7 @@ static compiled apply(const search *s, const variant *v)
     if (v->lean >= LEAN_BARE)
         c.set.feature.depth_blocks = c.set.feature.object_boxes = c.set.feature.incremental =
             c.set.feature.caster_culling = 0;
-    if (v->lean == LEAN_MAX && !q->triangle_groups) q->triangle_groups = GROUPS;
+    if (v->lean == LEAN_MAX && !q->triangle_groups && !c.set.build.compact) q->triangle_groups = GROUPS;
     return c;
 }
 
@@ -208,19 +209,6 @@ static void list_fitting(search *s)
 
 /* ---- What they change -------------------------------------------------------------------------------------------- */
 
-typedef struct {
-    uint8_t *pixels;
-    int width;
-} canvas;
-
-static void put_tile(void *user, int x, int y, int w, int h, const void *pixels)
-{
-    const canvas *to = user;
-    for (int row = 0; row < h; row++)
-        memcpy(to->pixels + 3 * ((size_t)(y + row) * (size_t)to->width + (size_t)x),
-               (const uint8_t *)pixels + 3 * (size_t)row * (size_t)w, 3 * (size_t)w);
-}
-
 static size_t frame_bytes(const search *s)
 {
     return 3 * (size_t)s->c->options->width * (size_t)s->c->options->height;
@@ -234,10 +222,8 @@ static int show_samples(const search *s, const variant *v, uint8_t *pixels)
     const size_t bytes = frame_bytes(s);
     if (compile_stage_open(&st, &c)) return -1;
     int failed = 0;
-    for (int i = 0; !failed && i < SAMPLES; i++) {
-        canvas to = {pixels + (size_t)i * bytes, c.options->width};
-        failed = compile_show(&st, &c, sample_of(s, i), put_tile, &to);
-    }
+    for (int i = 0; !failed && i < SAMPLES; i++)
+        failed = compile_show(&st, &c, sample_of(s, i), pixels + (size_t)i * bytes);
     compile_stage_close(&st);
     return failed;
 }
@@ -353,6 +339,33 @@ static bool find(search *s, bool smaller, char *out, size_t bytes)
     return false;
 }
 
+/* Compact arithmetic in the picture's own size, where the scene is not beyond it and that changes less than `change`.
+ */
+static bool find_compact(search *s, const tool_options *requested, double change, char *out, size_t bytes)
+{
+    char error[TOOL_ERROR_BYTES];
+    tool_options o = *requested;
+    compiled c;
+    if (s->c->set.build.compact || o.n_sets == TOOL_SETS_MAX) return false;
+    o.sets[o.n_sets++] = "compact=1";
+    if (compile_all(&c, &o, error, sizeof error)) return false;
+    const search compact = {.c = &c, .b = s->b};
+    const compile_memory m = compile_measure(&c, s->b);
+    const size_t n = SAMPLES * frame_bytes(s);
+    uint8_t *both = malloc(2 * n);
+    bool found = both && compile_fits(&m, s->b) && !show_samples(s, &(variant){.lean = 0}, both) &&
+                 !show_samples(&compact, &(variant){.lean = 0}, both + n);
+    if (found) s->change = sqrt(mean_square(both, both + n, n));
+    if (found && s->change < change)
+        snprintf(out, bytes,
+                 "nearest that does: --set compact=1: %ld bytes of RAM, %ld of flash, colours off by %.1f of 255 (RMS)",
+                 compile_ram_bytes(&m, s->b), compile_rom_bytes(&m), s->change);
+    else found = false;
+    free(both);
+    compile_free(&c);
+    return found;
+}
+
 static int side_of(int side, int eighths)
 {
     return (side * eighths + EIGHTHS - 1) / EIGHTHS;
@@ -384,6 +397,11 @@ bool compile_find_nearest(const compiled *c, const board *b, char *out, size_t b
         .c = c, .b = &narrow, .min_ram = compile_ram_bytes(&requested, b), .min_flash = compile_rom_bytes(&requested)};
     find_losses(&s, compile_rom_bytes(&requested) > narrow.flash);
     bool found = find(&s, false, out, bytes);
+    search compact = s;
+    if (find_compact(&compact, c->options, found ? s.change : HUGE_VAL, out, bytes)) {
+        found = true;
+        s.change = compact.change;
+    }
     if (found && s.change <= MUCH) return true;
     for (int eighths = EIGHTHS - 1; eighths > 0 && !(found && eighths < EIGHTHS / 2); eighths--) {
         if (!find_smaller(&s, c->options, eighths, other, sizeof other)) continue;

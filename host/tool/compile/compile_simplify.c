@@ -198,7 +198,7 @@ static void simplify_path(trial *b)
 
 static int say_refused(const trial *b, char *error, size_t bytes)
 {
-    const gn_detail *d = gn_get_detail(b->st->renderer);
+    const gn_detail *d = b->st->lib->get_detail(b->st->renderer);
     if (d->needed)
         snprintf(error, bytes, "%s: %u needed, %u available", gn_status_text(d->status), d->needed, d->available);
     else snprintf(error, bytes, "%s", gn_status_text(d->status));

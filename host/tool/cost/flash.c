@@ -51,8 +51,18 @@ static long of_shadows(const settings *s, flash_core core)
     return bytes;
 }
 
+static long of_compact(const settings *s, flash_core core)
+{
+    long bytes = typical_bytes[core] + compact_bytes[core];
+    if (s->feature.validation) bytes += compact_validation_bytes[core];
+    if (s->feature.auto_bias) bytes += compact_auto_bias_bytes[core];
+    if (!s->quality.srgb) bytes += compact_linear_bytes[core];
+    return bytes;
+}
+
 long flash_estimate(const settings *s, flash_core core)
 {
+    if (s->build.compact) return of_compact(s, core);
     long bytes = typical_bytes[core] + of_surfaces(s, core);
     if (s->feature.shadows) bytes += of_shadows(s, core);
     else bytes += s->feature.punctual_lights ? punctual_unshadowed_bytes[core] : no_shadows_bytes[core];

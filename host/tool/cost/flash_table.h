@@ -47,3 +47,7 @@ FLASH(clips, 0, 0)                         /* with */
 FLASH(picking, 0, 4)                       /* with */
 FLASH(preset_accurate, -26052, -24064)     /* quality of preset accurate */
 FLASH(linear, -184, -208)                  /* srgb 0 */
+FLASH(compact, -38636, -35896)             /* compact arithmetic */
+FLASH(compact_validation, 1920, 1736)      /* with */
+FLASH(compact_auto_bias, 276, 372)         /* with */
+FLASH(compact_linear, -184, -236)          /* srgb 0 */

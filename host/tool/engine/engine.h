@@ -62,9 +62,6 @@ typedef int (*engine_each)(void *user, size_t frame, const uint8_t *rgb8, const 
 int engine_play(const scene *frames, size_t n, const settings *set, int width, int height, engine_each each, void *user,
                 char *error, size_t error_bytes);
 
-/* What the frame that was rendered last took. */
-void engine_demand(const gn_renderer *renderer, settings_demand *out);
-
 /* What the engines in double precision share: options for a configuration, and their picture after the same
  * quantisation as the library's. Takes the arrays of ref, which is empty afterwards; -1: out of memory. */
 ref_options engine_ref_options(const scene *s, const settings *set, int width, int height);

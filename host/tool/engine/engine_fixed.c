@@ -7,7 +7,7 @@
 #include "engine.h"
 #include "../fixed/output.h"
 #include "../fixed/quantise.h"
-#include "shadow/gn_tiles.h"
+#include "../library/library.h"
 
 typedef struct {
     uint8_t *pixels;
@@ -24,7 +24,8 @@ static void flush(void *user, int x, int y, int w, int h, const void *pixels)
 }
 
 typedef struct {
-    gn_renderer *renderer;
+    const library *lib;
+    void *renderer;
     const settings *set;
     const fixed_scene *fixed;
     const scene *scene;
@@ -57,7 +58,7 @@ static void add_units(const job *j)
 /* Names what an error is about as the scene file does, and its field as the library does. */
 static void name_culprit(const job *j, char out[200])
 {
-    const gn_detail *d = gn_get_detail(j->renderer);
+    const gn_detail *d = j->lib->get_detail(j->renderer);
     const scene *s = j->scene;
     const char *field = gn_field_text(d->field), *tail = strchr(field, '.');
     if (!field[0] || !tail) return;
@@ -70,7 +71,7 @@ static void name_culprit(const job *j, char out[200])
 
 static int explain(const job *j, gn_status status)
 {
-    const gn_detail *d = gn_get_detail(j->renderer);
+    const gn_detail *d = j->lib->get_detail(j->renderer);
     const scene *s = j->scene;
     char culprit[200] = "";
     name_culprit(j, culprit);
@@ -90,10 +91,8 @@ static int explain(const job *j, gn_status status)
 /* One pass of the library over the whole picture. */
 static int pass(const job *j, const gn_picture *picture, gn_flush_fn to, void *user)
 {
-    gn_status status = gn_init(j->renderer, picture);
-    if (status) return explain(j, status);
-    j->renderer->frame.knobs = j->set->quality;
-    status = gn_render(j->renderer, &j->fixed->scene, to, user);
+    gn_status status = j->lib->begin(j->renderer, picture, &j->set->quality);
+    if (!status) status = j->lib->render(j->renderer, &j->fixed->scene, to, user);
     return status ? explain(j, status) : 0;
 }
 
@@ -153,16 +152,12 @@ static double depth_of(const gn_tile_info *tile, size_t i)
 static int copy_tile(const job *j, engine_picture *out, size_t light, size_t idx, int what)
 {
     gn_tile_info info;
-    if (!gn_get_shadow_tile(j->renderer, (uint32_t)light, (uint32_t)idx, &info)) return 0;
+    if (!j->lib->get_shadow_tile(j->renderer, (uint32_t)light, (uint32_t)idx, &info)) return 0;
     const size_t n = (size_t)info.texels * info.rows;
     out->tile_size[light][idx][0] = (int)info.texels;
     out->tile_size[light][idx][1] = (int)info.rows;
-    const gn_frame *frame = &j->renderer->frame;
-    const size_t view = (size_t)frame->light[light].view_idx + idx;
-    const gn_shadow_settings *shadow = &frame->scene->shadow;
-    if (shadow->fit == GN_FIT_TIGHT || shadow->tile_sizes == GN_TILES_WORTH)
-        out->tile_pixels[light][idx] = (double)frame->seen[view].worth_q16 / 65536.0;
-    out->tile_turn[light][idx] = frame->view[view].turn;
+    j->lib->judge_tile(j->renderer, (uint32_t)light, (uint32_t)idx, &out->tile_pixels[light][idx],
+                       &out->tile_turn[light][idx]);
     if (what != ENGINE_ALL) return 0;
     double *tile = malloc(n * sizeof *tile);
     out->atlas[light][idx] = tile;
@@ -174,7 +169,7 @@ static int copy_atlas(const job *j, engine_picture *out, int what)
 {
     for (size_t l = 0; l < out->n_lights; l++) {
         uint32_t n_tiles = 0, texels = 0;
-        out->shadow_state[l] = gn_get_light_shadow(j->renderer, (uint32_t)l, &n_tiles, &texels);
+        out->shadow_state[l] = j->lib->get_light_shadow(j->renderer, (uint32_t)l, &n_tiles, &texels);
         if (out->shadow_state[l] != GN_SHADOW_REALTIME) continue;
         out->n_tiles[l] = (int)n_tiles;
         out->atlas_texels[l] = (int)texels;
@@ -186,64 +181,6 @@ static int copy_atlas(const job *j, engine_picture *out, int what)
             }
     }
     return 0;
-}
-
-/* The most lights that some object's surfaces take: all directional ones, and those of its list. */
-static size_t surface_lights(const gn_frame *frame)
-{
-    size_t directional = 0, punctual = 0, listed = 0;
-    for (uint32_t l = 0; l < frame->scene->n_lights; l++) {
-        if (frame->light[l].off) continue;
-        if (frame->light[l].kind == GN_LIGHT_DIRECTIONAL) directional++;
-        else punctual++;
-    }
-    for (uint32_t i = 0; i < frame->scene->n_objects; i++) {
-        size_t n = frame->object[i].n_lights == GN_OBJECT_LIGHTS_ALL ? punctual : frame->object[i].n_lights;
-        listed = n > listed ? n : listed;
-    }
-    return directional + listed;
-}
-
-/* Texels up to the end of each atlas's last tile. Views that nothing is seen in have an empty one; unused cascades
- * none, but with tiles by worth the library reserves it. */
-static void demand_texels(const gn_frame *frame, settings_demand *out)
-{
-    size_t reserved[2] = {0, 0};
-    int empty[2] = {0, 0};
-    for (uint32_t i = 0; GN_BY_WORTH(frame) && i < frame->n_views; i++) {
-        const size_t side = frame->seen[i].side;
-        reserved[frame->view[i].in_other] += side * side;
-        empty[frame->view[i].in_other] |= !side;
-    }
-    out->atlas_texels = reserved[0] + (empty[0] ? 64 : 0);
-    out->other_atlas_texels = reserved[1] + (empty[1] ? 64 : 0);
-    for (uint32_t i = 0; i < frame->n_views; i++) {
-        const gn_light_view *view = &frame->view[i];
-        const bool unused = !view->in_other && frame->n_cascades > 1 &&
-                            (frame->scene->shadow.cascades_unused >> view->cascade_idx & 1) != 0;
-        const size_t side = view->unseen ? 8 : frame->seen[i].side, end = view->first_texel + side * side;
-        size_t *texels = view->in_other ? &out->other_atlas_texels : &out->atlas_texels;
-        if (!unused && end > *texels) *texels = end;
-    }
-}
-
-void engine_demand(const gn_renderer *renderer, settings_demand *out)
-{
-    const gn_frame *frame = &renderer->frame;
-    *out = (settings_demand){.width = frame->picture.width, .height = frame->picture.height};
-    out->objects = frame->scene->n_objects;
-    out->lights = frame->scene->n_lights;
-    out->surface_lights = surface_lights(frame);
-    const bool groups = frame->knobs.triangle_groups > 0;
-    out->triangles = groups ? frame->stats.n_tile_triangles : frame->stats.n_triangles;
-    out->tile_refs = groups ? 0 : frame->stats.n_tile_refs;
-    for (uint32_t l = 0; l < frame->scene->n_lights; l++) {
-        uint32_t n = 0;
-        if (gn_get_light_shadow(renderer, l, &n, NULL) != GN_SHADOW_REALTIME) continue;
-        const bool in_other = frame->view[frame->light[l].view_idx].in_other;
-        *(in_other ? &out->other_tiles : &out->shadow_tiles) += n;
-    }
-    demand_texels(frame, out);
 }
 
 static int allocate(engine_picture *out, const scene *s, int width, int height)
@@ -269,9 +206,10 @@ int engine_fixed(engine_picture *out, const scene *s, const settings *set, int w
 {
     fixed_scene fixed;
     if (quantise_scene_for(&fixed, s, &set->quality, error, error_bytes)) return -1;
-    gn_renderer *renderer = malloc(sizeof *renderer);
+    const library *lib = library_of(set);
+    void *renderer = malloc(lib->renderer_bytes);
     uint32_t *raw = malloc((size_t)width * (size_t)height * sizeof *raw);
-    job j = {renderer, set, &fixed, s, error, error_bytes};
+    job j = {lib, renderer, set, &fixed, s, error, error_bytes};
     gn_picture picture = {(uint16_t)width, (uint16_t)height, set->output, GN_VIEW_COLOUR, 0};
     int failed = allocate(out, s, width, height) || !renderer || !raw;
     if (failed) snprintf(error, error_bytes, "out of memory");
@@ -279,11 +217,11 @@ int engine_fixed(engine_picture *out, const scene *s, const settings *set, int w
     if (!failed) failed = draw_panel(&j, picture, out->rgb8);
     out->counts = count_get();
     if (!failed) {
-        out->stats = *gn_get_stats(renderer);
+        out->stats = *lib->get_stats(renderer);
         failed = copy_atlas(&j, out, what);
     }
     if (!failed) {
-        engine_demand(renderer, &out->demand);
+        lib->get_demand(renderer, &out->demand);
         failed = settings_suffice(set, &out->demand, error, error_bytes);
     }
     picture.format = GN_FORMAT_RGB565;

@@ -6,9 +6,11 @@
 #include "engine.h"
 #include "../fixed/output.h"
 #include "../fixed/quantise.h"
+#include "../library/library.h"
 
 typedef struct {
-    gn_renderer *renderer;
+    const library *lib;
+    void *renderer;
     const settings *set;
     gn_picture picture;
     fixed_scene fixed[ENGINE_FRAMES_MAX]; /* all of them: an address that is used anew would look like a mesh that
@@ -37,9 +39,9 @@ static int prepare(player *p, const scene *s, char *error, size_t error_bytes)
 static int draw(player *p, size_t frame, count_all *counts, char *error, size_t error_bytes)
 {
     output_panel panel = {p->rgb8, p->picture.width, p->picture.format};
-    if (!p->set->feature.incremental) gn_forget_shadows(p->renderer);
+    if (!p->set->feature.incremental) p->lib->forget_shadows(p->renderer);
     count_reset();
-    gn_status status = gn_render(p->renderer, &p->fixed[frame].scene, output_flush, &panel);
+    gn_status status = p->lib->render(p->renderer, &p->fixed[frame].scene, output_flush, &panel);
     *counts = count_get();
     if (status) snprintf(error, error_bytes, "frame %zu of those that are played: %s", frame, gn_status_text(status));
     return status ? -1 : 0;
@@ -48,12 +50,12 @@ static int draw(player *p, size_t frame, count_all *counts, char *error, size_t 
 static int begin(player *p, const settings *set, int width, int height, char *error, size_t error_bytes)
 {
     *p = (player){.set = set, .picture = {(uint16_t)width, (uint16_t)height, set->output, GN_VIEW_COLOUR, 0}};
-    p->renderer = malloc(sizeof *p->renderer);
+    p->lib = library_of(set);
+    p->renderer = malloc(p->lib->renderer_bytes);
     p->rgb8 = malloc(3 * (size_t)width * (size_t)height);
     if (!p->renderer || !p->rgb8) return no_memory(error, error_bytes);
-    gn_status status = gn_init(p->renderer, &p->picture);
+    gn_status status = p->lib->begin(p->renderer, &p->picture, &set->quality);
     if (status) snprintf(error, error_bytes, "%s", gn_status_text(status));
-    p->renderer->frame.knobs = set->quality;
     return status ? -1 : 0;
 }
 

@@ -144,7 +144,11 @@ int settings_apply(settings *out, scene *s, const char *key, const char *value, 
     const char *word = as_word(key, value);
     if (!of_knob_alone(key, value) && (taken = settings_apply_scene(s, key, SCENE_NONE, word, error, error_bytes)) < 0)
         return -1;
-    if (is_knob) return settings_apply_knob(out, key, as_knob(value), error, error_bytes);
+    if (is_knob) {
+        if (settings_apply_knob(out, key, as_knob(value), error, error_bytes)) return -1;
+        if (out->build.compact && strcmp(key, "compact") == 0) settings_compact_scene(s);
+        return 0;
+    }
     if (taken) return 0;
     return unknown(key, error, error_bytes);
 }
@@ -165,6 +169,7 @@ int settings_apply_all(settings *out, scene *s, const char *const *sets, int n, 
         key[length] = 0;
         if (settings_apply(out, s, key, equals + 1, error, error_bytes)) return -1;
     }
+    if (out->build.compact) settings_compact_quality(out);
     return 0;
 }
 

@@ -23,7 +23,7 @@ typedef struct {
 static const knob quality_knobs[] = {GN_QUALITY_KNOBS(KNOB_QUALITY_)};
 static const knob capacity_knobs[] = {GN_CAPACITY_KNOBS(KNOB_CAPACITY_)};
 static const knob feature_knobs[] = {GN_FEATURE_KNOBS(KNOB_FEATURE_)};
-/* Of targets alone: see refine. */
+/* Of targets alone, but compact. */
 #define KNOB_BUILD_(name, MACRO, lo, hi, meaning, cost)                                                                \
     {#name, lo, hi, offsetof(settings, build.name), meaning, cost, {0}},
 static const knob build_knobs[] = {GN_BUILD_KNOBS(KNOB_BUILD_)};
@@ -73,6 +73,11 @@ int settings_feature(const settings *set, const char *name)
     for (size_t i = 0; i < groups[FEATURE].n; i++)
         if (strcmp(name, feature_knobs[i].name) == 0) return *field(&copy, &feature_knobs[i]);
     return -1;
+}
+
+void settings_each_feature(settings *set, settings_each each, void *user)
+{
+    for (size_t i = 0; i < groups[FEATURE].n; i++) each(user, feature_knobs[i].name, field(set, &feature_knobs[i]));
 }
 
 void settings_preset(settings *out, int preset)
@@ -165,9 +170,6 @@ int settings_suffice(const settings *s, const settings_demand *demand, char *err
 /* What the range alone does not say; NULL: nothing is wrong. */
 static const char *refine(const settings *s, const void *changed, int n)
 {
-    if (changed == &s->build.compact && n)
-        return "0: here knobs are data, which compact arithmetic has not; build lib/ with -DGN_COMPACT=1, and the host "
-               "draws the same bits";
     if (changed == &s->quality.persp_step && n != 1 && n != 4 && n != 8 && n != 16) return "1, 4, 8 or 16";
     if (changed == &s->quality.atten_bits && n != 8 && n != 16) return "8 or 16";
     if ((changed == &s->quality.depth_bits || changed == &s->quality.other_depth_bits) && n != 8 && n != 16 && n != 32)
@@ -193,6 +195,7 @@ int settings_apply_knob(settings *out, const char *name, const char *value, char
     const char *wrong = refine(out, field(out, k), n);
     if (wrong) return settings_fail(error, bytes, k->name, value, wrong);
     *field(out, k) = n;
+    if (k->offset == offsetof(settings, build.compact)) settings_compact_features(out);
     return 0;
 }
 

@@ -177,6 +177,7 @@ static int over(char *error, size_t bytes, const char *knob, int available, cons
 int settings_enforce(const settings *set, scene *s, int width, int height, char *error, size_t error_bytes)
 {
     settings_need needs[SETTINGS_NEEDS_MAX];
+    if (set->build.compact && settings_compact_check(set, s, width, height, error, error_bytes)) return -1;
     for (size_t i = 0; i < s->n_meshes; i++) {
         if (!set->feature.vertex_normals) drop(&s->meshes[i].nrm);
         if (!set->feature.vertex_colours) drop(&s->meshes[i].rgb);

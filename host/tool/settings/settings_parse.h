@@ -30,6 +30,13 @@ int settings_apply_knob(settings *out, const char *name, const char *value, char
 void settings_print_knobs(void); /* their tables */
 void settings_near_knobs(nearest *n);
 
+/* settings_compact.c: compact arithmetic, of which what is set afterwards may be refused: features that it has not are
+ * off, or all are on again; and the shadows of a scene are those that it has. */
+void settings_compact_features(settings *s);
+void settings_compact_scene(scene *s);
+void settings_compact_quality(settings *s); /* what is fixed in it, whatever was set */
+int settings_compact_check(const settings *set, const scene *s, int width, int height, char *error, size_t error_bytes);
+
 /* settings_scene.c */
 
 /* Settings of the scene: those of its shadows, lights and colours. light: only that one; SCENE_NONE: all. 1: taken; 0:
@@ -47,5 +54,8 @@ extern const char *const settings_blend_names[];
 
 /* The value of a feature knob by its name; -1: there is none. */
 int settings_feature(const settings *set, const char *name);
+/* Calls for every feature knob. */
+typedef void (*settings_each)(void *user, const char *name, int *value);
+void settings_each_feature(settings *set, settings_each each, void *user);
 
 #endif

@@ -157,8 +157,6 @@ static void put_work(layout *out, const settings *s)
     put(out, 1, all.size > largest ? all.size : largest, 8);
 }
 
-/* Mirrors lib/frame/gn_state.h for a 32-bit target; a test compiles every preset and holds the sum against
- * sizeof(gn_renderer). */
 /* Screen coordinates of more than 16 bits. */
 static int wide_coordinates(const settings *s)
 {
@@ -166,9 +164,31 @@ static int wide_coordinates(const settings *s)
     return bits > 7 || s->capacity.max_width > max || s->capacity.max_height > max;
 }
 
+/* Mirrors lib/compact/gn_compact_types.h. */
+static settings_ram_parts compact_ram(const settings *s)
+{
+    settings_ram_parts r = {0};
+    layout all = {0, 8};
+    const long tile_px = (long)s->quality.tile_width * s->quality.tile_height, side = s->quality.atlas_size;
+    put(&all, 1, 400, 8); /* scene to view */
+    r.triangles = put(&all, s->capacity.max_triangles, 56, 4);
+    r.atlas = put(&all, side * side, 2, 2);
+    pad(&all, 8);
+    r.cells = put(&all, tile_px, 4, 4);
+    r.pixels = put(&all, tile_px, 2, 4);
+    put(&all, 1, 344, 4); /* work */
+    pad(&all, 8);
+    r.total = all.size;
+    r.rest = r.total - r.atlas - r.triangles - r.cells - r.pixels;
+    return r;
+}
+
+/* Mirrors lib/frame/gn_state.h for a 32-bit target; a test compiles every preset and holds the sum against
+ * sizeof(gn_renderer). */
 settings_ram_parts settings_ram(const settings *s)
 {
     settings_ram_parts r = {0};
+    if (s->build.compact) return compact_ram(s);
     layout frame = {0, 4}, all;
     long tile_w = s->quality.tile_width, tile_h = s->quality.tile_height;
     long tiles = ((s->capacity.max_width + tile_w - 1) / tile_w) * ((s->capacity.max_height + tile_h - 1) / tile_h);

@@ -313,7 +313,9 @@ int sweep_begin(sweep *w, const tool_options *o)
     if (tool_load(o, &s, &set)) return -1;
     look_at_sets(w);
     look_at_lights(w, &s);
-    int failed = engine_truth(&w->common, &s, &set, o->width, o->height, 1, error, sizeof error) ||
+    const bool compact = set.build.compact != 0;
+    if (compact) snprintf(error, sizeof error, "setting 'compact': 1, whose instructions no model knows");
+    int failed = compact || engine_truth(&w->common, &s, &set, o->width, o->height, 1, error, sizeof error) ||
                  sweep_play_begin(w, &s, &set, error, sizeof error);
     scene_free(&s);
     return failed ? fail(w, error) : 0;
