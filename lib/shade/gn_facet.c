@@ -146,20 +146,20 @@ GN_HOT static int add_vertex_light(facet *f, uint32_t slot)
 /* ---- Pixels ------------------------------------------------------------------------------------------------------ */
 
 /* A value over the length of the interpolated normal. */
-GN_HOT static inline int32_t over_length(int32_t v, uint32_t per_length_uq16)
+GN_HOT static inline int32_t over_length(int32_t v, int32_t per_length_q30)
 {
-    return (int32_t)((int64_t)v * (int32_t)per_length_uq16 >> 16);
+    return 4 * gn_mul_high(v, per_length_q30);
 }
 
-/* 1 / |n| of n pixels of a row. */
+/* 1 / |n| of n pixels of a row: as gn_rsqrt_norm() finds it in one step, of what lies in 1/4 .. 1. */
 GN_HOT static void find_lengths(const gn_facet_curve *length2_q20, int32_t right, int32_t down, int32_t n,
-                                uint32_t *out_uq16)
+                                uint32_t *out_q30)
 {
     gn_facet_row row = gn_facet_row_of(length2_q20, right, down);
     for (int32_t i = 0; i < n; i++, row.at += row.step, row.step += row.change) {
-        uint32_t v = (uint32_t)gn_max32(1 << 18, gn_min32(row.at, 1 << 20)); /* 1/3 and more on the triangle */
-        int32_t up = gn_clz32(v) & 30;
-        out_uq16[i] = gn_rsqrt_norm(v << up, 1) >> (21 - (up >> 1));
+        uint32_t v = (uint32_t)gn_max32(1 << 18, gn_min32(row.at, (1 << 20) - 1)); /* 1/3 and more on the triangle */
+        uint32_t y_q31 = (uint32_t)gn_rsqrt_entry((v >> 12) - 64U) << 16;
+        out_q30[i] = gn_umul_high(y_q31, (3U << 30) - gn_umul_high(v << 12, gn_umul_high(y_q31, y_q31)));
     }
 }
 
@@ -176,9 +176,39 @@ GN_HOT static void add_pixel_light(const facet *f, const pixel_light *light, int
         if (e <= 0) continue;
         if (light->has_edge) share = light->dark_uq16 + gn_mul_uq16(less, attenuation[i]);
         if (!share) continue;
-        int32_t v = gn_cell_share(f->turns ? over_length(e, l->row.attenuation[1][i]) : e, share);
+        int32_t v = gn_cell_share(f->turns ? over_length(e, (int32_t)l->row.attenuation[1][i]) : e, share);
         for (int c = 0; c < 3; c++) /* 2^27 each, and as much to begin with */
             node[i][c] += gn_corner_times(light->radiance_uq16[c], v);
+    }
+}
+
+/* Nodes of n pixels without light that they ask for; per_length_q30: their 1 / |n|, or NULL. */
+GN_HOT static void begin_nodes(const facet *f, const facet_look *look, int32_t right, int32_t down, int32_t n,
+                               const uint32_t *per_length_q30)
+{
+    const gn_slope *slope = look->colour_q24;
+    int32_t r = gn_facet_at(&slope[0], right, down), g = gn_facet_at(&slope[1], right, down),
+            b = gn_facet_at(&slope[2], right, down);
+    const int32_t dr = slope[0].dx, dg = slope[1].dx, db = slope[2].dx, base_r = f->base_q24[0],
+                  base_g = f->base_q24[1], base_b = f->base_q24[2];
+    int32_t(*node)[3] = f->s->lattice.by.node[0];
+    for (int32_t(*end)[3] = node + n; node < end; node++, r += dr, g += dg, b += db) {
+        int32_t per = per_length_q30 ? (int32_t)*per_length_q30++ : 0;
+        (*node)[0] = base_r + (per ? over_length(r, per) : r);
+        (*node)[1] = base_g + (per ? over_length(g, per) : g);
+        (*node)[2] = base_b + (per ? over_length(b, per) : b);
+    }
+}
+
+GN_HOT static void tint_nodes(int32_t (*node)[3], int32_t n, const gn_slope tint_q16[3], int32_t right, int32_t down)
+{
+    int32_t r = gn_facet_at(&tint_q16[0], right, down), g = gn_facet_at(&tint_q16[1], right, down),
+            b = gn_facet_at(&tint_q16[2], right, down);
+    const int32_t dr = tint_q16[0].dx, dg = tint_q16[1].dx, db = tint_q16[2].dx;
+    for (int32_t(*end)[3] = node + n; node < end; node++, r += dr, g += dg, b += db) {
+        (*node)[0] = (int32_t)((int64_t)(*node)[0] * r >> 16);
+        (*node)[1] = (int32_t)((int64_t)(*node)[1] * g >> 16);
+        (*node)[2] = (int32_t)((int64_t)(*node)[2] * b >> 16);
     }
 }
 
@@ -186,20 +216,13 @@ GN_HOT static void add_pixel_light(const facet *f, const pixel_light *light, int
 GN_HOT static void light_pixels(const facet *f, const facet_look *look, int32_t x, int32_t y, int32_t n)
 {
     gn_lattice *l = &f->s->lattice;
-    int32_t(*node)[3] = l->by.node[0], right = x - f->screen.x0, down = y - f->screen.y0;
-    const uint32_t *per_length = l->row.attenuation[1];
-    if (f->turns) find_lengths(&look->length2_q20, right, down, n, l->row.attenuation[1]);
-    for (int c = 0; c < 3; c++) {
-        int32_t at = gn_facet_at(&look->colour_q24[c], right, down), step = look->colour_q24[c].dx;
-        for (int32_t i = 0; i < n; i++, at += step)
-            node[i][c] = f->base_q24[c] + (f->turns ? over_length(at, per_length[i]) : at);
-    }
+    int32_t right = x - f->screen.x0, down = y - f->screen.y0;
+    if (f->turns) {
+        find_lengths(&look->length2_q20, right, down, n, l->row.attenuation[1]);
+        begin_nodes(f, look, right, down, n, l->row.attenuation[1]);
+    } else begin_nodes(f, look, right, down, n, NULL);
     for (int32_t i = 0; i < f->n_lights; i++) add_pixel_light(f, &f->light[i], x, y, n);
-    for (int c = 0; look->tinted && c < 3; c++) {
-        int32_t tint = gn_facet_at(&look->tint_q16[c], right, down);
-        for (int32_t i = 0; i < n; i++, tint += look->tint_q16[c].dx)
-            node[i][c] = (int32_t)((int64_t)node[i][c] * tint >> 16);
-    }
+    if (look->tinted) tint_nodes(l->by.node[0], n, look->tint_q16, right, down);
 }
 
 #if GN_TEXTURES
