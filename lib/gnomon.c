@@ -138,6 +138,7 @@
 #include "shade/gn_exact.c"
 #include "shade/gn_facet.c"
 #include "shade/gn_facet_screen.c"
+#include "shade/gn_facet_shadow.c"
 #include "shade/gn_facet_texture.c"
 #if GN_INTERPOLATES
 #include "shade/gn_corner.c"

@@ -11,7 +11,7 @@
 
 typedef struct {
     uint32_t tag;     /* key of the cached vertex, 0: none */
-    int32_t v_q16[3]; /* its position in the view's axes */
+    int32_t v_q16[3]; /* its position in the view's axes; while surfaces are shaded, its normal in the world, Q30 */
 } gn_vertex_entry;
 
 /* Key of an object's vertex: never 0, and one more for the object's next vertex. Both indices are below 65535. */

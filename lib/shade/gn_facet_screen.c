@@ -21,7 +21,8 @@ GN_HOT static int vertex_on_screen(const gn_frame *frame, const int32_t v_q16[3]
     return 1;
 }
 
-GN_HOT int gn_facet_screen_find(gn_facet_screen *out, const gn_frame *frame, const gn_surface *s, const gn_rect *box)
+/* Returns 0 if the triangle does not fit. */
+GN_HOT static GN_NOINLINE int find_screen(gn_facet_screen *out, const gn_frame *frame, const gn_surface *s)
 {
     int32_t p[3][2], d[3][2];
     uint32_t longest = 0;
@@ -44,27 +45,69 @@ GN_HOT int gn_facet_screen_find(gn_facet_screen *out, const gn_frame *frame, con
         out->along_q24[i][0] = (int32_t)((int64_t)d[2][1 - i] * recip >> (57 - clz));
         out->along_q24[i][1] = -(int32_t)((int64_t)d[1][1 - i] * recip >> (57 - clz));
     }
-    out->to_first_q13[0] = (2 * box->x0 + 1 - frame->picture.width) * 4096 - p[0][0];
-    out->to_first_q13[1] = p[0][1] - (frame->picture.height - 1 - 2 * box->y0) * 4096;
-    out->box = box;
-    out->steep = 0;
+    int32_t x = p[0][0] + frame->picture.width * 4096, y = frame->picture.height * 4096 - p[0][1];
+    out->x0 = x >> 13;
+    out->y0 = y >> 13;
+    out->to_first_q13[0] = out->x0 * 8192 + 4096 - x;
+    out->to_first_q13[1] = out->y0 * 8192 + 4096 - y;
     return 1;
+}
+
+GN_HOT int gn_facet_screen_use(gn_facet_screen *screen, const gn_frame *frame, const gn_surface *surface)
+{
+    if (!screen->found) screen->found = find_screen(screen, frame, surface) ? 1 : -1;
+    return screen->found > 0;
 }
 
 #define STEEP (1 << 23)
 
-GN_HOT GN_NOINLINE void gn_facet_slope(gn_facet_screen *screen, gn_slope *out, int32_t at0, int32_t at1, int32_t at2)
+GN_HOT GN_NOINLINE void gn_facet_slope(gn_facet_screen *screen, gn_slope *out, const int32_t at[3])
 {
-    int32_t slope[2], a = at1 - at0, b = at2 - at0;
+    int32_t slope[2], a = at[1] - at[0], b = at[2] - at[0];
     const int32_t *first = screen->to_first_q13;
     for (int i = 0; i < 2; i++) {
         int64_t v = ((int64_t)a * screen->along_q24[i][0] + (int64_t)b * screen->along_q24[i][1]) >> 24;
         if (v >= STEEP || v <= -STEEP) v = 0, screen->steep = 1;
         slope[i] = (int32_t)v;
     }
-    out->at = at0 + (int32_t)(((int64_t)slope[0] * first[0] + (int64_t)slope[1] * first[1]) >> 13);
+    out->at = at[0] + (int32_t)(((int64_t)slope[0] * first[0] + (int64_t)slope[1] * first[1]) >> 13);
     out->dx = slope[0];
     out->dy = slope[1];
+}
+
+#define CURVED (1 << 20) /* 16^2 of it, three times, and what is linear: below 2^31 */
+
+/* With b0 = 1 - b1 - b2: m01 b0 b1 + m02 b0 b2 + m12 b1 b2 = m01 b1 + m02 b2 - m01 b1^2 - m02 b2^2 + (m12 - m01 - m02)
+ * b1 b2. */
+GN_HOT void gn_facet_curve_find(gn_facet_screen *screen, gn_facet_curve *out, const int32_t at[3],
+                                const int32_t above[3])
+{
+    const int32_t *gx = screen->along_q24[0], *gy = screen->along_q24[1];
+    const int32_t m[3] = {-above[0], -above[1], above[2] - above[0] - above[1]};
+    const int32_t ends[3] = {at[0], at[1] + above[0], at[2] + above[1]};
+    const int64_t b1x = (int64_t)m[0] * gx[0] + (((int64_t)m[2] * gx[1]) >> 1), /* half of what b1 and b2 change by */
+        b2x = (int64_t)m[1] * gx[1] + (((int64_t)m[2] * gx[0]) >> 1),
+                  b1y = (int64_t)m[0] * gy[0] + (((int64_t)m[2] * gy[1]) >> 1),
+                  b2y = (int64_t)m[1] * gy[1] + (((int64_t)m[2] * gy[0]) >> 1);
+    const int32_t first[2] = {(int32_t)(b1x >> 24), (int32_t)(b2x >> 24)},
+                  second[2] = {(int32_t)(b1y >> 24), (int32_t)(b2y >> 24)};
+    const int64_t sum[3] = {((int64_t)first[0] * gx[0] + (int64_t)first[1] * gx[1]) >> 24,
+                            ((int64_t)first[0] * gy[0] + (int64_t)first[1] * gy[1]) >> 23,
+                            ((int64_t)second[0] * gy[0] + (int64_t)second[1] * gy[1]) >> 24};
+    int32_t v[3];
+    gn_facet_slope(screen, &out->line, ends);
+    for (int i = 0; i < 3; i++) {
+        v[i] = (int32_t)sum[i];
+        if (sum[i] >= CURVED || sum[i] <= -CURVED) v[i] = 0, screen->steep = 1;
+    }
+    const int64_t x = screen->to_first_q13[0], y = screen->to_first_q13[1];
+    const int32_t at_x = (int32_t)((v[0] * x + v[1] * y) >> 13), at_y = (int32_t)(v[2] * y >> 13);
+    out->line.at += (int32_t)((at_x * x + at_y * y) >> 13);
+    out->line.dx += at_x + (int32_t)(v[0] * x >> 13);
+    out->line.dy += 2 * at_y + (int32_t)(v[1] * x >> 13);
+    out->xx = v[0];
+    out->xy = v[1];
+    out->yy = v[2];
 }
 
 #endif

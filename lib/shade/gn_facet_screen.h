@@ -1,4 +1,4 @@
-/* Parts of gn_facet: a small triangle on the screen, on which values at the vertices are linear. */
+/* Parts of gn_facet: a small triangle on the screen, on which values at the vertices are linear, or quadratic. */
 #ifndef GN_FACET_SCREEN_H
 #define GN_FACET_SCREEN_H
 
@@ -7,25 +7,47 @@
 #if GN_INTERPOLATES
 
 typedef struct {
-    const gn_rect *box;
+    int16_t found;           /* 0: not asked for yet; -1: it is large, deep or narrow */
+    int16_t steep;           /* some value changes too fast */
+    int32_t x0, y0;          /* the pixel of vertex 0, from which others are counted: right and down */
     int32_t along_q24[2][2]; /* the change per pixel, right and down, of what is 1 more at vertex 1, or at vertex 2 */
-    int32_t to_first_q13[2]; /* pixels from vertex 0 to the centre of the box's first pixel, right and down */
-    int steep;               /* some value changes too fast */
+    int32_t to_first_q13[2]; /* pixels from vertex 0 to the centre of its pixel, right and down */
 } gn_facet_screen;
 
 enum { GN_FACET_PX = 16 };
 
-/* Returns 0 if the triangle is large, deep, or narrower than half a pixel. */
-int gn_facet_screen_find(gn_facet_screen *out, const gn_frame *frame, const gn_surface *surface, const gn_rect *box);
+/* Found once, when something varies. Returns 0 if the triangle is large, deep, or narrower than half a pixel. */
+int gn_facet_screen_use(gn_facet_screen *screen, const gn_frame *frame, const gn_surface *surface);
 
-/* Through values at the vertices, |.| <= 2^30: all pixels of the box, and as many before it, stay within 32 bits, or
- * `steep` is set. */
-void gn_facet_slope(gn_facet_screen *screen, gn_slope *out, int32_t at0, int32_t at1, int32_t at2);
+/* Through values at the vertices, |.| <= 2^30: all pixels of the triangle stay within 32 bits, or `steep` is set. */
+void gn_facet_slope(gn_facet_screen *screen, gn_slope *out, const int32_t at[3]);
 
-/* At a pixel of the box. */
+/* Quadratic on the screen: at + dx x + dy y + xx x^2 + xy x y + yy y^2, (x, y) to the right and down. */
+typedef struct {
+    gn_slope line;
+    int32_t xx, xy, yy;
+} gn_facet_curve;
+
+/* Through values at the vertices, and in the middles of the edges 01, 02, 12, where it is a quarter of `above` more
+ * than the mean of the ends. */
+void gn_facet_curve_find(gn_facet_screen *screen, gn_facet_curve *out, const int32_t at[3], const int32_t above[3]);
+
 GN_HOT static inline int32_t gn_facet_at(const gn_slope *s, int32_t right, int32_t down)
 {
     return s->at + s->dx * right + s->dy * down;
+}
+
+/* Along a row of pixels: the value at the first, the step to the next, and by how much steps change. */
+typedef struct {
+    int32_t at, step, change;
+} gn_facet_row;
+
+GN_HOT static inline gn_facet_row gn_facet_row_of(const gn_facet_curve *c, int32_t right, int32_t down)
+{
+    int32_t to_right = c->line.dx + c->xx * right + c->xy * down;
+    gn_facet_row row = {c->line.at + to_right * right + (c->line.dy + c->yy * down) * down,
+                        to_right + c->xx * (right + 1), 2 * c->xx};
+    return row;
 }
 
 #endif

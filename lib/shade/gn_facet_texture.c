@@ -69,7 +69,7 @@ GN_HOT static int find_coordinate(gn_facet_texture *out, const gn_frame *frame, 
         at[k] = (int32_t)(change + (change * e_q30[k] >> 30));
     }
     gn_slope *slope = &out->from_first_q17[axis];
-    gn_facet_slope(screen, slope, at[0], at[1], at[2]);
+    gn_facet_slope(screen, slope, at);
     out->first_q17[axis] = (int32_t)first - (out->texture->flags & GN_TEXTURE_BILINEAR ? (1 << 16) - (1 << 8) : 0);
     return error_q17(slope, &out->e_q30, e_most, most) >> (17 - gn_cell_texture_log2(frame)) == 0;
 }
@@ -80,7 +80,7 @@ GN_HOT int gn_facet_texture_begin(gn_facet_texture *out, const gn_frame *frame, 
     out->texture = texture_of(s);
     if (!out->texture) return 0;
     find_nearness(s, e_q30);
-    gn_facet_slope(screen, &out->e_q30, e_q30[0], e_q30[1], e_q30[2]);
+    gn_facet_slope(screen, &out->e_q30, e_q30);
     if (gn_abs32(out->e_q30.dx) >> (26 - ROW_LOG2)) return 0;
     for (int axis = 0; axis < 2; axis++)
         if (!find_coordinate(out, frame, s, screen, e_q30, axis)) return 0;

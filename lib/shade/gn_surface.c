@@ -8,6 +8,7 @@
 #include "base/gn_q.h"
 #include "geometry/gn_skin.h"
 #include "geometry/gn_texture.h"
+#include "geometry/gn_vertex_cache.h"
 #include "geometry/gn_xform.h"
 #include "light/gn_bias.h"
 #include "shade/gn_sample.h"
@@ -82,8 +83,32 @@ GN_HOT void gn_surface_normal(int32_t out_q30[3], const int32_t matrix[3][3], co
     }
 }
 
+/* Of a vertex, by way of the cache, whose entries are not used for positions here. */
+GN_HOT static void vertex_normal(int32_t out_q30[3], const gn_surface_cache *cache, gn_vertex_entry *vertex,
+                                 const gn_object *object, uint32_t object_idx, uint32_t vertex_idx)
+{
+    const gn_normal *nrm_q15 = object->mesh->nrm_q15 + 3 * (size_t)vertex_idx;
+    if (GN_VERTEX_JOINTS && GN_SKIN(object)) {
+        gn_skin_normal(out_q30, object, cache->normal_matrix, vertex_idx);
+        return;
+    }
+    if (GN_SIZE_FIRST) {
+        gn_xform_normal(out_q30, cache->normal_matrix, nrm_q15);
+        return;
+    }
+    gn_vertex_entry *entry = &vertex[gn_vertex_slot(vertex_idx, GN_VERTEX_CACHE - 1)];
+    GN_ELEMENT(entry);
+    uint32_t tag = gn_vertex_tag(object_idx, vertex_idx);
+    if (!gn_vertex_hit(entry, tag)) {
+        gn_surface_normal(entry->v_q16, cache->normal_matrix, nrm_q15);
+        gn_vertex_claim(entry, tag);
+    }
+    for (int i = 0; i < 3; i++) out_q30[i] = entry->v_q16[i];
+}
+
 /* Of the vertices, or of the face where they have none. [M3] */
-GN_HOT static void normals(const gn_frame *frame, const gn_surface_cache *cache, gn_surface *s, const uint16_t *idx)
+GN_HOT static void normals(const gn_frame *frame, const gn_surface_cache *cache, gn_vertex_entry *vertex, gn_surface *s,
+                           const uint16_t *idx)
 {
     const gn_mesh *mesh = s->object->mesh;
     for (int k = 0; k < 3; k++)
@@ -94,11 +119,9 @@ GN_HOT static void normals(const gn_frame *frame, const gn_surface_cache *cache,
         return;
     }
     int32_t n[3][3];
+    uint32_t object_idx = (uint32_t)(s->object - frame->scene->objects);
     for (int k = 0; k < 3; k++) {
-        const gn_normal *nrm_q15 = mesh->nrm_q15 + 3 * (size_t)idx[k];
-        if (GN_VERTEX_JOINTS && GN_SKIN(s->object)) gn_skin_normal(n[k], s->object, cache->normal_matrix, idx[k]);
-        else if (GN_SIZE_FIRST) gn_xform_normal(n[k], cache->normal_matrix, nrm_q15);
-        else gn_surface_normal(n[k], cache->normal_matrix, nrm_q15);
+        vertex_normal(n[k], cache, vertex, s->object, object_idx, idx[k]);
         if (s->plane.back)
             for (int i = 0; i < 3; i++) n[k][i] = -n[k][i];
     }
@@ -222,11 +245,12 @@ GN_HOT static void baked_light(gn_surface *s, const uint16_t *idx)
     }
 }
 
-GN_HOT static void attributes(const gn_frame *frame, const gn_surface_cache *cache, gn_surface *s, const uint16_t *idx)
+GN_HOT static void attributes(const gn_frame *frame, const gn_surface_cache *cache, gn_vertex_entry *vertex,
+                              gn_surface *s, const uint16_t *idx)
 {
     texture_coords(frame, s, idx);
     texture_levels(frame, s);
-    normals(frame, cache, s, idx);
+    normals(frame, cache, vertex, s, idx);
     masks(frame, s, idx);
     baked_light(s, idx);
     const uint32_t *specular = s->object->specular_uq16;
@@ -289,14 +313,17 @@ GN_HOT static void use_object(const gn_frame *frame, gn_surface_cache *cache, co
         gn_xform_normal_matrix(cache->normal_matrix, object->to_world.m_q30);
 }
 
-/* A vertex whose transform or position is too large for the fast path. */
+/* A vertex whose transform or position is too large for the fast path. The cache's entry may be a normal. */
 GN_HOT static GN_NOINLINE void slow_vertex(int32_t out_q16[3], const gn_frame *frame, gn_scratch *scratch,
                                            const gn_tri_source *tri, uint32_t vertex_idx)
 {
     const gn_object *object = &frame->scene->objects[tri->object_idx];
+    gn_vertex_entry *entry = &scratch->vertex[gn_vertex_slot(vertex_idx, GN_VERTEX_CACHE - 1)];
     gn_xform to_view;
     gn_xform_compose(&to_view, frame->cam.axis_q30, frame->cam.eye_q16, object);
+    gn_vertex_drop(entry);
     gn_setup_vertex(out_q16, scratch->vertex, &to_view, object, tri->object_idx, vertex_idx);
+    gn_vertex_drop(entry);
 }
 
 #if GN_ORTHOGRAPHIC
@@ -349,7 +376,7 @@ GN_HOT void gn_surface_begin(const gn_frame *frame, gn_scratch *scratch, gn_surf
 #endif
         if (s->plane.det > 0)
         s->depth_scale = gn_bf_mul(gn_bf_from_u64((uint64_t)s->plane.det), gn_bf_from_u64(frame->cam.focal2_px_q16));
-    attributes(frame, cache, s, idx);
+    attributes(frame, cache, scratch->vertex, s, idx);
 #if GN_INTERPOLATES
     memcpy(s->v_q16, v, sizeof s->v_q16);
 #else

@@ -1,9 +1,13 @@
 /* Small triangles, whose light is found at their vertices, against the same pictures with every pixel for itself
  * (NUMERICS 4.17): a ball of 120 triangles with colours and normals, in the shadow of a box, under one sun, with a
- * bilinear texture or without. */
+ * bilinear texture or without. And the lengths of their interpolated normals. */
+#include <math.h>
+
+#include "../lib/shade/gn_facet_screen.h"
 #include "check.h"
 #include "demo_scene.h"
 #include "knobs.h"
+#include "rng.h"
 
 enum { WIDTH = 160, HEIGHT = 120, FRAMES = 6, N_SIZES = 4 };
 
@@ -105,9 +109,95 @@ static void compare_all(const char *look, int32_t longest)
                 compare(look, step, vertex_light, size[i][0], size[i][1]);
 }
 
+/* ---- Lengths of interpolated normals ----------------------------------------------------------------------------- */
+
+static rng random_state = {417};
+static int lengths_found;
+
+static double uniform(double lo, double hi)
+{
+    return lo + (hi - lo) * rng_u32(&random_state) / 4294967296.0;
+}
+
+/* Unit normals that differ by so much, squared: vertices 0 and 1, 0 and 2, 1 and 2. */
+static void draw_normals(double turn[3])
+{
+    double n[3][3], most = 3;
+    while (most > 2) {
+        for (int k = 0; k < 3; k++) {
+            double length = 0, widest = k ? uniform(0, 2) : 1;
+            for (int i = 0; i < 3; i++) n[k][i] = uniform(-widest, widest) + (k ? n[0][i] : 0);
+            for (int i = 0; i < 3; i++) length += n[k][i] * n[k][i];
+            for (int i = 0; i < 3; i++) n[k][i] /= sqrt(length);
+        }
+        most = 0;
+        for (int k = 0; k < 3; k++) {
+            turn[k] = 0;
+            for (int i = 0; i < 3; i++) turn[k] += pow(n[k ? 2 : 1][i] - n[k == 2][i], 2);
+            most = fmax(most, turn[k]);
+        }
+    }
+}
+
+/* |n|^2 of the triangle's pixels. */
+static void compare_lengths(const gn_frame *frame, const double p[3][2], const double turn[3], gn_surface *surface)
+{
+    const int32_t one[3] = {1 << 20, 1 << 20, 1 << 20},
+                  above[3] = {-(int32_t)lround(ldexp(turn[0], 20)), -(int32_t)lround(ldexp(turn[1], 20)),
+                              -(int32_t)lround(ldexp(turn[2], 20))};
+    const double area = (p[1][0] - p[0][0]) * (p[2][1] - p[0][1]) - (p[1][1] - p[0][1]) * (p[2][0] - p[0][0]);
+    gn_facet_screen screen = {0};
+    gn_facet_curve curve;
+    double worst = 0, least = 1;
+    if (!gn_facet_screen_use(&screen, frame, surface)) return;
+    gn_facet_curve_find(&screen, &curve, one, above);
+    if (screen.steep) return;
+    lengths_found++;
+    for (int y = 0; y < HEIGHT; y++) {
+        gn_facet_row row = {0, 0, 0};
+        for (int x = 0, begun = 0; x < WIDTH; x++) {
+            const double dx = x + 0.5 - p[0][0], dy = y + 0.5 - p[0][1];
+            const double b1 = (dx * (p[2][1] - p[0][1]) - dy * (p[2][0] - p[0][0])) / area,
+                         b2 = (dy * (p[1][0] - p[0][0]) - dx * (p[1][1] - p[0][1])) / area, b0 = 1 - b1 - b2;
+            if (b0 < 0 || b1 < 0 || b2 < 0) continue;
+            if (!begun++) row = gn_facet_row_of(&curve, x - screen.x0, y - screen.y0);
+            const double length2 = 1 - b0 * b1 * turn[0] - b0 * b2 * turn[1] - b1 * b2 * turn[2];
+            worst = fmax(worst, fabs(length2 - ldexp(row.at, -20)));
+            least = fmin(least, length2);
+            row.at += row.step;
+            row.step += row.change;
+        }
+    }
+    CHECK(worst < ldexp(1, -10) && least >= 1.0 / 3);
+}
+
+static void try_lengths(void)
+{
+    static gn_surface surface;
+    gn_frame *frame = &renderer.frame;
+    demo_scene_make(&demo, 0);
+    if (!draw(0, 8, 0, WIDTH, HEIGHT)) return;
+    const double focal2 = ldexp(frame->cam.focal2_px_q16, -16), z = 256;
+    for (int i = 0; i < 4000; i++) {
+        double p[3][2], turn[3];
+        const double at[2] = {uniform(20, 140), uniform(20, 100)}, reach = uniform(1, 8);
+        for (int k = 0; k < 3; k++) {
+            for (int a = 0; a < 2; a++) p[k][a] = at[a] + uniform(-reach, reach);
+            surface.v_q16[k][0] = (int32_t)lround(ldexp((2 * p[k][0] - WIDTH) / focal2 * z, 16));
+            surface.v_q16[k][1] = (int32_t)lround(ldexp((HEIGHT - 2 * p[k][1]) / focal2 * z, 16));
+            surface.v_q16[k][2] = (int32_t)ldexp(z, 16);
+        }
+        surface.z_min_q16 = surface.z_max_q16 = surface.v_q16[0][2];
+        draw_normals(turn);
+        compare_lengths(frame, (const double(*)[2])p, turn, &surface);
+    }
+    CHECK(lengths_found > 2000);
+}
+
 int main(void)
 {
     gn_texture texture;
+    try_lengths();
     for (uint32_t frame = 0; frame < FRAMES; frame++) {
         demo_scene_make(&demo, frame);
         if (frame & 1) { /* no part of a shadow fades */

@@ -1,0 +1,171 @@
+/* Shadows on small triangles. */
+#include "gn_internal.h"
+
+#include "base/gn_count.h"
+#include "base/gn_math.h"
+#include "base/gn_q.h"
+#include "shade/gn_facet_shadow.h"
+#include "shade/gn_lattice_cell.h"
+#include "shade/gn_shadow.h"
+#include "shadow/gn_filter.h"
+#include "shadow/gn_texel.h"
+
+#if GN_INTERPOLATES
+
+#if GN_SHADOWS
+enum { FLAT_EDGE_PX = 32 /* with more, windows of flat surfaces pay */ };
+
+/* Coordinates of points of view space: a view's rays times twice the focal length. Returns 0 if they do not fit. */
+GN_HOT static int use_matrix(gn_view_matrix *matrix, const gn_frame *frame, const gn_light_view *view)
+{
+    if (matrix->view == view) return 1;
+    matrix->view = NULL;
+    if ((uint32_t)view->fit.ortho.ray_shift > 62 || frame->cam.focal2_px_q16 >> 31) return 0;
+    for (int i = 0; i < 3; i++) {
+        const gn_ray_plane *r = &view->fit.ortho.ray[i];
+        int64_t x = (int64_t)r->ax * (int32_t)frame->cam.focal2_px_q16 >> 16,
+                y = (int64_t)r->ay * (int32_t)frame->cam.focal2_px_q16 >> 16;
+        if (x != (int32_t)x || y != (int32_t)y || r->d_q16 != (int32_t)r->d_q16) return 0;
+        matrix->m[i][0] = (int32_t)x;
+        matrix->m[i][1] = (int32_t)y;
+        matrix->m[i][2] = r->a0;
+    }
+    matrix->view = view;
+    return 1;
+}
+
+/* Where a view sees the vertices: texels, Q16, and depth as a share of the range, Q30. */
+typedef struct {
+    int32_t at[3][3]; /* u, v and depth of each */
+} vertex_places;
+
+GN_HOT static inline int32_t depth_q30_of(const gn_light_view *view, int32_t depth_q16)
+{
+    int32_t up = 14 - view->tile_log2 - view->depth_log2;
+    if (up < 0) return depth_q16 >> gn_min32(-up, 31);
+    return gn_max32(-(1 << 29) >> up, gn_min32(depth_q16, ((1 << 30) - 1) >> up)) * (1 << up);
+}
+
+GN_HOT static GN_NOINLINE void place_vertices(const gn_shading *shading, uint32_t slot, const gn_light_view *view,
+                                              vertex_places *out)
+{
+    const gn_surface *s = &shading->surface;
+    const gn_view_matrix *matrix = &shading->lattice.matrix;
+    const int smooth = GN_SMOOTH(s), lifts = smooth && shading->lattice.light[slot].lifts,
+              shift = view->fit.ortho.ray_shift;
+    int32_t moved[3];
+    if (!smooth) gn_sample_offset(shading->frame, s, slot, view, s->normal_q30[0], moved);
+    for (int k = 0; k < 3; k++) {
+        const int32_t *v = s->v_q16[k];
+        int32_t n[3];
+        for (int i = 0; smooth && i < 3; i++) n[i] = s->normal_q30[0][i] + (k ? s->normal_q30[k][i] : 0);
+        if (smooth && !lifts) gn_sample_offset(shading->frame, s, slot, view, n, moved);
+        for (int i = 0; i < 3; i++) {
+            const int32_t *m = matrix->m[i];
+            int64_t sum = (int64_t)m[0] * v[0] + (int64_t)m[1] * v[1] + (int64_t)m[2] * v[2];
+            int32_t offset = moved[i];
+            if (lifts) offset = 4 * gn_mul_high((int32_t)(gn_dot64(n, view->axis_q30[i]) >> 30), view->offset_q16);
+            out->at[i][k] = gn_sat32((sum >> shift) + (int32_t)view->fit.ortho.ray[i].d_q16 + offset);
+        }
+        out->at[2][k] = depth_q30_of(view, out->at[2][k]);
+    }
+}
+
+/* The view of a directional light that sees the triangle; NULL: none. */
+GN_HOT static const gn_light_view *view_of(const gn_shading *s, const gn_light_state *light)
+{
+    const gn_light_view *first = &s->frame->view[light->view_idx];
+    if (first->border_lit) return first;
+    return s->lattice.cascade == GN_CASCADE_NONE ? NULL : first + s->lattice.cascade;
+}
+
+/* What depth bounds of the texels say of all pixels between the vertices: GN_CELL_SPLIT if that does not fit. */
+GN_HOT static int judge(const gn_frame *frame, const gn_light_view *view, const vertex_places *p,
+                        const int32_t slope_q28[2])
+{
+    int32_t lo[3], hi[3];
+    for (int i = 0; i < 3; i++) {
+        lo[i] = gn_min32(p->at[i][0], gn_min32(p->at[i][1], p->at[i][2]));
+        hi[i] = gn_max32(p->at[i][0], gn_max32(p->at[i][1], p->at[i][2]));
+    }
+    if (gn_beyond_tile(view, lo[0], hi[0], lo[1], hi[1])) return GN_CELL_LIT;
+    if (lo[2] <= -(1 << 29) && hi[2] > -(1 << 29)) return GN_CELL_SPLIT; /* a limit, which bends the plane */
+    if ((gn_abs32(lo[0]) | gn_abs32(hi[0]) | gn_abs32(lo[1]) | gn_abs32(hi[1])) >> 27) return GN_CELL_SPLIT;
+    if (view->filter == GN_FILTER_DISK) return GN_CELL_EDGE;
+    int64_t slope = 4 * (int64_t)(view->filter_idx + 2) * ((int64_t)gn_abs32(slope_q28[0]) + gn_abs32(slope_q28[1]));
+    const gn_receiver_step a = {lo[0], lo[1], 2 * (int32_t)gn_clamp64(lo[2] - slope, -(1 << 29), (1 << 30) - 16384)},
+                           b = {hi[0], hi[1], 2 * (int32_t)gn_clamp64(hi[2] + slope, -(1 << 29), (1 << 30) - 16384)};
+    uint32_t attenuation;
+    if (!gn_filter_decides(frame, view, &a, &b, &attenuation)) return GN_CELL_EDGE;
+    return attenuation ? GN_CELL_LIT : GN_CELL_DARK;
+}
+
+/* Whether perspective bends places by less than the tolerance. */
+GN_HOT static int vertex_places_hold(const gn_frame *frame, const gn_surface *s, const vertex_places *p)
+{
+    const int32_t most_log2 = 16 - gn_cell_place_log2(frame);
+    for (int i = 0; i < 2; i++) {
+        uint32_t across = gn_cell_spread(p->at[i][0], p->at[i][1], p->at[i][2], p->at[i][2]);
+        if (((uint64_t)across * (uint32_t)(s->z_max_q16 - s->z_min_q16)) >> (2 + most_log2) > (uint32_t)s->z_min_q16)
+            return 0;
+    }
+    return 1;
+}
+
+GN_HOT int gn_facet_shadow(gn_shading *s, gn_facet_screen *screen, int32_t n_px, uint32_t slot, gn_facet_edge *edge)
+{
+    const gn_light_view *view = view_of(s, s->surface.light[slot].state);
+    vertex_places p;
+    if (!view) return GN_CELL_LIT;
+    if (!use_matrix(&s->lattice.matrix, s->frame, view)) return GN_CELL_SPLIT;
+    GN_COUNT(places, 3);
+    place_vertices(s, slot, view, &p);
+    gn_shadow_slopes(s->frame, &s->surface, view, NULL, edge->slope_q28);
+    int said = judge(s->frame, view, &p, edge->slope_q28);
+    if (said != GN_CELL_EDGE) return said;
+    if ((n_px > FLAT_EDGE_PX && !GN_SMOOTH(&s->surface)) || !gn_facet_screen_use(screen, s->frame, &s->surface) ||
+        !vertex_places_hold(s->frame, &s->surface, &p))
+        return GN_CELL_SPLIT;
+    edge->view = view;
+    gn_facet_slope(screen, &edge->u_q16, p.at[0]);
+    gn_facet_slope(screen, &edge->v_q16, p.at[1]);
+    gn_facet_slope(screen, &edge->depth_q30, p.at[2]);
+    return said;
+}
+
+GN_HOT void gn_facet_attenuation(const gn_shading *s, const gn_facet_screen *screen, const gn_facet_edge *edge,
+                                 int32_t x, int32_t y, int32_t n, uint32_t *out)
+{
+    int32_t right = x - screen->x0, down = y - screen->y0, depth_q30 = gn_facet_at(&edge->depth_q30, right, down);
+    gn_receiver r = {gn_facet_at(&edge->u_q16, right, down),
+                     gn_facet_at(&edge->v_q16, right, down),
+                     0,
+                     {edge->slope_q28[0], edge->slope_q28[1]},
+                     x,
+                     y};
+    for (int32_t i = 0; i < n; i++) {
+        GN_COUNT(edge_lookups, 1);
+        r.depth_q32 = (uint32_t)gn_max32(0, gn_min32(depth_q30, (1 << 30) - 1)) << 2;
+        out[i] = gn_filter_attenuation(s->frame, edge->view, &r);
+        r.u_q16 += edge->u_q16.dx;
+        r.v_q16 += edge->v_q16.dx;
+        depth_q30 += edge->depth_q30.dx;
+        r.pixel_x++;
+    }
+}
+#else
+GN_HOT int gn_facet_shadow(gn_shading *s, gn_facet_screen *screen, int32_t n_px, uint32_t slot, gn_facet_edge *edge)
+{
+    (void)s, (void)screen, (void)n_px, (void)slot, (void)edge;
+    return GN_CELL_LIT;
+}
+
+GN_HOT void gn_facet_attenuation(const gn_shading *s, const gn_facet_screen *screen, const gn_facet_edge *edge,
+                                 int32_t x, int32_t y, int32_t n, uint32_t *out)
+{
+    (void)s, (void)screen, (void)edge, (void)x, (void)y;
+    for (int32_t i = 0; i < n; i++) out[i] = 65536;
+}
+#endif
+
+#endif
