@@ -55,16 +55,15 @@ GN_HOT static GN_NOINLINE void place_vertices(const gn_shading *shading, uint32_
     int32_t moved[3];
     if (!smooth) gn_sample_offset(shading->frame, s, slot, view, s->normal_q30[0], moved);
     for (int k = 0; k < 3; k++) {
-        const int32_t *v = s->v_q16[k];
-        int32_t n[3];
-        for (int i = 0; smooth && i < 3; i++) n[i] = s->normal_q30[0][i] + (k ? s->normal_q30[k][i] : 0);
+        const int32_t v[3] = {s->v_q16[k][0], s->v_q16[k][1], s->v_q16[k][2]};
+        int32_t n[3] = {s->normal_q30[0][0], s->normal_q30[0][1], s->normal_q30[0][2]};
+        for (int i = 0; smooth && k && i < 3; i++) n[i] += s->normal_q30[k][i];
         if (smooth && !lifts) gn_sample_offset(shading->frame, s, slot, view, n, moved);
         for (int i = 0; i < 3; i++) {
-            const int32_t *m = matrix->m[i];
-            int64_t sum = (int64_t)m[0] * v[0] + (int64_t)m[1] * v[1] + (int64_t)m[2] * v[2];
-            int32_t offset = moved[i];
-            if (lifts) offset = 4 * gn_mul_high((int32_t)(gn_dot64(n, view->axis_q30[i]) >> 30), view->offset_q16);
-            out->at[i][k] = gn_sat32((sum >> shift) + (int32_t)view->fit.ortho.ray[i].d_q16 + offset);
+            int32_t along_q30 = lifts ? (int32_t)(gn_dot64(n, view->axis_q30[i]) >> 30) : 0;
+            int32_t offset = lifts ? 4 * gn_mul_high(along_q30, view->offset_q16) : moved[i];
+            int64_t at = (gn_dot64(v, matrix->m[i]) >> shift) + (int32_t)view->fit.ortho.ray[i].d_q16 + offset;
+            out->at[i][k] = (int32_t)at == at ? (int32_t)at : gn_sat32(at);
         }
         out->at[2][k] = depth_q30_of(view, out->at[2][k]);
     }
