@@ -59,16 +59,14 @@ GN_HOT int gn_facet_screen_use(gn_facet_screen *screen, const gn_frame *frame, c
     return screen->found > 0;
 }
 
-#define STEEP (1 << 23)
-
 GN_HOT GN_NOINLINE void gn_facet_slope(gn_facet_screen *screen, gn_slope *out, const int32_t at[3])
 {
     int32_t slope[2], a = at[1] - at[0], b = at[2] - at[0];
     const int32_t *first = screen->to_first_q13;
     for (int i = 0; i < 2; i++) {
-        int64_t v = ((int64_t)a * screen->along_q24[i][0] + (int64_t)b * screen->along_q24[i][1]) >> 24;
-        if (v >= STEEP || v <= -STEEP) v = 0, screen->steep = 1;
-        slope[i] = (int32_t)v;
+        int64_t v = (int64_t)a * screen->along_q24[i][0] + (int64_t)b * screen->along_q24[i][1];
+        if ((uint32_t)((int32_t)(v >> 32) + (1 << 15)) >> 16) v = 0, screen->steep = 1; /* 2^23 per pixel */
+        slope[i] = (int32_t)(v >> 24);
     }
     out->at = at[0] + (int32_t)(((int64_t)slope[0] * first[0] + (int64_t)slope[1] * first[1]) >> 13);
     out->dx = slope[0];

@@ -11,6 +11,7 @@ typedef struct {
     const gn_light_view *view;
     gn_slope u_q16, v_q16, depth_q30;
     int32_t slope_q28[2];
+    int32_t spacing_log2; /* pixels of a row between two that are looked up */
 } gn_facet_edge;
 
 /* GN_CELL_LIT, _DARK or _EDGE, which is set then; GN_CELL_SPLIT if it cannot be told. */

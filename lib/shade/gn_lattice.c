@@ -192,7 +192,7 @@ GN_HOT static int32_t cell_log2(const gn_frame *frame, const gn_surface *s, cons
 }
 
 /* What a small triangle, or cells, or a window cost as much as these pixels do by themselves. */
-enum { FEW_OF_A_FACET = 3, FEW_OF_ONE_COLOUR = 3, FEW = 16 };
+enum { FEW_OF_A_FACET = 2, FEW_OF_ONE_COLOUR = 3, FEW = 16 };
 
 GN_HOT static int32_t count_pixels(const gn_lattice *l)
 {

@@ -129,8 +129,10 @@ GN_HOT static void normals(const gn_frame *frame, const gn_surface_cache *cache,
     for (int i = 0; i < 3; i++) {
         s->normal_q30[0][i] = n[0][i];
         for (int k = 1; k < 3; k++) {
-            s->normal_q30[k][i] = gn_sat32((int64_t)n[k][i] - n[0][i]);
-            any |= gn_abs32(s->normal_q30[k][i]);
+            int32_t change = (int32_t)((uint32_t)n[k][i] - (uint32_t)n[0][i]); /* 2^31 is too much by 1 */
+            if (change == INT32_MIN && n[k][i] > 0) change = INT32_MAX;
+            s->normal_q30[k][i] = change;
+            any |= gn_abs32(change);
         }
     }
     s->smooth = any != 0; /* three equal normals: a flat triangle after all */
