@@ -167,6 +167,10 @@ static void test_other_scratch(gn_format format)
         CHECK_EQ_INT(flushed, 0);
     }
     CHECK_EQ_INT(calls, n);
+    panel.signature[0] ^= 1; /* what was flushed need not be asked for */
+    CHECK_EQ_INT(gn_screen_tile_if_changed(&renderer.frame, &other_scratch, 0, &panel, flush_nothing, &calls, NULL),
+                 GN_OK);
+    CHECK_EQ_INT(calls, n + 1);
 }
 
 /* What fails flushes nothing and says so. */

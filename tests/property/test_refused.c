@@ -488,6 +488,22 @@ static void test_refused_scenes(void)
     }
 }
 
+/* The focal length in pixels: focal * height / 2 < 2^15, of a height that its field alone does not reach. */
+static void test_focal_of_height(void)
+{
+    enum { HEIGHT = 1024 };
+    static canvas c;
+    const gn_picture p = picture_of(8, HEIGHT, GN_FORMAT_RGB565);
+    CHECK(gn_init(&one, &p) == GN_OK);
+    canvas_begin(&c, 8, HEIGHT, GN_FORMAT_RGB565);
+    demo_scene_make(&demo, 0);
+    demo.scene.camera.focal_q24 = (1U << 30) - 1;
+    CHECK_EQ_INT(gn_render(&one, &demo.scene, flush, &c), GN_OK);
+    demo.scene.camera.focal_q24 = 1U << 30;
+    fails_on(gn_render(&one, &demo.scene, flush, &c), GN_ERR_CAMERA_FOCAL, "camera.focal_q24", 0, 0, 0, "focal");
+    canvas_end(&c);
+}
+
 /* ---- Every field of a scene beyond its range --------------------------------------------------------------------- */
 
 /* A field, the ends of its range, and what is said beyond them. */
@@ -1136,6 +1152,7 @@ int main(void)
     test_counts_after_failure();
     test_other_configuration();
     test_refused_scenes();
+    test_focal_of_height();
     test_bounds();
     test_combinations();
     test_refused_pictures();

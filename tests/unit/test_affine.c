@@ -347,6 +347,22 @@ static void test_orthonormalise(void)
     CHECK(loss < 1024.0L); /* LSB of Q1.30: 2^-20 */
 }
 
+/* Without a depth axis, or with an upward axis along it, there are no axes to find: nothing changes. */
+static void test_orthonormalise_degenerate(void)
+{
+    for (int k = 0; k < 2; k++) {
+        gn_affine a, b;
+        gn_affine_identity(&a);
+        for (int i = 0; i < 3; i++) {
+            if (k) a.m_q30[i][1] = a.m_q30[i][2];
+            else a.m_q30[i][2] = 0;
+        }
+        b = a;
+        gn_affine_orthonormalise(&a);
+        for (int i = 0; i < 9; i++) CHECK_EQ_INT(a.m_q30[i / 3][i % 3], b.m_q30[i / 3][i % 3]);
+    }
+}
+
 int main(void)
 {
     test_rotation();
@@ -357,5 +373,6 @@ int main(void)
     test_drift();
     test_no_drift();
     test_orthonormalise();
+    test_orthonormalise_degenerate();
     return check_report();
 }

@@ -71,12 +71,26 @@ static void check_two(const gn_light *first, const gn_light *second, int room)
     CHECK_EQ_INT(gn_get_light_shadow(&renderer, 1, NULL, NULL), room ? GN_SHADOW_REALTIME : GN_SHADOW_NO_ROOM);
 }
 
+/* Four cascades, where four tiles of every sun fit the atlas. */
+static void check_cascades(const gn_light *sun)
+{
+    gn_light suns[17];
+    const gn_camera camera = {0};
+    const uint32_t most = GN_MAX_SHADOW_TILES / 4U;
+    if (!GN_SHADOWS || !GN_MANY_CASCADES || GN_ATLAS_SIZE < 64 || GN_ATLAS_TEXELS != GN_ATLAS_SIZE * GN_ATLAS_SIZE)
+        return;
+    for (int i = 0; i < 17; i++) suns[i] = *sun;
+    CHECK_EQ_INT(gn_scene_default(&camera, NULL, 0, suns, most).shadow.n_cascades, 4);
+    CHECK_EQ_INT(gn_scene_default(&camera, NULL, 0, suns, most + 1).shadow.n_cascades, 1);
+}
+
 int main(void)
 {
     const int32_t above[3] = {GN_Q16(1), GN_Q16(4), GN_Q16(1)}, beside[3] = {GN_Q16(-1), GN_Q16(4), GN_Q16(1)};
     const int32_t middle[3] = {0, 0, 0};
     gn_light sun = gn_light_sun(-1, -3, -2), evening = gn_light_sun(3, -2, -1);
     check_light(&sun);
+    check_cascades(&sun);
     if (GN_MAX_LIGHTS > 1) check_two(&sun, &evening, GN_MAX_SHADOW_TILES > 1);
     if (GN_PUNCTUAL_LIGHTS) {
         gn_light spot = gn_light_spot(above, middle, GN_TURN(90)), point = gn_light_point(above);

@@ -43,8 +43,8 @@ static void test_faces(void)
         CHECK_EQ_INT(gn_persp_face(axis), f);
         for (int i = 0; i < 3; i++) CHECK_EQ_INT(axis[i], i != f / 2 ? 0 : f & 1 ? -(1 << 30) : 1 << 30);
     }
-    const int32_t tie[4][4] = {{5, 5, 5, 4}, {5, -5, 4, 3}, {5, 4, -5, 5}, {6, 5, -5, 0}};
-    for (int i = 0; i < 4; i++) CHECK_EQ_INT(gn_persp_face(tie[i]), tie[i][3]);
+    const int32_t tie[5][4] = {{5, 5, 5, 4}, {5, -5, 4, 3}, {5, 4, -5, 5}, {6, 5, -5, 0}, {0, 0, 0, 4}};
+    for (int i = 0; i < 5; i++) CHECK_EQ_INT(gn_persp_face(tie[i]), tie[i][3]);
 }
 
 /* Every field of the fit of a spot, from the narrowest cone in the largest tile to the widest in the smallest. */

@@ -461,6 +461,54 @@ static void test_level_depths(void)
 }
 #endif
 
+#if GN_INTERPOLATES && GN_MASKS
+/* A mask is even over a rectangle of points where the texels about all of them are equal, and at most 64. */
+static void test_even_masks(void)
+{
+    enum { SIDE = 16 };
+    static uint8_t texels[SIDE * SIDE];
+    tally even = {0};
+    const gn_texture mask = {.rgba = texels, .width = SIDE, .height = SIDE, .flags = GN_TEXTURE_MASK_1};
+    for (uint32_t n = 0; n < 20000; n++) {
+        int32_t least[2], most[2], first[2], last[2], equal = 1;
+        memset(texels, 7, sizeof texels);
+        if (n & 1) texels[rng_below(&random_state, sizeof texels)] = 8;
+        for (int k = 0; k < 2; k++) {
+            least[k] = rng_range(&random_state, -10000, 65536);
+            most[k] = least[k] + (int32_t)rng_below(&random_state, 65536);
+            first[k] = (int32_t)fmax(floor(fmin(fmax(least[k], 0), 65536) * SIDE / 65536 - 0.5), 0);
+            last[k] = (int32_t)fmin(floor(fmin(fmax(most[k], 0), 65536) * SIDE / 65536 - 0.5) + 1, SIDE - 1);
+        }
+        if ((last[0] - first[0] + 1) * (last[1] - first[1] + 1) > 64) equal = 0;
+        for (int32_t y = first[1]; y <= last[1]; y++)
+            for (int32_t x = first[0]; x <= last[0]; x++)
+                equal = equal && texels[y * SIDE + x] == texels[first[1] * SIDE + first[0]];
+        HOLDS(&even, gn_texture_mask_is_even(&mask, least, most) == equal, "%d..%d, %d..%d", first[0], last[0],
+              first[1], last[1]);
+    }
+    CHECK_TALLY(even, "even parts of masks");
+}
+#endif
+
+/* Barycentrics of any exponent: far below one unit, and far above 1. A divisor of a power of two loses one unit of Q30
+ * to its reciprocal, and truncation another. */
+static void test_barycentrics(void)
+{
+    tally t = {0};
+    gn_ray_recip recip;
+    const gn_plane plane = {.n = {0, 0, 1 << 20}, .det = 1};
+    if (!CHECK(gn_plane_recip(&recip, &plane, 0, 0, 65536, 2))) return;
+    for (int32_t exp = -80; exp <= 40; exp++)
+        for (int32_t f = -1000; f <= 1000; f += 7) {
+            const gn_bary bary = {.form = {{0, 0, f * (1 << 20)}, {0}}, .exp = {exp, 0}};
+            int32_t b[2];
+            gn_bary_at(b, &bary, &recip, 0, 0, 65536);
+            double exact = fmin(fmax(ldexp(f, exp), 0), 1);
+            HOLDS(&t, fabs(b[0] - ldexp(exact, 30)) <= 2 && b[1] == 0, "%d * 2^%d: %d", f, exp, b[0]);
+        }
+    CHECK_TALLY(t, "gn_bary_at");
+}
+
 int main(void)
 {
 #if GN_MIPMAPS
@@ -471,5 +519,9 @@ int main(void)
     test_lookups();
     test_texels();
     test_values();
+#if GN_INTERPOLATES && GN_MASKS
+    test_even_masks();
+#endif
+    test_barycentrics();
     return check_report();
 }
