@@ -380,7 +380,11 @@ GN_HOT void gn_corner_find(const gn_lattice *l, const gn_frame *frame, const gn_
     find_normal(frame, s, c, &p);
     for (uint32_t i = 0; i < s->n_lights; i++) light_at(l, frame, s, i, &p, c);
 #if GN_SPECULAR
-    if (!s->specular || !gn_sample_on_plane(frame, s, x, y, sample)) return;
+    if (!s->specular) return;
+    if (!gn_sample_on_plane(frame, s, x, y, sample)) {
+        c->state = GN_CORNER_UNSEEN; /* else its highlights would be those of a corner before */
+        return;
+    }
     for (uint32_t i = 0; i < s->n_lights; i++) {
         int32_t lobe_q30[3];
         c->light[i].highlight_q24 = (int32_t)gn_light_highlight(frame, s, sample, i, lobe_q30);
