@@ -84,6 +84,7 @@
 #define gn_corner_find GN_PREFIXED_(GN_PREFIX, gn_corner_find)
 #define gn_corner_locate GN_PREFIXED_(GN_PREFIX, gn_corner_locate)
 #define gn_corner_place GN_PREFIXED_(GN_PREFIX, gn_corner_place)
+#define gn_corner_place_flat GN_PREFIXED_(GN_PREFIX, gn_corner_place_flat)
 #define gn_corner_texture GN_PREFIXED_(GN_PREFIX, gn_corner_texture)
 #define gn_corner_uv GN_PREFIXED_(GN_PREFIX, gn_corner_uv)
 #define gn_cos_q30 GN_PREFIXED_(GN_PREFIX, gn_cos_q30)

@@ -44,6 +44,11 @@ int gn_corner_locate(const gn_lattice *lattice, const gn_frame *frame, const gn_
 int gn_corner_place(gn_lattice *lattice, const gn_frame *frame, const gn_surface *surface, gn_corner *corner,
                     uint32_t slot, uint32_t view);
 
+/* The same of a flat surface in a perspective view, of the plane at pixel (x, y) itself, which need not be a corner.
+ * Returns 0 if that is to be done as of any point: gn_corner_screen.c. */
+int gn_corner_place_flat(gn_lattice *lattice, const gn_frame *frame, const gn_surface *surface, uint32_t slot,
+                         const gn_light_view *view, int32_t x, int32_t y, gn_corner_light *at);
+
 /* Tile coordinates of a pixel in a directional view, Q16 texels. */
 void gn_corner_uv(const gn_lattice *lattice, const gn_frame *frame, const gn_surface *surface,
                   const gn_light_view *view, int32_t x, int32_t y, const int32_t offset_q16[3], int32_t uv_q16[2]);
@@ -51,6 +56,15 @@ void gn_corner_uv(const gn_lattice *lattice, const gn_frame *frame, const gn_sur
 /* Texture coordinates at a pixel. Returns 0 where the plane cannot be sampled. */
 int gn_corner_texture(gn_lattice *lattice, const gn_frame *frame, const gn_surface *surface, int32_t x, int32_t y,
                       int32_t uv_q20[2]);
+
+/* Of another surface. */
+GN_HOT static inline void gn_corner_forget_forms(gn_lattice *l)
+{
+#if GN_PUNCTUAL_LIGHTS && GN_SHADOWS
+    for (int i = 0; i < GN_VIEW_FORMS; i++) l->forms[i].view = NULL;
+#endif
+    (void)l;
+}
 
 #if GN_PUNCTUAL_LIGHTS
 /* From a spot or point light to the corner: both lie within 2^30 of the eye. */
