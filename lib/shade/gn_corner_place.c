@@ -1,7 +1,6 @@
 /* Where views of lights see corners. */
 #include "gn_internal.h"
 
-#include "base/gn_count.h"
 #include "base/gn_math.h"
 #include "base/gn_q.h"
 #include "light/gn_bias.h"
@@ -141,18 +140,12 @@ GN_HOT static GN_NOINLINE int place_punctual(const gn_frame *frame, const gn_sur
 }
 #endif
 
-GN_HOT int gn_corner_place(gn_lattice *l, const gn_frame *frame, const gn_surface *s, gn_corner *c, uint32_t slot,
-                           uint32_t view_idx)
+GN_HOT int gn_corner_place_any(gn_lattice *l, const gn_frame *frame, const gn_surface *s, gn_corner *c, uint32_t slot,
+                               const gn_light_view *view)
 {
-    gn_corner_light *at = &c->light[slot];
-    if (at->placed == view_idx) return at->seen;
-    const gn_light_state *light = s->light[slot].state;
-    const gn_light_view *view = &frame->view[light->view_idx + (int32_t)view_idx];
-    at->placed = (uint8_t)view_idx;
-    GN_COUNT(places, 1);
 #if GN_PUNCTUAL_LIGHTS
-    if (light->kind != GN_LIGHT_DIRECTIONAL) {
-        if (!GN_SMOOTH(s) && gn_corner_place_flat(l, frame, s, slot, view, c->x, c->y, at)) return at->seen;
+    if (view->perspective) {
+        gn_corner_light *at = &c->light[slot];
         if (GN_SMOOTH(s) && place_punctual(frame, s, &l->light[slot], c, at, view)) return at->seen;
         return place_carefully(frame, s, c, at, view);
     }

@@ -1,6 +1,7 @@
 /* Where perspective views see flat surfaces: linear forms on the screen (NUMERICS 4.12). */
 #include "gn_internal.h"
 
+#include "base/gn_hint.h"
 #include "base/gn_math.h"
 #include "base/gn_q.h"
 #include "shade/gn_corner.h"
@@ -113,13 +114,14 @@ GN_HOT static GN_NOINLINE int make_forms(gn_view_forms *out, const gn_screen_pla
 }
 
 /* Those of the view, if need be new ones. */
-GN_HOT static const gn_view_forms *forms_of(gn_lattice *l, const gn_frame *frame, const gn_surface *s,
-                                            const gn_light_view *view)
+GN_HOT static inline const gn_view_forms *forms_of(gn_lattice *l, const gn_frame *frame, const gn_surface *s,
+                                                   uint32_t slot, const gn_light_view *view)
 {
     gn_view_forms *forms = &l->forms[(uint32_t)(view - frame->view) & (GN_VIEW_FORMS - 1)];
     if (forms->view == view) return forms;
     forms->view = view;
-    if (!make_forms(forms, &l->plane, frame, s)) forms->near_up = INT32_MAX;
+    if (!l->light[slot].lifts || view->fit.persp.lift_q31 == INT32_MAX || !make_forms(forms, &l->plane, frame, s))
+        forms->near_up = INT32_MAX;
     return forms;
 }
 
@@ -131,15 +133,16 @@ GN_HOT static inline int32_t value_at(const gn_slope *s, int32_t dx, int32_t dy)
 GN_HOT int gn_corner_place_flat(gn_lattice *l, const gn_frame *frame, const gn_surface *s, uint32_t slot,
                                 const gn_light_view *view, int32_t x, int32_t y, gn_corner_light *at)
 {
-    if (!l->light[slot].lifts || view->fit.persp.lift_q31 == INT32_MAX) return 0;
-    const gn_view_forms *forms = forms_of(l, frame, s, view);
+    const gn_view_forms *forms = forms_of(l, frame, s, slot, view);
     int32_t dx = x - l->plane.x, dy = y - l->plane.y;
     if (forms->near_up == INT32_MAX) return 0;
     int32_t u = value_at(&forms->u, dx, dy), v = value_at(&forms->v, dx, dy), z = value_at(&forms->z, dx, dy);
     if (z < 1 << 22) return 0; /* what roundings of slopes do not matter to */
     int32_t clz = gn_clz32((uint32_t)z), down = 12 - view->tile_log2, near = value_at(&forms->near, dx, dy);
     uint32_t recip = gn_recip_norm((uint32_t)z << clz, GN_K(frame, newton_steps)); /* 2^63 / (z 2^clz) */
-    uint32_t share = gn_umul_high((uint32_t)gn_max32(near, 0), recip);
+    uint32_t share = near < 0 ? 0 : gn_umul_high((uint32_t)near, recip);
+    int32_t half = (int32_t)(recip >> 1);
+    GN_KEEP(half);
     int32_t up = clz - 1 - forms->near_up;
     if (up >= 0) {
         at->seen = up < 30 && !(share >> (30 - up));
@@ -150,8 +153,8 @@ GN_HOT int gn_corner_place_flat(gn_lattice *l, const gn_frame *frame, const gn_s
     }
     if (!at->seen) return 1;
     if (gn_abs32(u) >> 1 >= (uint32_t)z || gn_abs32(v) >> 1 >= (uint32_t)z) return 0;
-    at->u_q16 = gn_mul_high(u * (1 << (clz - 2)), (int32_t)(recip >> 1)) >> down;
-    at->v_q16 = gn_mul_high(v * (1 << (clz - 2)), (int32_t)(recip >> 1)) >> down;
+    at->u_q16 = gn_mul_high(u * (1 << (clz - 2)), half) >> down;
+    at->v_q16 = gn_mul_high(v * (1 << (clz - 2)), half) >> down;
     at->depth_q30 = (1 << 30) - 1 - (int32_t)share;
     return 1;
 }

@@ -34,9 +34,7 @@ GN_HOT static int find_places(const gn_lattice_cell *cell, uint32_t slot, uint32
     p->bent = GN_PLACES_BILINEAR;
     for (int i = 0; i < 4; i++) {
         gn_corner *c = cell->corner[i];
-        seen |= 1U << (c->light[slot].placed == view_idx
-                           ? c->light[slot].seen
-                           : gn_corner_place(cell->lattice, cell->frame, cell->s, c, slot, view_idx));
+        seen |= 1U << gn_corner_place(cell->lattice, cell->frame, cell->s, c, slot, view_idx);
         p->u[i] = c->light[slot].u_q16;
         p->v[i] = c->light[slot].v_q16;
         p->depth[i] = c->light[slot].depth_q30;

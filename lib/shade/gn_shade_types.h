@@ -328,7 +328,7 @@ typedef struct {
  * near / z is the share of its near distance in a point's. */
 typedef struct {
     const gn_light_view *view; /* NULL: none */
-    int32_t near_up;           /* near is 2^near_up times too large; INT32_MAX: nothing of it fits 32 bits */
+    int32_t near_up;           /* near is 2^near_up times too large; INT32_MAX: there are none */
     gn_slope u, v, z, near;
 } gn_view_forms;
 
