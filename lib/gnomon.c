@@ -144,6 +144,7 @@
 #include "shade/gn_corner.c"
 #include "shade/gn_corner_cascade.c"
 #include "shade/gn_corner_place.c"
+#include "shade/gn_corner_screen.c"
 #include "shade/gn_lattice.c"
 #include "shade/gn_lattice_draw.c"
 #include "shade/gn_lattice_even.c"

@@ -49,6 +49,8 @@ GN_HOT static int find_plane(gn_screen_plane *p, const gn_frame *frame, const gn
     p->z_shift = 31 + shift - s->depth_scale.exp;
     p->x = (rect->x0 + rect->x1) >> 1;
     p->y = (rect->y0 + rect->y1) >> 1;
+    p->w_px = ((rect->x1 - rect->x0) >> 1) + 17;
+    p->h_px = ((rect->y1 - rect->y0) >> 1) + 17;
     if (!form_on_screen(&p->w, frame, p, s->plane.n, shift, rect)) return 0;
     for (int k = 0; GN_HAS_BARY(s) && k < 2; k++)
         if (!form_on_screen(&p->b[k], frame, p, s->bary.form[k], shift - s->bary.exp[k], rect)) return 0;
@@ -101,6 +103,7 @@ GN_HOT int gn_corner_begin_lights(gn_lattice *l, const gn_frame *frame, const gn
 GN_HOT int gn_corner_begin(gn_lattice *l, const gn_frame *frame, const gn_surface *s, const gn_rect *rect)
 {
     if (!find_plane(&l->plane, frame, s, rect)) return 0;
+    gn_corner_forget_forms(l);
     l->cascade = -1;
 #if GN_SHADOWS
     gn_corner_begin_cascade(l, frame, s);
@@ -235,12 +238,13 @@ GN_HOT static int find_ray(const gn_light_state *any, gn_corner *c, const corner
 {
     uint32_t beyond = 0;
     int32_t up = gn_clz32((uint32_t)c->z_q16) - 1, z = c->z_q16 * (1 << up), down = any->ray_shift + up - 32;
+    const int32_t wide = gn_min32(gn_max32(-down, 0), 31), narrow = gn_min32(gn_max32(down, 0), 31);
     for (int i = 0; i < 3; i++) {
         const gn_ray_plane *r = &any->from_light[i];
         int32_t a = (int32_t)((uint32_t)r->a0 + (uint32_t)r->ax * (uint32_t)p->px + (uint32_t)r->ay * (uint32_t)p->py);
         int32_t v = gn_mul_high(z, a);
-        c->ray_q16[i] = down >= 0 ? v >> gn_min32(down, 31)
-                                  : (int32_t)gn_clamp64(v * ((int64_t)1 << gn_min32(-down, 31)), -INT32_MAX, INT32_MAX);
+        if (wide) v = (int32_t)gn_clamp64(v * ((int64_t)1 << wide), -INT32_MAX, INT32_MAX);
+        c->ray_q16[i] = v >> narrow;
         beyond |= (uint32_t)c->ray_q16[i] + (1U << 30);
     }
     return !(beyond >> 31);

@@ -3,6 +3,7 @@
 #ifndef GN_CORNER_H
 #define GN_CORNER_H
 
+#include "base/gn_count.h"
 #include "shade/gn_sample.h"
 
 #if GN_INTERPOLATES
@@ -39,10 +40,15 @@ void gn_corner_cascade(const gn_lattice *lattice, const gn_frame *frame, const g
 int gn_corner_locate(const gn_lattice *lattice, const gn_frame *frame, const gn_surface *surface, uint32_t slot,
                      int32_t x, int32_t y, gn_corner *corner);
 
-/* Sets u, v, depth of the light in a slot, in one of its views. Returns 0 if the point is nearer to the light than the
- * view's near plane. */
-int gn_corner_place(gn_lattice *lattice, const gn_frame *frame, const gn_surface *surface, gn_corner *corner,
-                    uint32_t slot, uint32_t view);
+/* Sets u, v, depth of the light in a slot, in one of its views, of any surface. Returns 0 if the point is nearer to the
+ * light than the view's near plane. */
+int gn_corner_place_any(gn_lattice *lattice, const gn_frame *frame, const gn_surface *surface, gn_corner *corner,
+                        uint32_t slot, const gn_light_view *view);
+
+/* The same of a flat surface in a perspective view, of the plane at pixel (x, y) itself, which need not be a corner.
+ * Returns 0 if that is to be done as of any point: gn_corner_screen.c. */
+int gn_corner_place_flat(gn_lattice *lattice, const gn_frame *frame, const gn_surface *surface, uint32_t slot,
+                         const gn_light_view *view, int32_t x, int32_t y, gn_corner_light *at);
 
 /* Tile coordinates of a pixel in a directional view, Q16 texels. */
 void gn_corner_uv(const gn_lattice *lattice, const gn_frame *frame, const gn_surface *surface,
@@ -51,6 +57,33 @@ void gn_corner_uv(const gn_lattice *lattice, const gn_frame *frame, const gn_sur
 /* Texture coordinates at a pixel. Returns 0 where the plane cannot be sampled. */
 int gn_corner_texture(gn_lattice *lattice, const gn_frame *frame, const gn_surface *surface, int32_t x, int32_t y,
                       int32_t uv_q20[2]);
+
+#if GN_SHADOWS
+/* The same in whichever way there is; once per corner, until another view is asked for. */
+GN_HOT static inline int gn_corner_place(gn_lattice *l, const gn_frame *frame, const gn_surface *s, gn_corner *c,
+                                         uint32_t slot, uint32_t view_idx)
+{
+    gn_corner_light *at = &c->light[slot];
+    if (at->placed == view_idx) return at->seen;
+    const gn_light_view *view = &frame->view[s->light[slot].state->view_idx + (int32_t)view_idx];
+    at->placed = (uint8_t)view_idx;
+    GN_COUNT(places, 1);
+#if GN_PUNCTUAL_LIGHTS
+    if (view->perspective && !GN_SMOOTH(s) && gn_corner_place_flat(l, frame, s, slot, view, c->x, c->y, at))
+        return at->seen;
+#endif
+    return gn_corner_place_any(l, frame, s, c, slot, view);
+}
+#endif
+
+/* Of another surface. */
+GN_HOT static inline void gn_corner_forget_forms(gn_lattice *l)
+{
+#if GN_PUNCTUAL_LIGHTS && GN_SHADOWS
+    for (int i = 0; i < GN_VIEW_FORMS; i++) l->forms[i].view = NULL;
+#endif
+    (void)l;
+}
 
 #if GN_PUNCTUAL_LIGHTS
 /* From a spot or point light to the corner: both lie within 2^30 of the eye. */

@@ -1,7 +1,6 @@
 /* Where views of lights see corners. */
 #include "gn_internal.h"
 
-#include "base/gn_count.h"
 #include "base/gn_math.h"
 #include "base/gn_q.h"
 #include "light/gn_bias.h"
@@ -90,9 +89,9 @@ GN_HOT static inline int32_t coord_persp(int32_t x, int32_t clz, int32_t half, i
     return (int32_t)((int64_t)gn_mul_high(x * (1 << (clz - 2)), half) * focal2_q16 >> 29) + middle_q16;
 }
 
-/* In any case that place_punctual leaves. */
-GN_HOT static GN_NOINLINE void place_carefully(const gn_frame *frame, const gn_surface *s, const gn_corner *c,
-                                               gn_corner_light *at, const gn_light_view *view)
+/* In any case. Returns how the point is seen. */
+GN_HOT static GN_NOINLINE int place_carefully(const gn_frame *frame, const gn_surface *s, const gn_corner *c,
+                                              gn_corner_light *at, const gn_light_view *view)
 {
     const gn_light_state *light = &frame->light[view->light_idx];
     const int32_t *n = normal_of(s, c);
@@ -102,13 +101,14 @@ GN_HOT static GN_NOINLINE void place_carefully(const gn_frame *frame, const gn_s
     if (!(GN_AUTO_BIAS && light->auto_bias && !GN_CURVED(s)))
         gn_bias_punctual(frame, light, gn_sample_lifted(s, light, n, lifted), c->z_q16, from, offset);
     at->seen = (uint8_t)gn_arrival_place(frame, s, view, c->z_q16, from, offset, &place);
-    if (!at->seen) return;
+    if (!at->seen) return 0;
     at->u_q16 = place.u_q16;
     at->v_q16 = place.v_q16;
     at->depth_q30 = (int32_t)(place.depth_q32 >> 2);
+    return at->seen;
 }
 
-/* Returns 0 if that is to be done carefully. */
+/* Of a smooth surface. Returns 0 if that is to be done carefully. */
 GN_HOT static GN_NOINLINE int place_punctual(const gn_frame *frame, const gn_surface *s, const gn_lattice_light *how,
                                              const gn_corner *c, gn_corner_light *at, const gn_light_view *view)
 {
@@ -140,19 +140,14 @@ GN_HOT static GN_NOINLINE int place_punctual(const gn_frame *frame, const gn_sur
 }
 #endif
 
-GN_HOT int gn_corner_place(gn_lattice *l, const gn_frame *frame, const gn_surface *s, gn_corner *c, uint32_t slot,
-                           uint32_t view_idx)
+GN_HOT int gn_corner_place_any(gn_lattice *l, const gn_frame *frame, const gn_surface *s, gn_corner *c, uint32_t slot,
+                               const gn_light_view *view)
 {
-    gn_corner_light *at = &c->light[slot];
-    if (at->placed == view_idx) return at->seen;
-    const gn_light_state *light = s->light[slot].state;
-    const gn_light_view *view = &frame->view[light->view_idx + (int32_t)view_idx];
-    at->placed = (uint8_t)view_idx;
-    GN_COUNT(places, 1);
 #if GN_PUNCTUAL_LIGHTS
-    if (light->kind != GN_LIGHT_DIRECTIONAL) {
-        if (!place_punctual(frame, s, &l->light[slot], c, at, view)) place_carefully(frame, s, c, at, view);
-        return at->seen;
+    if (view->perspective) {
+        gn_corner_light *at = &c->light[slot];
+        if (GN_SMOOTH(s) && place_punctual(frame, s, &l->light[slot], c, at, view)) return at->seen;
+        return place_carefully(frame, s, c, at, view);
     }
 #endif
     place_directional(l, frame, s, c, slot, view);

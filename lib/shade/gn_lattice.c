@@ -66,13 +66,12 @@ GN_HOT static void shade_exactly(gn_shading *s, int32_t x, int32_t y, int32_t si
     }
 }
 
-/* Another corner, in place of one that is none of the last four. */
+/* Another corner, in place of one that is none of the last four. One that another has taken the place of in corner_at
+ * is found again. */
 GN_HOT static GN_NOINLINE uint32_t new_corner(gn_shading *s, int32_t x, int32_t y, uint32_t key)
 {
     gn_lattice *l = &s->lattice;
-    uint32_t i = 0;
-    while (i < GN_CORNERS && l->corner_key[i] != key) i++;
-    if (i < GN_CORNERS) return i;
+    uint32_t i;
     do {
         i = l->next_corner;
         l->next_corner = i + 1 < GN_CORNERS ? i + 1 : 0;
@@ -87,7 +86,7 @@ GN_HOT static inline gn_corner *corner_at(gn_shading *s, int32_t x, int32_t y)
 {
     gn_lattice *l = &s->lattice;
     uint32_t key = (uint32_t)y << 16 | (uint32_t)x, i;
-    uint8_t *at = &l->corner_at[(x >> 1 ^ y) & 15];
+    uint8_t *at = &l->corner_at[y >> 2 & 7][x >> 2 & 7];
     l->now++;
     if (l->corner_key[*at] != key) *at = (uint8_t)new_corner(s, x, y, key);
     i = *at;

@@ -112,7 +112,43 @@ GN_HOT static uint32_t lookup(const drawing *d, const gn_light_view *view, const
     return gn_filter_attenuation(d->s->frame, view, &r);
 }
 
-/* Where a row of the cell is seen, from its ends: its first node, and steps between pixels. */
+/* A row's first node and its steps between pixels, from where its ends are seen. */
+GN_HOT static inline void step_row(const drawing *d, const gn_corner_light *at, const gn_receiver_step *end,
+                                   gn_receiver_step *from, gn_receiver_step *step)
+{
+    step->u_q16 = (end->u_q16 - at->u_q16) >> d->size_log2;
+    step->v_q16 = (end->v_q16 - at->v_q16) >> d->size_log2;
+    step->depth_q31 = (end->depth_q31 - at->depth_q30) >> d->size_log2;
+    from->u_q16 = at->u_q16 + d->first * step->u_q16;
+    from->v_q16 = at->v_q16 + d->first * step->v_q16;
+    from->depth_q31 = at->depth_q30 + d->first * step->depth_q31;
+}
+
+/* By forms on the screen. Returns 0 if they do not tell. */
+GN_HOT static GN_NOINLINE int place_flat_row(const drawing *d, const gn_lattice_edge *edge, int32_t below,
+                                             gn_receiver_step *from, gn_receiver_step *step)
+{
+#if GN_PUNCTUAL_LIGHTS
+    gn_shading *s = d->s;
+    gn_corner_light *at = &s->lattice.corner.light[edge->slot];
+    gn_receiver_step end = {0, 0, 0};
+    if (!edge->view->perspective || GN_SMOOTH(&s->surface)) return 0;
+    for (int i = 1; i >= 0; i--) {
+        if (!gn_corner_place_flat(&s->lattice, s->frame, &s->surface, edge->slot, edge->view,
+                                  d->x + (i << d->size_log2), d->y + below, at) ||
+            !at->seen)
+            return 0;
+        if (i) end = (gn_receiver_step){at->u_q16, at->v_q16, at->depth_q30};
+    }
+    step_row(d, at, &end, from, step);
+    return 1;
+#else
+    (void)d, (void)edge, (void)below, (void)from, (void)step;
+    return 0;
+#endif
+}
+
+/* The same of any surface. */
 GN_HOT static GN_NOINLINE void place_row(const drawing *d, const gn_lattice_edge *edge, int32_t below,
                                          gn_receiver_step *from, gn_receiver_step *step)
 {
@@ -129,12 +165,7 @@ GN_HOT static GN_NOINLINE void place_row(const drawing *d, const gn_lattice_edge
         end.v_q16 = at->v_q16;
         end.depth_q31 = at->depth_q30;
     }
-    step->u_q16 = (end.u_q16 - at->u_q16) >> d->size_log2;
-    step->v_q16 = (end.v_q16 - at->v_q16) >> d->size_log2;
-    step->depth_q31 = (end.depth_q31 - at->depth_q30) >> d->size_log2;
-    from->u_q16 = at->u_q16 + d->first * step->u_q16;
-    from->v_q16 = at->v_q16 + d->first * step->v_q16;
-    from->depth_q31 = at->depth_q30 + d->first * step->depth_q31;
+    step_row(d, at, &end, from, step);
 }
 
 #if GN_PUNCTUAL_LIGHTS
@@ -211,7 +242,10 @@ GN_HOT static void look_up_row(const drawing *d, const gn_lattice_edge *edge, in
 GN_HOT static GN_NOINLINE void look_up_two(const drawing *d, const gn_lattice_edge *edge, int32_t below, uint32_t *out)
 {
     gn_receiver_step at[2], step[2];
-    for (int k = 0; k < 2; k++) find_row(d, edge + k, below, &at[k], &step[k]);
+    for (int k = 0; k < 2; k++) {
+        find_row(d, edge + k, below, &at[k], &step[k]);
+        if (edge[k].bent & GN_PLACES_BY_ROW) place_flat_row(d, edge + k, below, &at[k], &step[k]);
+    }
     const gn_patch *border = &edge[1].more_q24[0];
     const int32_t first = gn_patch_at(border, d->first, below), across = border->dx + below * border->dxy;
     for (int32_t from = 0, end; from < d->n; from = end) { /* |first + i across| < 2^29: a corner's is below 2^28 */
@@ -240,7 +274,7 @@ GN_HOT static GN_NOINLINE void find_attenuations(const drawing *d, const gn_latt
     }
 #endif
     find_row(d, edge, below, &at, &step);
-    if (edge->bent) place_row(d, edge, below, &at, &step);
+    if (edge->bent && !place_flat_row(d, edge, below, &at, &step)) place_row(d, edge, below, &at, &step);
     scale_step(&step, d->s->lattice.look.spacing_log2);
     look_up_row(d, edge, below, &at, &step, 0, d->n, out);
 }
@@ -315,12 +349,6 @@ GN_HOT static GN_NOINLINE int find_nodes(const drawing *d, int32_t below, int32_
 
 /* ---- Cells ------------------------------------------------------------------------------------------------------- */
 
-/* The columns that have pixels. Returns 0 if there are none. */
-GN_HOT static uint32_t columns(const drawing *d, int32_t y, int32_t n_rows)
-{
-    return gn_lattice_columns(&d->s->lattice, d->x, y, n_rows, d->size_log2);
-}
-
 #if GN_SHADOWS
 GN_HOT static GN_NOINLINE void draw_two_colours(const drawing *d)
 {
@@ -334,7 +362,7 @@ GN_HOT static GN_NOINLINE void draw_two_colours(const drawing *d)
     }
     gn_levels_use(l, dark, more);
     for (int32_t below = 0; below < 1 << d->size_log2; below += 1 << log2) {
-        if (!columns(d, d->y + below, 1 << log2)) continue;
+        if (!gn_lattice_columns(l, d->x, d->y + below, 1 << log2, d->size_log2)) continue;
         if (known != below) find_attenuations(d, edge, below, l->row.attenuation[now]);
         if (log2) find_attenuations(d, edge, below + (1 << log2), l->row.attenuation[!now]);
         for (int32_t t = 0; t < 1 << log2; t++) {
@@ -416,7 +444,7 @@ GN_HOT static void draw_nodes(const drawing *d)
     int32_t spacing_log2 = l->look.spacing_log2, known = -1;
     int inside = 0;
     for (int32_t below = 0; below < 1 << d->size_log2; below += 1 << spacing_log2) {
-        if (!columns(d, d->y + below, 1 << spacing_log2)) continue;
+        if (!gn_lattice_columns(l, d->x, d->y + below, 1 << spacing_log2, d->size_log2)) continue;
         if (known != below) inside = find_nodes(d, below, l->by.node[0]);
         else
             for (int32_t i = 0; i < d->n; i++)
@@ -450,7 +478,7 @@ GN_HOT void gn_lattice_draw(gn_shading *s, int32_t x, int32_t y, int32_t size_lo
     }
     GN_COUNT(cells_drawn, 1);
     begin_base(&d, look);
-    uint32_t any = columns(&d, y, size);
+    uint32_t any = gn_lattice_columns(l, x, y, size, size_log2);
     d.first = (31 - gn_clz32(any & (0U - any))) & -(1 << spacing_log2);
     d.n = ((31 - gn_clz32(any) - d.first) >> spacing_log2) + 1 + (spacing_log2 > 0);
     if (has_two_colours(&d)) {

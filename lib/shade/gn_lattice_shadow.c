@@ -310,6 +310,23 @@ GN_HOT static GN_NOINLINE void find_border(const gn_lattice_cell *cell, uint32_t
     gn_patch_make(out, inside, cell->size_log2);
 }
 
+/* Whether forms on the screen tell where the view sees all of the cell: if they do at its corners. */
+GN_HOT static int has_forms(const gn_lattice_cell *cell, uint32_t slot, const gn_light_view *view)
+{
+#if GN_PUNCTUAL_LIGHTS
+    gn_corner_light at;
+    if (!view->perspective || GN_SMOOTH(cell->s)) return 0;
+    for (int i = 0; i < 4; i++)
+        if (!gn_corner_place_flat(cell->lattice, cell->frame, cell->s, slot, view, cell->corner[i]->x,
+                                  cell->corner[i]->y, &at))
+            return 0;
+    return 1;
+#else
+    (void)cell, (void)slot, (void)view;
+    return 0;
+#endif
+}
+
 /* Adds an edge in the shadow of a light, two faces or cascades of which see the cell. Returns 0 if there is no room, or
  * it is to be split. */
 GN_HOT static GN_NOINLINE int add_two(const gn_lattice_cell *cell, uint32_t slot, const gn_contribution *light,
@@ -323,7 +340,9 @@ GN_HOT static GN_NOINLINE int add_two(const gn_lattice_cell *cell, uint32_t slot
         int32_t slope[2];
         if (find_places(cell, slot, view_idx, p) != PLACED) break;
         gn_shadow_slopes(cell->frame, cell->s, p->view, from_q16, slope);
-        if (verdict(cell, slot, view_idx, p, slope) == GN_CELL_SPLIT || places_hold(cell, p) != HOLD) break;
+        if (verdict(cell, slot, view_idx, p, slope) == GN_CELL_SPLIT) break;
+        int holds = places_hold(cell, p);
+        if (holds == BEND || (holds == BEND_DOWN && !has_forms(cell, slot, p->view))) break;
         add_edge(cell, slot, p, slope, light, light->more_uq16);
     }
     if (views) {

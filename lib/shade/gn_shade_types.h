@@ -317,10 +317,23 @@ typedef struct {
 
 /* A surface's plane on the screen, 32 bits: n . ray and the barycentrics times it, at one scale. */
 typedef struct {
-    int32_t x, y; /* the pixel of w, b */
+    int32_t x, y;       /* the pixel of w, b: the middle of */
+    int32_t w_px, h_px; /* so many on each side of it, with what cells go beyond */
     gn_slope w, b[2];
     int32_t z_shift; /* view depth = depth_scale.mant * (2^63 / w normalised) / 2^32 >> z_shift - clz(w) */
 } gn_screen_plane;
+
+#if GN_PUNCTUAL_LIGHTS && GN_SHADOWS
+/* Where a perspective view sees a flat surface, on the screen: u / z and v / z are shares of 2^tile_log2 texels,
+ * near / z is the share of its near distance in a point's. */
+typedef struct {
+    const gn_light_view *view; /* NULL: none */
+    int32_t near_up;           /* near is 2^near_up times too large; INT32_MAX: there are none */
+    gn_slope u, v, z, near;
+} gn_view_forms;
+
+enum { GN_VIEW_FORMS = 8 };
+#endif
 
 /* Pixels of a row. */
 typedef struct {
@@ -355,6 +368,9 @@ typedef struct gn_lattice {
     gn_view_matrix matrix; /* of the view that was used last */
 #endif
     gn_lattice_light light[GN_SURFACE_LIGHTS];
+#if GN_PUNCTUAL_LIGHTS && GN_SHADOWS
+    gn_view_forms forms[GN_VIEW_FORMS]; /* of the surface */
+#endif
     int32_t has_face, face_q30[3];    /* the face's normal, once something has asked for it */
     const gn_light_view *offset_view; /* flat surfaces: a directional view, NULL: none, */
     int32_t offset_q16[3];            /* and the receiver's offset in it */
@@ -370,7 +386,7 @@ typedef struct gn_lattice {
     uint32_t corner_key[GN_CORNERS];                 /* y * 2^16 + x; all ones: none */
     uint32_t corner_used[GN_CORNERS], now;           /* when they were, counted */
     uint32_t next_corner;                            /* to be replaced */
-    uint8_t corner_at[16];                           /* where to look for a corner first: gn_lattice.c */
+    uint8_t corner_at[8][8];                         /* which of them is that of a pixel, by bits of y and x */
     gn_split_cell split[4];                          /* of 16, 8, 4 and 2 pixels, one in the other */
 #if GN_SHADOWS
     gn_window window[GN_WINDOWS];

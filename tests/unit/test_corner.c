@@ -409,25 +409,48 @@ static void check_ortho(gn_lattice *l, const gn_surface *s, const known_point *k
     }
 }
 
+/* How far forms on the screen are off at a pixel, in their units: half a unit, and one more for two cuts before that,
+ * at their own pixel and for each between. */
+static double form_off(const gn_lattice *l, const gn_corner *c)
+{
+    return 1.5 * (1 + abs(c->x - l->plane.x) + abs(c->y - l->plane.y));
+}
+
+static double form_at(const gn_lattice *l, const gn_slope *form, const gn_corner *c)
+{
+    return form->at + (double)form->dx * (c->x - l->plane.x) + (double)form->dy * (c->y - l->plane.y);
+}
+
+static long n_flat, n_not_flat;
+
 /* The receiver moves along its normal by a share of the light-plane distance; products whose lower half is dropped cut
- * up to 6 LSB off each component. */
+ * up to 6 LSB off each component. Of flat surfaces that distance is along the view's axis, whatever face the point lies
+ * in, and forms on the screen say where it is: with the depth that find_point() rounds, and a matrix of 27 bits. */
 static void check_persp(gn_lattice *l, const gn_surface *s, gn_corner *c, uint32_t slot)
 {
-    enum { OFF = 6 };
+    enum { OFF = 6, OFF_FLAT = 4 };
     const gn_frame *frame = &renderer.frame;
-    gn_corner_light *at = &c->light[slot];
+    gn_corner_light *at = &c->light[slot], probe;
     const gn_light_state *from = s->light[slot].state;
     if (at->arrives <= 0 || !l->light[slot].lifts || at->view == GN_VIEW_NONE) return;
     const uint32_t view_idx = from->kind == GN_LIGHT_POINT && one_in(2) ? (uint32_t)uniform(0, 6) : at->view;
     const gn_light_view *view = &frame->view[from->view_idx + (int32_t)view_idx];
-    double p[3], n[3], in[3], reach = 0, axis[3], shares = 0;
+    const int flat = !s->smooth && gn_corner_place_flat(l, frame, s, slot, view, c->x, c->y, &probe);
+    const gn_view_forms *forms = &l->forms[(view - frame->view) & (GN_VIEW_FORMS - 1)];
+    double p[3], n[3], in[3], reach = 0, axis[3], shares = 0, far = 0, ray = 0, z_form_off = 0, near_form_off = 0;
     int32_t from_q16[3];
     gn_corner_from(c, from, from_q16);
     axis_of(s->smooth ? c->normal_q30 : s->normal_q30[0], n);
+    for (int i = 0; i < 3; i++) {
+        p[i] = from_q16[i] * LSB16;
+        reach = fmax(reach, fabs(p[i]));
+        far += fabs(p[i]);
+        ray += fabs(c->ray_q16[i] * LSB16);
+    }
     axis_of(from->to_light_q30, axis);
-    for (int i = 0; i < 3; i++) p[i] = from_q16[i] * LSB16;
-    for (int i = 0; i < 3; i++) reach = fmax(reach, fabs(p[i]));
     if (from->kind == GN_LIGHT_SPOT) reach = fmax(0, -dot(p, axis));
+    axis_of(view->axis_q30[2], axis);
+    if (flat) reach = dot(p, axis);
     const double focal2 = view->fit.persp.focal2_q16 * LSB16, lift = view->offset_q16 * LSB16 * 2 / focal2 * reach;
     for (int i = 0; i < 3; i++) p[i] += lift * n[i];
     for (int i = 0; i < 3; i++) {
@@ -435,20 +458,32 @@ static void check_persp(gn_lattice *l, const gn_surface *s, gn_corner *c, uint32
         in[i] = dot(p, axis);
         shares = fmax(shares, fabs(axis[0]) + fabs(axis[1]) + fabs(axis[2]));
     }
-    const double near = view->fit.persp.near_q16 * LSB16, off = (OFF * shares + 1) * LSB16 + lift * ldexp(1, -27);
+    const double near = view->fit.persp.near_q16 * LSB16, divide = relative_divide() + ldexp(1, -30);
+    double off = (OFF * shares + 1) * LSB16 + fabs(lift) * ldexp(1, -27);
+    if (flat) {
+        off = shares * (ray * divide + far * ldexp(1, -25) + OFF_FLAT * LSB16) + fabs(lift) * ldexp(1, -27);
+        z_form_off = form_off(l, c) / form_at(l, &forms->z, c);
+        near_form_off = form_off(l, c) / fmax(form_at(l, &forms->near, c), 1);
+    }
     const int seen_there = gn_corner_place(l, frame, s, c, slot, view_idx) != 0;
     CHECK(at->placed == view_idx);
-    if (fabs(in[2] - near) > off) CHECK_EQ_INT(seen_there, in[2] > near);
+    n_flat += flat;
+    n_not_flat += !s->smooth && !flat;
+    if (fabs(in[2] - near) > off + fabs(in[2]) * (z_form_off + near_form_off + (flat ? divide : 0)))
+        CHECK_EQ_INT(seen_there, in[2] > near);
     if (!seen_there || in[2] < 2 * off || fmax(fabs(in[0]), fabs(in[1])) > 1.9 * in[2]) return;
-    const double divide = relative_divide() + ldexp(1, -30), share = near / in[2];
+    const double share = near / in[2];
     for (int i = 0; i < 2; i++) {
         const double beside = focal2 / 2 * in[i] / in[2], want = view->tile_texels / 2.0 + beside;
-        const double bound = fabs(beside) * divide + focal2 / 2 * (1 + fabs(in[i] / in[2])) * off / in[2] * 1.01 +
-                             focal2 / 2 * ldexp(1, -28) + LSB16;
+        double bound = fabs(beside) * divide + focal2 / 2 * (1 + fabs(in[i] / in[2])) * off / in[2] * 1.01 +
+                       focal2 / 2 * ldexp(1, -28) + LSB16;
+        if (flat)
+            bound +=
+                (ldexp(1, view->tile_log2) + fabs(want)) * (z_form_off * 1.01 + ldexp(1, -27)) + fabs(want) * divide;
         record(STAGE_PERSP, fabs((i ? at->v_q16 : at->u_q16) * LSB16 - want), bound, LSB16);
     }
     record(STAGE_PERSP_DEPTH, fabs(at->depth_q30 * LSB30 - (1 - share)),
-           share * (divide + off / in[2] * 1.01) + 2 * LSB30, LSB30);
+           share * (divide + off / in[2] * 1.01 + (z_form_off + near_form_off) * 1.01) + 2 * LSB30, LSB30);
 }
 
 /* ---- Cascades ---------------------------------------------------------------------------------------------------- */
@@ -578,6 +613,7 @@ int main(int argc, char **argv)
            n_straight);
     CHECK(n_bent_rows > 300 && n_bent_columns > 300 && n_straight > 100);
     CHECK(n_planes > 2 * n_no_plane);
+    CHECK(n_flat > 1000 && n_flat > 2 * n_not_flat);
     CHECK(n_certain > 1000 && n_uncertain > 100);
     return table ? (check_n_failed ? 1 : 0) : check_report();
 }
