@@ -34,10 +34,22 @@ GN_HOT static void set_column(gn_texture_column *out, int32_t origin_q17, int32_
     out->bent_q17 = bends ? out->down_q17 - 2 * texels_q17(c_q20[0], c_q20[1], size) : 0;
 }
 
+/* Whether a place lies within 2^10 texels of the first corner, as all corners do: those of a coordinate that goes round
+ * thousands of times in the cell look as near, what is between them does not. */
+GN_HOT static int is_between(const gn_texture *texture, const int32_t uv_q20[2], const int32_t first_q20[2])
+{
+    for (int axis = 0; axis < 2; axis++) {
+        int32_t change_q20 = (int32_t)((uint32_t)uv_q20[axis] - (uint32_t)first_q20[axis]);
+        if ((uint64_t)gn_abs32(change_q20) * gn_texture_size(texture, axis) >> 30) return 0;
+    }
+    return 1;
+}
+
 /* u, v of column i and row k of three each: the corners', or exact ones. Returns 0 where the plane cannot be sampled.
  */
-GN_HOT static GN_NOINLINE int find_texture_places(gn_shading *s, int32_t x, int32_t y, int32_t size,
-                                                  gn_corner *const corner[4], int32_t bends, int32_t uv_q20[3][3][2])
+GN_HOT static GN_NOINLINE int find_texture_places(gn_shading *s, const gn_texture *texture, int32_t x, int32_t y,
+                                                  int32_t size, gn_corner *const corner[4], int32_t bends,
+                                                  int32_t uv_q20[3][3][2])
 {
     for (int i = 0; i < 3; i++)
         for (int k = 0; k < 3; k++) {
@@ -45,7 +57,8 @@ GN_HOT static GN_NOINLINE int find_texture_places(gn_shading *s, int32_t x, int3
             if ((in_row && !(bends & 1)) || (in_column && !(bends & 2))) continue;
             if (in_row || in_column) {
                 if (!gn_corner_texture(&s->lattice, s->frame, &s->surface, x + i * (size >> 1), y + k * (size >> 1),
-                                       uv_q20[i][k]))
+                                       uv_q20[i][k]) ||
+                    !is_between(texture, uv_q20[i][k], uv_q20[0][0]))
                     return 0;
                 continue;
             }
@@ -58,9 +71,9 @@ GN_HOT void gn_lattice_texture_begin(gn_shading *s, const gn_texture *texture, i
                                      gn_corner *const corner[4], gn_texture_patch *out)
 {
     int32_t uv_q20[3][3][2], bends = s->lattice.look.texture_bends;
-    if (!find_texture_places(s, x, y, 1 << size_log2, corner, bends, uv_q20)) {
+    if (!find_texture_places(s, texture, x, y, 1 << size_log2, corner, bends, uv_q20)) {
         bends = 0; /* rounding keeps a place between two that are sampled from being so itself */
-        find_texture_places(s, x, y, 1 << size_log2, corner, bends, uv_q20);
+        find_texture_places(s, texture, x, y, 1 << size_log2, corner, bends, uv_q20);
     }
     out->bends_rows = bends & 1;
     for (int axis = 0; axis < 2; axis++) {
