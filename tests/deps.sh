@@ -27,7 +27,9 @@ arduino-builder arduino-builder
 arm-none-eabi-gcc gcc-arm-none-eabi
 /usr/lib/arm-none-eabi/lib/nosys.specs libnewlib-arm-none-eabi
 riscv64-unknown-elf-gcc gcc-riscv64-unknown-elf
+xtensa-lx106-elf-gcc gcc-xtensa-lx106
 qemu-system-arm qemu-system-arm
+qemu-system-xtensa qemu-system-misc
 qemu-system-riscv32 qemu-system-misc
 pkg-config pkg-config
 /usr/include/OpenImageIO/imageio.h libopenimageio-dev
