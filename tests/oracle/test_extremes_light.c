@@ -136,11 +136,12 @@ static engine_picture with_own_near(const char *words, double range)
 {
     stage st;
     bounds b;
+    const scene_poses still = {0};
     open_stage(&st, "yard", words, SETTINGS_ACCURATE);
     CHECK(bounds_of_scene(&b, &st.f.s, NULL));
     st.f.s.lights[0].range = range;
     st.f.s.lights[0].near = 0;
-    lights_set_near(&st.f.s, b.low, b.high);
+    lights_set_near(&st.f.s, &still, b.low, b.high);
     engine_picture p = library(&st);
     end(&st.f);
     return p;
