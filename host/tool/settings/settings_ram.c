@@ -104,18 +104,19 @@ static int has_levels(const settings *s)
 static long lattice_bytes(const settings *s)
 {
     layout all = {0, 4};
-    put(&all, 1, 244, 4);                         /* span to plane */
-    if (s->feature.shadows) put(&all, 10, 4, 4);  /* matrix */
-    put(&all, s->capacity.surface_lights, 12, 4); /* light */
-    put(&all, 1, 200, 4);                         /* face_q30 to bits */
-    put(&all, 12 + 1, corner_bytes(s), 4);        /* corners, corner */
-    put(&all, 1, 144, 4);                         /* corner_key to split */
-    if (s->feature.shadows) put(&all, 2, 344, 4); /* window */
-    put(&all, 1, 572, 4);                         /* look */
-    if (has_levels(s)) put(&all, 1, 4, 4);        /* of that: level and level_ends */
-    put(&all, 1, 616, 8);                         /* by */
-    put(&all, 1, 136, 4);                         /* attenuation */
-    if (has_glow(s)) put(&all, 16, 8, 4);         /* glow */
+    put(&all, 1, 252, 4);                                                      /* span to plane */
+    if (s->feature.shadows) put(&all, 10, 4, 4);                               /* matrix */
+    if (s->feature.shadows && s->feature.punctual_lights) put(&all, 8, 56, 4); /* forms */
+    put(&all, s->capacity.surface_lights, 12, 4);                              /* light */
+    put(&all, 1, 200, 4);                                                      /* face_q30 to bits */
+    put(&all, 12 + 1, corner_bytes(s), 4);                                     /* corners, corner */
+    put(&all, 1, 192, 4);                                                      /* corner_key to split */
+    if (s->feature.shadows) put(&all, 2, 344, 4);                              /* window */
+    put(&all, 1, 572, 4);                                                      /* look */
+    if (has_levels(s)) put(&all, 1, 4, 4);                                     /* of that: level and level_ends */
+    put(&all, 1, 616, 8);                                                      /* by */
+    put(&all, 1, 136, 4);                                                      /* attenuation */
+    if (has_glow(s)) put(&all, 16, 8, 4);                                      /* glow */
     pad(&all, 8);
     return all.size;
 }
