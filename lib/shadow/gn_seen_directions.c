@@ -63,16 +63,17 @@ void gn_seen_project_box(gn_seen_job *job, const int32_t axis_q30[3], uint32_t t
 
 void gn_seen_box_along(const gn_seen_job *job, int32_t lo[GN_SEEN_DIRECTIONS], int32_t hi[GN_SEEN_DIRECTIONS])
 {
-    int32_t half[GN_SEEN_DIRECTIONS];
-    gn_seen_directions(job->middle + 3, lo);
-    gn_seen_directions(job->middle + 3, hi);
+    uint32_t wide[GN_SEEN_DIRECTIONS] = {0}; /* 3 * 2^30 */
     for (int j = 0; j < 3; j++) {
         const int32_t at[3] = {job->half[3][j], job->half[4][j], job->half[5][j]};
-        gn_seen_directions(at, half);
-        for (int d = 0; d < GN_SEEN_DIRECTIONS; d++) {
-            lo[d] = gn_seen_limited((int64_t)lo[d] - gn_abs32(half[d]));
-            hi[d] = gn_seen_limited((int64_t)hi[d] + gn_abs32(half[d]));
-        }
+        gn_seen_directions(at, lo);
+        for (int d = 0; d < GN_SEEN_DIRECTIONS; d++) wide[d] += gn_abs32(lo[d]);
+    }
+    gn_seen_directions(job->middle + 3, lo);
+    for (int d = 0; d < GN_SEEN_DIRECTIONS; d++) {
+        int32_t middle = lo[d];
+        lo[d] = gn_seen_limited((int64_t)middle - wide[d]);
+        hi[d] = gn_seen_limited((int64_t)middle + wide[d]);
     }
 }
 
