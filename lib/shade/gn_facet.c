@@ -374,19 +374,25 @@ GN_HOT static void draw_levels(const facet *f, const gn_run_span *span)
 }
 #endif
 
+/* Whether no light reaches the vertices. */
+GN_HOT static int is_dark(const facet *f)
+{
+    int32_t lit = 0;
+    for (int c = 0; c < 3; c++) lit |= f->colour_q24[c][0] | f->colour_q24[c][1] | f->colour_q24[c][2];
+    return !lit;
+}
+
 /* Whether all pixels look the same; fills them in. */
 GN_HOT static int draw_one_colour(facet *f)
 {
     gn_shading *s = f->s;
     const gn_lattice *l = &s->lattice;
-    uint32_t q20[3], differs = 0, lit = 0;
+    uint32_t q20[3], differs = 0;
     for (int c = 0; c < 3; c++) {
         const int32_t *colour = f->colour_q24[c];
         differs |= (uint32_t)(colour[0] ^ colour[1]) | (uint32_t)(colour[0] ^ colour[2]);
-        lit |= (uint32_t)colour[0];
         q20[c] = (uint32_t)gn_max32(f->base_q24[c] + colour[0], 0) >> 4;
     }
-    if (!(differs | lit) && !f->n_lights) f->turns = 0;
     if (differs || f->turns || f->n_lights || s->surface.textured || shows_shadow(f)) return 0;
     uint32_t packed = gn_exact_pack(s, q20);
     for (int32_t i = 0; i < l->n_spans; i++)
@@ -417,6 +423,7 @@ GN_HOT static GN_NOINLINE int draw(facet *f)
 {
     const gn_lattice *l = &f->s->lattice;
     facet_look look;
+    if (!f->n_lights && is_dark(f)) f->turns = 0;
     if (GN_COLOURED(&f->s->surface) && !f->n_lights && !f->turns) tint_vertices(f);
     if (draw_one_colour(f)) return 1;
     if (!f->screen.steep && use_two_colours(f)) {
