@@ -375,7 +375,7 @@ GN_HOT static void draw_levels(const facet *f, const gn_run_span *span)
 #endif
 
 /* Whether no light reaches the vertices. */
-GN_HOT static int is_dark(const facet *f)
+GN_HOT static int is_unlit(const facet *f)
 {
     int32_t lit = 0;
     for (int c = 0; c < 3; c++) lit |= f->colour_q24[c][0] | f->colour_q24[c][1] | f->colour_q24[c][2];
@@ -423,7 +423,7 @@ GN_HOT static GN_NOINLINE int draw(facet *f)
 {
     const gn_lattice *l = &f->s->lattice;
     facet_look look;
-    if (!f->n_lights && is_dark(f)) f->turns = 0;
+    if (!f->n_lights && is_unlit(f)) f->turns = 0;
     if (GN_COLOURED(&f->s->surface) && !f->n_lights && !f->turns) tint_vertices(f);
     if (draw_one_colour(f)) return 1;
     if (!f->screen.steep && use_two_colours(f)) {
