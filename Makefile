@@ -97,8 +97,8 @@ size: ## measure flash, RAM and worst-case stack on the targets; WRITE=1 renews 
 dist: ## the packages that docs/FIRMWARE.md lists: build/dist/gnomon-VERSION.tar.gz
 	@sh boards/packages/dist.sh $(BUILD)/dist
 
-test-packages: ## build what make dist packs with the tools of each ecosystem: CMake, Arduino
-	@sh boards/packages/test.sh
+test-packages: ## of make test: what make dist packs, built with the tools of each ecosystem: CMake, Arduino
+	@sh tests/tool/test_packages.sh
 
 docs: $(BUILD)/gnomon $(addprefix $(BUILD)/test_,stages casters radiance punctual accuracy bias contact census rows seams crawl flicker kept culling lists changes extremes extremes_light extremes_many) ## regenerate the generated parts of docs/
 	@sh docs/generate.sh $(BUILD)/gnomon
