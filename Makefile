@@ -147,11 +147,13 @@ WASM_SRC := $(filter-out %/sweep_target.c, $(HOST_SRC)) $(LIB_SRC) host/tool/mai
 WASM_OBJ := $(WASM_SRC:%.c=$(BUILD)/wasm/%.o)
 WEB := $(wildcard host/web/*.js host/web/*.css host/web/*.html host/web/*.ino host/web/*.txt) host/web/page.sh
 
-wasm-tools:
+$(BUILD)/wasm/tools:
+	@mkdir -p $(@D)
 	@ls /usr/include/wasm32-wasi/stdio.h $(shell clang --target=wasm32-wasi -print-libgcc-file-name 2>/dev/null || echo /none) >/dev/null 2>&1 && command -v wasm-ld >/dev/null || \
 	  { echo "The playground needs clang and lld for WebAssembly; in Debian: clang lld wasi-libc libclang-rt-dev-wasm32" >&2; exit 1; }
+	@touch $@
 
-$(BUILD)/wasm/%.o: %.c | wasm-tools
+$(BUILD)/wasm/%.o: %.c | $(BUILD)/wasm/tools
 	@mkdir -p $(@D)
 	@echo '  CC $< (WebAssembly)'
 	@$(WASM_CC) $(WASM_CFLAGS) -MMD -MP -c -o $@ $<
@@ -232,5 +234,5 @@ endif
 
 -include $(shell find $(wildcard $(BUILD)/obj $(BUILD)/wasm) /dev/null -name "*.d")
 
-.PHONY: all help run playground wasm-tools test-playground deps test dist test-packages soak mutate prove machines bench size matrix firmware emulate screen boards docs report prefix tables scenes coverage clean test-programs constant-programs alone-programs
+.PHONY: all help run playground test-playground deps test dist test-packages soak mutate prove machines bench size matrix firmware emulate screen boards docs report prefix tables scenes coverage clean test-programs constant-programs alone-programs
 .SECONDARY:
