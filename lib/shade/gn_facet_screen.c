@@ -26,7 +26,7 @@ GN_HOT static GN_NOINLINE int find_screen(gn_facet_screen *out, const gn_frame *
 {
     int32_t p[3][2], d[3][2];
     uint32_t longest = 0;
-    if (s->z_max_q16 - s->z_min_q16 > s->z_min_q16 >> 3 || frame->cam.focal2_px_q16 >> 31) return 0;
+    if (s->z_max_q16 - s->z_min_q16 > s->z_min_q16 >> 2 || frame->cam.focal2_px_q16 >> 31) return 0;
     for (int k = 0; k < 3; k++) {
         if (s->v_q16[k][2] < frame->cam.near_q16 || !vertex_on_screen(frame, s->v_q16[k], p[k])) return 0;
         for (int i = 0; i < 2; i++) {
