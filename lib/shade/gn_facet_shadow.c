@@ -46,28 +46,48 @@ GN_HOT static inline int32_t depth_q30_of(const gn_light_view *view, int32_t dep
     return gn_max32(-(1 << 29) >> up, gn_min32(depth_q16, ((1 << 30) - 1) >> up)) * (1 << up);
 }
 
+/* Offsets of receivers at the vertices: texels along u, v and depth. */
+GN_HOT static inline void find_offsets(const gn_shading *shading, uint32_t slot, const gn_light_view *view,
+                                       int32_t offset[3][3])
+{
+    const gn_surface *s = &shading->surface;
+    const int lifts = GN_SMOOTH(s) && shading->lattice.light[slot].lifts;
+    for (int k = 0; k < 3; k++) {
+        int32_t n[3] = {s->normal_q30[0][0], s->normal_q30[0][1], s->normal_q30[0][2]};
+        for (int i = 0; k && i < 3; i++) n[i] += s->normal_q30[k][i];
+        if (k && !GN_SMOOTH(s))
+            for (int i = 0; i < 3; i++) offset[k][i] = offset[0][i];
+        else if (!lifts) gn_sample_offset(shading->frame, s, slot, view, n, offset[k]);
+        else
+            for (int i = 0; i < 3; i++)
+                offset[k][i] = 4 * gn_mul_high((int32_t)(gn_dot64(n, view->axis_q30[i]) >> 30), view->offset_q16);
+    }
+}
+
+/* Coordinate of a vertex, saturated. */
+GN_HOT static inline int32_t placed(const int32_t m[3], const int32_t v[3], int32_t shift, int64_t d, int32_t offset)
+{
+    int64_t at = (gn_dot64(m, v) >> shift) + d + offset;
+    return (int32_t)at == at ? (int32_t)at : gn_sat32(at);
+}
+
 GN_HOT static GN_NOINLINE void place_vertices(const gn_shading *shading, uint32_t slot, const gn_light_view *view,
                                               vertex_places *out)
 {
-    const gn_surface *s = &shading->surface;
-    const gn_view_matrix *matrix = &shading->lattice.matrix;
-    const int smooth = GN_SMOOTH(s), lifts = smooth && shading->lattice.light[slot].lifts,
-              shift = view->fit.ortho.ray_shift;
-    int32_t moved[3];
-    if (!smooth) gn_sample_offset(shading->frame, s, slot, view, s->normal_q30[0], moved);
-    for (int k = 0; k < 3; k++) {
-        const int32_t v[3] = {s->v_q16[k][0], s->v_q16[k][1], s->v_q16[k][2]};
-        int32_t n[3] = {s->normal_q30[0][0], s->normal_q30[0][1], s->normal_q30[0][2]};
-        for (int i = 0; smooth && k && i < 3; i++) n[i] += s->normal_q30[k][i];
-        if (smooth && !lifts) gn_sample_offset(shading->frame, s, slot, view, n, moved);
-        for (int i = 0; i < 3; i++) {
-            int32_t along_q30 = lifts ? (int32_t)(gn_dot64(n, view->axis_q30[i]) >> 30) : 0;
-            int32_t offset = lifts ? 4 * gn_mul_high(along_q30, view->offset_q16) : moved[i];
-            int64_t at = (gn_dot64(v, matrix->m[i]) >> shift) + (int32_t)view->fit.ortho.ray[i].d_q16 + offset;
-            out->at[i][k] = (int32_t)at == at ? (int32_t)at : gn_sat32(at);
-        }
-        out->at[2][k] = depth_q30_of(view, out->at[2][k]);
+    const int32_t(*v)[3] = (const int32_t(*)[3])shading->surface.v_q16;
+    const int32_t shift = view->fit.ortho.ray_shift;
+    int32_t offset[3][3];
+    find_offsets(shading, slot, view, offset);
+    for (int i = 0; i < 3; i++) {
+        const int32_t m[3] = {shading->lattice.matrix.m[i][0], shading->lattice.matrix.m[i][1],
+                              shading->lattice.matrix.m[i][2]};
+        const int64_t d = (int32_t)view->fit.ortho.ray[i].d_q16;
+        int32_t *at = out->at[i];
+        at[0] = placed(m, v[0], shift, d, offset[0][i]);
+        at[1] = placed(m, v[1], shift, d, offset[1][i]);
+        at[2] = placed(m, v[2], shift, d, offset[2][i]);
     }
+    for (int k = 0; k < 3; k++) out->at[2][k] = depth_q30_of(view, out->at[2][k]);
 }
 
 /* The view of a directional light that sees the triangle; NULL: none. */
