@@ -45,7 +45,7 @@ typedef struct {
     gn_slope colour_q24[3];
     gn_facet_curve length2_q20; /* of the normal, if it turns */
     gn_slope tint_q16[3];       /* the vertices' colours, if those are to be multiplied */
-    int tinted;
+    int tinted, each;           /* nodes are all pixels */
 } facet_look;
 
 GN_HOT static int use_screen(facet *f)
@@ -123,11 +123,6 @@ GN_HOT static inline int32_t tint_q16(const gn_surface *s, int channel, int vert
     return s->attribute_q16[0][i] + (vertex ? s->attribute_q16[vertex][i] : 0);
 }
 
-GN_HOT static inline int32_t tinted(int32_t v_q24, int32_t tint_q16)
-{
-    return (int32_t)((int64_t)v_q24 * tint_q16 >> 16);
-}
-
 /* What a light adds at the vertices; it may be negative there. */
 GN_HOT static void find_light_slopes(facet *f, pixel_light *out, const uint32_t radiance_uq16[3], const int32_t e[3])
 {
@@ -182,18 +177,6 @@ GN_HOT static inline int32_t light_of(int32_t v_q24, uint32_t share_uq16, int32_
     return share_uq16 == 65536 ? v : (int32_t)((int64_t)v * (int32_t)share_uq16 >> 16);
 }
 
-/* 1 / |n| of n pixels of a row: as gn_rsqrt_norm() finds it in one step, of what lies in 1/4 .. 1. */
-GN_HOT static void find_lengths(const gn_facet_curve *length2_q20, int32_t right, int32_t down, int32_t n,
-                                uint32_t *out_q30)
-{
-    gn_facet_row row = gn_facet_row_of(length2_q20, right, down);
-    for (int32_t i = 0; i < n; i++, row.at += row.step, row.step += row.change) {
-        uint32_t v = (uint32_t)gn_max32(1 << 18, gn_min32(row.at, (1 << 20) - 1)); /* 1/3 and more on the triangle */
-        uint32_t y_q31 = (uint32_t)gn_rsqrt_entry((v >> 12) - 64U) << 16;
-        out_q30[i] = gn_umul_high(y_q31, (3U << 30) - gn_umul_high(v << 12, gn_umul_high(y_q31, y_q31)));
-    }
-}
-
 /* Adds a light that pixels ask for to n pixels from (x, y) of the picture on. */
 GN_HOT static void add_pixel_light(const facet *f, const pixel_light *light, int32_t x, int32_t y, int32_t n)
 {
@@ -235,29 +218,17 @@ GN_HOT static void begin_nodes(const facet *f, const facet_look *look, int32_t r
     }
 }
 
-GN_HOT static void tint_nodes(int32_t (*node)[3], int32_t n, const gn_slope tint_q16[3], int32_t right, int32_t down)
-{
-    int32_t r = gn_facet_at(&tint_q16[0], right, down), g = gn_facet_at(&tint_q16[1], right, down),
-            b = gn_facet_at(&tint_q16[2], right, down);
-    const int32_t dr = tint_q16[0].dx, dg = tint_q16[1].dx, db = tint_q16[2].dx;
-    for (int32_t(*end)[3] = node + n; node < end; node++, r += dr, g += dg, b += db) {
-        (*node)[0] = tinted((*node)[0], r);
-        (*node)[1] = tinted((*node)[1], g);
-        (*node)[2] = tinted((*node)[2], b);
-    }
-}
-
 /* The colours of n pixels from (x, y) of the picture on, a node each. */
 GN_HOT static void light_pixels(const facet *f, const facet_look *look, int32_t x, int32_t y, int32_t n)
 {
     gn_lattice *l = &f->s->lattice;
     int32_t right = x - f->screen.x0, down = y - f->screen.y0;
     if (f->turns) {
-        find_lengths(&look->length2_q20, right, down, n, l->row.attenuation[1]);
+        gn_facet_lengths(&look->length2_q20, right, down, n, l->row.attenuation[1]);
         begin_nodes(f, look, right, down, n, l->row.attenuation[1]);
     } else begin_nodes(f, look, right, down, n, NULL);
     for (int32_t i = 0; i < f->n_lights; i++) add_pixel_light(f, &f->light[i], x, y, n);
-    if (look->tinted) tint_nodes(l->by.node[0], n, look->tint_q16, right, down);
+    if (look->tinted) gn_facet_tint(l->by.node[0], n, look->tint_q16, right, down);
 }
 
 #if GN_TEXTURES
@@ -294,7 +265,7 @@ GN_HOT static void use_texels(const facet *f, const gn_run_span *span, int32_t n
 /* Nodes are all pixels, or, of a texture under light that is linear, two. */
 GN_HOT static void draw_lit_span(const facet *f, const facet_look *look, const gn_run_span *span)
 {
-    const int each = f->n_lights || f->turns;
+    const int each = look->each;
     int32_t(*node)[3] = f->s->lattice.by.node[0], n = each ? span->n_px : 2;
     gn_pixel_line line = {.node = (const int32_t(*)[3])node, .spacing_log2 = each ? 0 : 4};
     if (each) light_pixels(f, look, span->x, span->y, n);
@@ -329,43 +300,64 @@ GN_HOT static void draw_spans(const facet *f, const facet_look *look)
 {
     gn_lattice *l = &f->s->lattice;
     GN_COUNT(facet_pixels, f->n_px);
-    if (f->n_lights || f->turns || f->s->surface.textured) {
+    if (look->each || f->s->surface.textured) {
         for (int32_t i = 0; i < l->n_spans; i++) draw_lit_span(f, look, &l->span[i]);
         gn_levels_forget(l); /* nodes took their place */
     } else draw_runs(f, look);
 }
 
 #if GN_VERTEX_COLOURS
-/* Times the vertices' colours. */
-GN_HOT static void tint_vertices(facet *f)
+GN_HOT static inline int32_t spread(int32_t a, int32_t b, int32_t c)
+{
+    return gn_max32(gn_max32(a, b), c) - gn_min32(gn_min32(a, b), c);
+}
+
+/* Whether colours at the vertices, times the light there, are linear enough: between two vertices the product of what
+ * changes by d and by e is off by d e / 4. */
+GN_HOT static int tints_hold(const facet *f)
 {
     const gn_surface *s = &f->s->surface;
+    const int32_t most_log2 = GN_K(f->s->frame, persp_step) == 16 ? 4 : 6;
+    for (int c = 0; c < 3; c++) {
+        const int32_t *at = f->colour_q24[c], light = spread(at[0], at[1], at[2]),
+                      tint = spread(tint_q16(s, c, 0), tint_q16(s, c, 1), tint_q16(s, c, 2));
+        if (gn_mul_high(light, tint) > 1 << (10 - most_log2)) return 0; /* Q8 */
+    }
+    return 1;
+}
+
+/* Times the vertices' colours. Returns 0 if pixels are to be multiplied. */
+GN_HOT static int tint_vertices(facet *f)
+{
+    const gn_surface *s = &f->s->surface;
+    if (!GN_COLOURED(s)) return 1;
+    if (f->n_lights || f->turns || (GN_SMOOTH(s) && !tints_hold(f))) return 0;
     for (int c = 0; c < 3; c++) {
         for (int k = 0; k < 3; k++)
-            f->colour_q24[c][k] = tinted(f->base_q24[c] + f->colour_q24[c][k], tint_q16(s, c, k));
+            f->colour_q24[c][k] = gn_facet_tinted(f->base_q24[c] + f->colour_q24[c][k], tint_q16(s, c, k));
         f->base_q24[c] = 0;
     }
+    return 1;
 }
 
 GN_HOT static void use_tints(facet *f, facet_look *look)
 {
     const gn_surface *s = &f->s->surface;
-    look->tinted = GN_COLOURED(s) && (f->n_lights || f->turns);
     for (int c = 0; look->tinted && c < 3; c++) {
         const int32_t at[3] = {tint_q16(s, c, 0), tint_q16(s, c, 1), tint_q16(s, c, 2)};
         gn_facet_slope(&f->screen, &look->tint_q16[c], at);
     }
 }
 #else
-GN_HOT static void tint_vertices(facet *f)
+GN_HOT static int tint_vertices(facet *f)
 {
     (void)f;
+    return 1;
 }
 
 GN_HOT static void use_tints(facet *f, facet_look *look)
 {
-    (void)f;
-    look->tinted = 0;
+    (void)f, (void)look;
 }
 #endif
 
@@ -422,7 +414,7 @@ GN_HOT static int draw_one_colour(facet *f)
     gn_shading *s = f->s;
     const gn_lattice *l = &s->lattice;
     uint32_t q20[3], differs = 0;
-    if (f->turns || f->n_lights || s->surface.textured || shows_shadow(f)) return 0;
+    if (s->surface.textured || shows_shadow(f)) return 0;
     for (int c = 0; c < 3; c++) {
         const int32_t *colour = f->colour_q24[c];
         differs |= (uint32_t)(colour[0] ^ colour[1]) | (uint32_t)(colour[0] ^ colour[2]);
@@ -459,8 +451,9 @@ GN_HOT static GN_NOINLINE int draw(facet *f)
     const gn_lattice *l = &f->s->lattice;
     facet_look look;
     if (!f->n_lights && f->turns && !is_lit(f)) f->turns = 0;
-    if (GN_COLOURED(&f->s->surface) && !f->n_lights && !f->turns) tint_vertices(f);
-    if (draw_one_colour(f)) return 1;
+    look.tinted = !tint_vertices(f);
+    look.each = f->n_lights || f->turns || look.tinted;
+    if (!look.each && draw_one_colour(f)) return 1;
     if (!f->screen.steep && use_two_colours(f)) {
         GN_COUNT(facet_pixels, f->n_px);
         for (int32_t i = 0; i < l->n_spans; i++) draw_levels(f, &l->span[i]);

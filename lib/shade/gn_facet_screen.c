@@ -114,4 +114,27 @@ GN_HOT void gn_facet_curve_find(gn_facet_screen *screen, gn_facet_curve *out, co
     out->yy = v[2];
 }
 
+GN_HOT void gn_facet_lengths(const gn_facet_curve *length2_q20, int32_t right, int32_t down, int32_t n,
+                             uint32_t *out_q30)
+{
+    gn_facet_row row = gn_facet_row_of(length2_q20, right, down);
+    for (int32_t i = 0; i < n; i++, row.at += row.step, row.step += row.change) {
+        uint32_t v = (uint32_t)gn_max32(1 << 18, gn_min32(row.at, (1 << 20) - 1)); /* 1/3 and more on the triangle */
+        uint32_t y_q31 = (uint32_t)gn_rsqrt_entry((v >> 12) - 64U) << 16;
+        out_q30[i] = gn_umul_high(y_q31, (3U << 30) - gn_umul_high(v << 12, gn_umul_high(y_q31, y_q31)));
+    }
+}
+
+GN_HOT void gn_facet_tint(int32_t (*node)[3], int32_t n, const gn_slope tint_q16[3], int32_t right, int32_t down)
+{
+    int32_t r = gn_facet_at(&tint_q16[0], right, down), g = gn_facet_at(&tint_q16[1], right, down),
+            b = gn_facet_at(&tint_q16[2], right, down);
+    const int32_t dr = tint_q16[0].dx, dg = tint_q16[1].dx, db = tint_q16[2].dx;
+    for (int32_t(*end)[3] = node + n; node < end; node++, r += dr, g += dg, b += db) {
+        (*node)[0] = gn_facet_tinted((*node)[0], r);
+        (*node)[1] = gn_facet_tinted((*node)[1], g);
+        (*node)[2] = gn_facet_tinted((*node)[2], b);
+    }
+}
+
 #endif
