@@ -256,7 +256,6 @@ GN_HOT static GN_NOINLINE void add_edge_light(const drawing *d, const gn_lattice
 {
     const uint32_t *share = d->s->lattice.row.attenuation[0], *end = share + d->n;
     int32_t twice[3], step[3]; /* |more| < 2^30 */
-    find_attenuations(d, edge, below, d->s->lattice.row.attenuation[0]);
     for (int c = 0; c < 3; c++) {
         int32_t across = 2 * (edge->more_q24[c].dx + below * edge->more_q24[c].dxy);
         twice[c] = 2 * (edge->more_q24[c].at + below * edge->more_q24[c].dy) + d->first * across;
@@ -300,6 +299,9 @@ GN_HOT static void find_nodes(const drawing *d, int32_t below, int32_t (*node)[3
         (*at)[2] = b;
     }
     for (int32_t k = 0; k < look->n_edges; k++) {
+#if GN_SHADOWS
+        find_attenuations(d, &look->edge[k], below, d->s->lattice.row.attenuation[0]);
+#endif
         add_edge_light(d, &look->edge[k], below, node);
         k += look->edge[k].bent >> 2; /* which is the next one, too */
     }
