@@ -369,10 +369,10 @@ GN_HOT uint32_t gn_cell_unevenness_q24(gn_lattice_cell *cell, uint32_t slot, int
     }
     if (dark) kink = change;
     else if (lo <= 0 && light->kind == GN_LIGHT_DIRECTIONAL) kink = 3 * terminator_error_q24(lo, (uint32_t)most_q24);
-    int ends = light->kind == GN_LIGHT_SPOT && lo < 32;
     int asked = cell->size_log2 > gn_cell_finest_log2(cell->frame);
     if (asked) bend = turn > 1 << 12 ? 1U << 30 : turn * turn << 6;
 #if GN_PUNCTUAL_LIGHTS
+    int ends = light->kind == GN_LIGHT_SPOT && lo < 32;
     if (light->kind != GN_LIGHT_DIRECTIONAL && (ends || asked)) {
         light_distance d;
         find_distance(cell, light, &d);
