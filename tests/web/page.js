@@ -114,7 +114,8 @@ async function checkKnobs() {
   }
   await run(`$('reset').click()`);
   await run(`$('knob-size').value = '160x120'; $('knob-size').dispatchEvent(new Event('input'))`);
-  await browser.until(`!$('row-compact').querySelector('.waits:not([hidden])')`, 60);
+  // 320x240 is too large for it: what is said of that goes when 160x120 is priced
+  await browser.until(`!$('row-compact').querySelector('.waits:not([hidden])') && $('row-compact').querySelector('.more span').textContent !== 'cannot be'`, 60);
   const [general, rom] = [await crc(), await text('rom')], gain = await browser.value(`$('row-compact').querySelector('.more span').textContent`);
   await run(`$('row-compact').querySelector('.more').click()`);
   await browser.until(`$('rom').textContent !== '${rom}'`, 60);
