@@ -147,7 +147,7 @@ GN_HOT int gn_cell_masks_hold(const gn_lattice_cell *cell)
 
 /* ---- How uneven light is ----------------------------------------------------------------------------------------- */
 
-#if GN_VERTEX_NORMALS || GN_PUNCTUAL_LIGHTS
+#if GN_VERTEX_NORMALS
 /* The longer diagonal of vectors at the corners, along the axes. */
 GN_HOT static uint32_t diagonal(const int32_t *a, const int32_t *b, const int32_t *c, const int32_t *d)
 {

@@ -49,8 +49,9 @@ void gn_pixel_store_run(const gn_frame *frame, const gn_pixel_rows *rows, int32_
 /* Whether the format's pixels are three levels, which are encoded one by one. */
 GN_HOT static inline int gn_pixel_has_levels(const gn_frame *frame)
 {
-    return !GN_OTHER_FORMATS || frame->picture.format == GN_FORMAT_RGB565 ||
-           frame->picture.format == GN_FORMAT_RGB565_SWAPPED || frame->picture.format == GN_FORMAT_RGB888;
+    if (!GN_OTHER_FORMATS) return !GN_RAW_VIEWS || frame->picture.format != GN_FORMAT_RAW32;
+    return frame->picture.format == GN_FORMAT_RGB565 || frame->picture.format == GN_FORMAT_RGB565_SWAPPED ||
+           frame->picture.format == GN_FORMAT_RGB888;
 }
 
 /* Levels of a colour in 0 .. 1 and half a level each, in such a format: Q31 of 32, 64 or 256 levels. What is above the
