@@ -96,10 +96,10 @@ GN_HOT static inline void store_block_row(const gn_frame *frame, const gn_pixel_
             const int32_t from[3] = {r, g, b};
             gn_pixel_store_run(frame, rows, x, y, n, from, step);
         } else if (frame->picture.format == GN_FORMAT_RGB565)
-            run_of_levels(rows->pixels->rgb565 + at + x, n, r, g, b, step, 0);
+            run_of_levels(rows->pixels->rgb565 + (at + x), n, r, g, b, step, 0);
         else if (GN_OTHER_FORMATS && frame->picture.format == GN_FORMAT_RGB888)
             run_of_levels_888(rows->pixels->bytes + 3 * (at + x), n, r, g, b, step);
-        else run_of_levels(rows->pixels->rgb565 + at + x, n, r, g, b, step, 1);
+        else run_of_levels(rows->pixels->rgb565 + (at + x), n, r, g, b, step, 1);
         if (!(bits >> n)) return;
     }
 }

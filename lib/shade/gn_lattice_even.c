@@ -258,7 +258,7 @@ GN_HOT static GN_NOINLINE uint32_t bend_of_smooth_q30(uint32_t flat_q30, uint32_
     if (flat_q30 == UINT32_MAX) return flat_q30;
     int32_t up = gn_clz32(flat_q30 | 1U) & ~1;
     uint32_t m = (flat_q30 | 1U) << up, root_q31 = gn_umul_high(m, gn_rsqrt_norm(m, 1));
-    uint32_t t_q12 = turn_q12 + (root_q31 >> (18 + (up >> 1))) + 1;
+    uint32_t t_q12 = turn_q12 + (root_q31 >> gn_min32(18 + (up >> 1), 31)) + 1;
     return t_q12 >= 1 << 13 ? UINT32_MAX : t_q12 * t_q12 << 6;
 }
 

@@ -11,7 +11,7 @@
 #include "shade/gn_pixel.h"
 
 #if GN_INTERPOLATES
-enum { X0 = 40, Y0 = 30, WIDTH = 70, HEIGHT = 20, CELL_X = 48, CELL_Y = 32 };
+enum { X0 = 40, Y0 = 30, WIDTH = 50, HEIGHT = 20, CELL_X = 48, CELL_Y = 32 }; /* a tile of 64x16 pixels holds it */
 
 static rng random_state = {9};
 static gn_frame frame;
