@@ -97,8 +97,8 @@ size: ## measure flash, RAM and worst-case stack on the targets; WRITE=1 renews 
 dist: ## the packages that docs/FIRMWARE.md lists: build/dist/gnomon-VERSION.tar.gz
 	@sh boards/packages/dist.sh $(BUILD)/dist
 
-test-packages: ## build what make dist packs with the tools of each ecosystem: CMake, Arduino
-	@sh boards/packages/test.sh
+test-packages: ## of make test: what make dist packs, built with the tools of each ecosystem: CMake, Arduino
+	@sh tests/tool/test_packages.sh
 
 docs: $(BUILD)/gnomon $(addprefix $(BUILD)/test_,stages casters radiance punctual accuracy bias contact census rows seams crawl flicker kept culling lists changes extremes extremes_light extremes_many) ## regenerate the generated parts of docs/
 	@sh docs/generate.sh $(BUILD)/gnomon
@@ -147,7 +147,13 @@ WASM_SRC := $(filter-out %/sweep_target.c, $(HOST_SRC)) $(LIB_SRC) host/tool/mai
 WASM_OBJ := $(WASM_SRC:%.c=$(BUILD)/wasm/%.o)
 WEB := $(wildcard host/web/*.js host/web/*.css host/web/*.html host/web/*.ino host/web/*.txt) host/web/page.sh
 
-$(BUILD)/wasm/%.o: %.c
+$(BUILD)/wasm/tools:
+	@mkdir -p $(@D)
+	@ls /usr/include/wasm32-wasi/stdio.h $(shell clang --target=wasm32-wasi -print-libgcc-file-name 2>/dev/null || echo /none) >/dev/null 2>&1 && command -v wasm-ld >/dev/null || \
+	  { echo "The playground needs clang and lld for WebAssembly; in Debian: clang lld wasi-libc libclang-rt-dev-wasm32" >&2; exit 1; }
+	@touch $@
+
+$(BUILD)/wasm/%.o: %.c | $(BUILD)/wasm/tools
 	@mkdir -p $(@D)
 	@echo '  CC $< (WebAssembly)'
 	@$(WASM_CC) $(WASM_CFLAGS) -MMD -MP -c -o $@ $<

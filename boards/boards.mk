@@ -164,10 +164,10 @@ else
 	@echo "$(BOARD) is built, not run: its board.mk has BOARD_RUNS := $(BOARD_RUNS)" >&2; exit 1
 endif
 
-# The display, when the clock has come to the last time of ARGS; the Pico's after ARGS frames.
+# The display, when the clock has come to the last time of ARGS; that of show, and the Pico's, after ARGS frames.
 SCREEN_OUT ?= $(FIRMWARE:.elf=.ppm)
 ifneq ($(BOARD_RUNS),rp2040js)
-run-screen: ARGS ?= 09:40 10:00
+run-screen: ARGS ?= $(if $(filter clock,$(APP)),09:40 10:00,2)
 endif
 run-screen: $(FIRMWARE) $(PICO_NEEDS) $(BUILD)/capture $(BUILD)/ppm
 ifeq ($(BOARD_RUNS),rp2040js)

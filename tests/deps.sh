@@ -24,6 +24,7 @@ clang-format clang-format
 /usr/lib/llvm-*/lib/clang/*/lib/*/libclang_rt.asan*.a libclang-rt-dev
 valgrind valgrind
 arduino-builder arduino-builder
+cmake cmake
 arm-none-eabi-gcc gcc-arm-none-eabi
 /usr/lib/arm-none-eabi/lib/nosys.specs libnewlib-arm-none-eabi
 riscv64-unknown-elf-gcc gcc-riscv64-unknown-elf

@@ -5,9 +5,13 @@
  *   make emulate BOARD=... APP=bench SCENE=FILE ARGS="N M"
  *                                                        from frame N to M, shadow tiles kept; then still
  *
- * Prints by what the instructions are divided.
+ * Prints by what the instructions are divided. With CYCLES=1, the default of boards that QEMU does not run, also the
+ * cycles of each picture.
  */
 #include "board.h"
+#ifdef BENCH_CYCLES
+#include "cycles.h"
+#endif
 
 #ifdef BOARD_SCENE
 #include "scene.h"
@@ -32,6 +36,18 @@ static void print_count(const char *name, uint32_t n)
     board_print(" ");
     board_print_u32(n);
     board_print("\n");
+}
+
+static gn_status draw(const gn_scene *scene)
+{
+#ifdef BENCH_CYCLES
+    cycles_start();
+    gn_status status = gn_render(&renderer, scene, bench_flush, NULL);
+    print_count("cycles", cycles_now());
+    return status;
+#else
+    return gn_render(&renderer, scene, bench_flush, NULL);
+#endif
 }
 
 /* Of what was drawn last. */
@@ -70,9 +86,8 @@ int app_main(void)
     int32_t frame = read_number(&args), last = read_number(&args);
     const gn_scene *scene = scene_frame(&state, frame < 0 ? 0 : (uint32_t)frame);
     gn_status status = gn_init(&renderer, &picture);
-    if (!status) status = gn_render(&renderer, scene, bench_flush, NULL);
-    while (!status && ++frame <= last)
-        status = gn_render(&renderer, scene_frame(&state, (uint32_t)frame), bench_flush, NULL);
+    if (!status) status = draw(scene);
+    while (!status && ++frame <= last) status = draw(scene_frame(&state, (uint32_t)frame));
     return report(status, picture);
 }
 
@@ -106,7 +121,7 @@ int app_main(void)
     bench_build_scene(&bench, c);
     const gn_picture picture = {BENCH_SCENE_WIDTH, BENCH_SCENE_HEIGHT, GN_FORMAT_RGB565, GN_VIEW_COLOUR, 0};
     gn_status status = gn_init(&renderer, &picture);
-    if (!status) status = gn_render(&renderer, &bench.scene, bench_flush, NULL);
+    if (!status) status = draw(&bench.scene);
     return report(status, picture);
 }
 

@@ -20,18 +20,22 @@ static void open_display(void)
     shown = unknown;
 }
 
-/* Everything that casts shadows turns about the file's vertical axis; a ground that the tool added does not cast. From
- * where the file has it each time, so that nothing drifts. */
+/* Everything that casts shadows turns about its middle; a ground that the tool added does not cast. From where the file
+ * has it each time, so that nothing drifts. */
 static const gn_scene *scene_at(uint32_t n)
 {
 #ifdef SHOW_TURN
+    static const int32_t centre[3] = SCENE_CENTRE;
     gn_affine turn;
     scene_init(&state);
     scene_frame(&state, n % SCENE_FRAMES);
     gn_affine_rotation(&turn, (uint16_t)((n % SHOW_TURN << 16) / SHOW_TURN), 0, 0);
     for (uint32_t i = 0; i < SCENE_OBJECTS; i++) {
         gn_object *object = &state.objects[i];
-        if (object->flags & GN_OBJECT_CASTS) gn_affine_mul(&object->to_world, &turn, &object->to_world);
+        if (!(object->flags & GN_OBJECT_CASTS)) continue;
+        for (int k = 0; k < 3; k++) object->to_world.t_q16[k] -= centre[k];
+        gn_affine_mul(&object->to_world, &turn, &object->to_world);
+        for (int k = 0; k < 3; k++) object->to_world.t_q16[k] += centre[k];
     }
     return scene_now(&state);
 #else

@@ -1,5 +1,10 @@
+# Any scene: settings that leave room for it, and a word before the linker's on whether it fits.
+SHOW_SETTINGS ?= $(SCREEN_SETTINGS)
+SCENE_FLAGS ?= --size $(SCREEN_SIZE) $(SHOW_SETTINGS) --simplify safe
 include boards/apps/screen.mk
+undefine FW_SCENE_BOARD
+undefine FW_SCENE_DIR
 APP_SRC := $(wildcard boards/displays/*.c boards/$(BOARD)/screen/*.c)
 BOARD_EMULATOR += $(SCREEN_DEVICE)
-# TURN=N: N pictures for one turn of the model about the file's vertical axis
+# TURN=N: N pictures for one turn of the model about its vertical axis
 APP_FLAGS += $(if $(TURN),-DSHOW_TURN=$(TURN))

@@ -94,3 +94,5 @@ __attribute__((naked, used)) void cortex_m_fault(void)
                      "bx r1\n" ::
                          : "memory");
 }
+
+void cortex_m_tick(void) __attribute__((weak, alias("cortex_m_fault")));

@@ -11,17 +11,18 @@ typedef struct {
     cortex_m_handler handler[15];
 } cortex_m_vectors;
 
-/* Every exception is a fault: nothing here is interrupt driven. */
+/* Every exception is a fault, but for SysTick's where cycles.c is linked. */
 #define CORTEX_M_VECTORS(reset)                                                                                        \
     {                                                                                                                  \
         board_stack_top,                                                                                               \
         {                                                                                                              \
             reset, cortex_m_fault, cortex_m_fault, cortex_m_fault, cortex_m_fault, cortex_m_fault, cortex_m_fault,     \
                 cortex_m_fault, cortex_m_fault, cortex_m_fault, cortex_m_fault, cortex_m_fault, cortex_m_fault,        \
-                cortex_m_fault, cortex_m_fault                                                                         \
+                cortex_m_fault, cortex_m_tick                                                                          \
         }                                                                                                              \
     }
 
 void cortex_m_fault(void);
+void cortex_m_tick(void);
 
 #endif

@@ -1,6 +1,8 @@
-/* For a board that runs alone: what is printed is kept in RAM, where a debugger reads it (x/s board_console.text), and
- * the end of the run is a loop. A reset leaves it: what a fault reported is there after the next start, too. */
+/* For a board that runs alone: what is printed is kept in RAM, where a debugger reads it (x/s board_console.text), goes
+ * out where the board has a serial line, and the end of the run is a loop. A reset leaves it: what a fault reported is
+ * there after the next start, too. */
 #include "board.h"
+#include "start.h"
 
 enum { TEXT_BYTES = 240 };
 #define VALID 0x47A7E817U
@@ -23,6 +25,7 @@ static void make_room(void)
 
 void board_print(const char *text)
 {
+    board_serial(text);
     if (board_console.valid != VALID || board_console.length >= TEXT_BYTES) board_console.length = 0;
     board_console.valid = VALID;
     for (; *text; text++) {
@@ -30,6 +33,11 @@ void board_print(const char *text)
         board_console.text[board_console.length++] = *text;
     }
     board_console.text[board_console.length] = '\0';
+}
+
+__attribute__((weak)) void board_serial(const char *text)
+{
+    (void)text;
 }
 
 void board_exit(int status)

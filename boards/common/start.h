@@ -27,4 +27,7 @@ void board_fault_value(const char *name, uint32_t value);
 
 /* Fault handlers run on the end of RAM, whatever lies there: the stack may be what failed, and nobody goes on. */
 
+/* no_console.c: a board's serial line, if it has one. */
+void board_serial(const char *text);
+
 #endif

@@ -2,20 +2,21 @@
 #include "board.h"
 #include "start.h"
 
-/* The core starts at the first address. Exceptions enter at these distances from VECBASE: of the kernel, of the user,
- * and double ones. */
+/* The core starts at the first address. Exceptions enter at these distances from VECBASE: breakpoints, those of the
+ * kernel and of the user, and double ones. */
 __asm__(".section .vectors, \"ax\"\n"
         "j xtensa_reset\n"
         ".balign 4\n"
         ".literal_position\n"
         ".balign 1024\n"
-        "vectors: .space 0x30\n"
+        "vectors: .space 0x10\n"
+        "j xtensa_break\n"
         ".org vectors + 0x30\n"
         "j xtensa_trap\n"
         ".org vectors + 0x50\n"
         "j xtensa_trap\n"
         ".org vectors + 0x70\n"
-        "j xtensa_trap\n"
+        "j xtensa_double\n"
         ".balign 4\n"
         ".literal .Lvectors, vectors\n"
         ".literal .Ltop, board_stack_top\n"
@@ -35,15 +36,23 @@ __asm__(".section .vectors, \"ax\"\n"
         "l32r a2, .Lstart\n"
         "jx a2\n"
         ".balign 4\n"
-        "xtensa_trap:\n" /* on the end of RAM: the stack may be what failed */
+        "xtensa_break:\n" /* each kind leaves its address in a register of its own */
+        "rsr a4, epc2\n"
+        "j xtensa_fault\n"
+        "xtensa_double:\n"
+        "rsr a4, depc\n"
+        "j xtensa_fault\n"
+        "xtensa_trap:\n"
+        "rsr a4, epc1\n"
+        "xtensa_fault:\n" /* on the end of RAM: the stack may be what failed */
         "mov a2, a1\n"
         "mov a3, a0\n"
         "l32r a1, .Lend\n"
-        "movi a4, 0x20\n"
-        "wsr a4, ps\n"
+        "movi a5, 0x20\n"
+        "wsr a5, ps\n"
         "rsync\n"
-        "l32r a4, .Lreport\n"
-        "jx a4\n"
+        "l32r a5, .Lreport\n"
+        "jx a5\n"
         ".previous\n");
 
 /* No core here guards memory; below the stack nothing lies. */
@@ -51,15 +60,14 @@ void board_guard_stack(void)
 {
 }
 
-void xtensa_report(uint32_t stack_pointer, uint32_t return_address) __attribute__((noreturn, used));
+void xtensa_report(uint32_t stack_pointer, uint32_t return_address, uint32_t pc) __attribute__((noreturn, used));
 
 #define READ_REGISTER(name, value) __asm__ volatile("rsr %0, " name : "=a"(value))
 
-void xtensa_report(uint32_t stack_pointer, uint32_t return_address)
+void xtensa_report(uint32_t stack_pointer, uint32_t return_address, uint32_t pc)
 {
-    uint32_t cause, pc, address;
+    uint32_t cause, address;
     READ_REGISTER("exccause", cause);
-    READ_REGISTER("epc1", pc);
     READ_REGISTER("excvaddr", address);
     board_print("fault: exception ");
     board_print_u32(cause);

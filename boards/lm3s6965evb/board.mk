@@ -10,3 +10,4 @@ SCREEN_SIZE := 128x64
 SCREEN_FORMAT := GREY4
 SCREEN_ZOOM := 26
 SCREEN_SETTINGS := --set tile_height=8 --set max_tile_refs=1000
+SHOW_SETTINGS := --set preset=tiny --set tile_height=8

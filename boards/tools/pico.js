@@ -2,8 +2,8 @@
 // boards/pico/screen/lcd.c.
 //   node pico.js IMAGE.uf2 IMAGE.symbols N [OUT.ppm]
 // IMAGE.symbols is what nm says of the image. The run ends after N frames (each begins with scene_frame), or with
-// board_exit; then OUT.ppm is what the glass shows. Printed: what the firmware prints, and each frame's instructions
-// and cycles. Flash takes no time here, the serial bus does. Exit status: the firmware's; 1: the run failed, stderr
+// board_exit; then OUT.ppm is what the glass shows. Printed: what the firmware sends over UART0, and each frame's
+// instructions and cycles. Flash takes no time here, the serial bus does. Exit status: the firmware's; 1: the run failed, stderr
 // says why.
 'use strict';
 const fs = require('fs');
@@ -144,6 +144,7 @@ function makeChip(glass) {
   const warn = (part, text) => ['RP2040', 'CortexM0Core'].includes(part) && broken(part, text);
   chip.logger = { debug: silent, info: silent, warn, error: broken };
   connect(chip, glass);
+  chip.uart[0].onByte = (byte) => process.stdout.write(String.fromCharCode(byte));
   return chip;
 }
 
@@ -158,12 +159,6 @@ function readSymbols(path) {
   return symbols;
 }
 
-function textAt(chip, address) {
-  let text = '';
-  for (let byte; (byte = chip.readUint8(address++)); ) text += String.fromCharCode(byte);
-  return text;
-}
-
 function million(n) {
   return (n / 1e6).toFixed(1) + ' million';
 }
@@ -171,7 +166,6 @@ function million(n) {
 class Run {
   constructor(chip, symbols, nFrames) {
     Object.assign(this, { chip, nFrames, cycles: 0, instructions: 0, frame: -1, status: -1 });
-    this.print = symbols.board_print;
     this.exit = symbols.board_exit;
     this.scene = symbols.scene_frame; // undefined: an app without frames
   }
@@ -179,8 +173,7 @@ class Run {
   // The firmware enters a function that is watched.
   enter(pc) {
     const { registers } = this.chip.core;
-    if (pc === this.print) process.stdout.write(textAt(this.chip, registers[0]));
-    else if (pc === this.exit) this.end(registers[0]);
+    if (pc === this.exit) this.end(registers[0]);
     else if (this.frame + 1 === this.nFrames) this.end(0);
     else this.begin();
   }
@@ -205,11 +198,11 @@ class Run {
 
   toEnd() {
     const { core, clock } = this.chip, nsPerCycle = 1e9 / SYSTEM_HZ;
-    const { print, exit, scene } = this;
+    const { exit, scene } = this;
     while (this.status < 0) {
       if (core.waiting) fail('the firmware sleeps, and nothing wakes it');
       const pc = core.PC;
-      if (pc === scene || pc === print || pc === exit) this.enter(pc);
+      if (pc === scene || pc === exit) this.enter(pc);
       const cycles = core.executeInstruction();
       this.cycles += cycles;
       this.instructions++;

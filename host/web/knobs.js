@@ -15,6 +15,7 @@ const KNOB_GROUPS = [
     {key: 'tile_width', title: 'Screen tile, width', values: POWERS(8, 256)},
     {key: 'tile_height', title: 'Screen tile, height', values: POWERS(1, 64)},
     {key: 'subpixel_bits', title: 'Subpixel bits', values: ['2', '3', '4', '5', '6', '7', '8']},
+    {key: 'compact', title: 'Arithmetic', values: ['0', '1'], words: ['general', 'compact']},
     {key: 'srgb', title: 'sRGB curve', values: ['0', '1'], words: ['off', 'on']},
   ]],
   ['Shadows', [

@@ -393,6 +393,7 @@ function priceOfKnob(knob, now) {
     price({[knob.key]: value}, (then) => {
       button.classList.remove('waits');
       button.querySelector('span').textContent = then.error ? 'cannot be' : stepText(now, then);
+      button.title = then.error || `${knob.title}: ${knobWord(knob, value)}`;
       button.classList.toggle('no', Boolean(then.error) || (now.fits && !then.fits));
       button.classList.toggle('yes', !now.fits && Boolean(then.fits));
       button.disabled = Boolean(then.error);

@@ -162,7 +162,7 @@ static void print_drawn(const scene *s, const settings *set, const engine_pictur
 #define QUALITY_(name, MACRO, lo, hi, meaning, cost) printf("\"" #name "\": %d, ", (int)set->quality.name);
     printf("\"knobs\": {");
     GN_QUALITY_KNOBS(QUALITY_)
-    printf("\"output\": %d}, \"lights\": [", (int)set->output);
+    printf("\"compact\": %d, \"output\": %d}, \"lights\": [", (int)set->build.compact, (int)set->output);
     print_lights(s, p);
     printf("], ");
     print_scene(s);

@@ -47,14 +47,14 @@ GN_HOT uint32_t gn_quotient_q30(uint32_t num, uint32_t den)
 GN_HOT uint32_t gn_rsqrt_norm(uint32_t m, int32_t newton_steps)
 {
     /* x = m / 2^32 in [1/4, 1); y ~ 1/sqrt(x) in Q1.31; y(3 - xy^2)/2 */
-    uint64_t y = (uint64_t)gn_rsqrt_entry((m >> 24) - 64U) << 16;
+    uint32_t y = (uint32_t)gn_rsqrt_entry((m >> 24) - 64U) << 16;
     for (int32_t i = 0; i < newton_steps; i++) {
-        uint32_t yy = (uint32_t)((y * y) >> 32);     /* Q2.30, <= 4 (table entries are < 2 in Q1.15) */
-        uint64_t xyy = ((uint64_t)m * yy) >> 32;     /* Q2.30, near 1 */
-        y = (y * (((uint64_t)3 << 30) - xyy)) >> 31; /* 32 bits * 32 bits */
-        if (y > UINT32_MAX) y = UINT32_MAX;
+        uint32_t yy = gn_umul_high(y, y);                 /* Q2.30, <= 4 (table entries are < 2 in Q1.15) */
+        uint32_t less = (3U << 30) - gn_umul_high(m, yy); /* Q2.30, near 2 */
+        uint64_t better = (uint64_t)y * less;
+        y = better >> 63 ? UINT32_MAX : (uint32_t)(better >> 31);
     }
-    return (uint32_t)y;
+    return y;
 }
 
 GN_HOT uint64_t gn_bf_recip_bits(uint64_t bits)

@@ -283,12 +283,7 @@ GN_HOT static int32_t irradiance(const gn_frame *frame, const gn_light_state *li
         if (reach <= 0) out->arrives = 1 - GN_CORNER_FULLY;
         if (!factor) return 0;
     }
-    if (light->range2_q32 != UINT64_MAX) {
-        int32_t clz = gn_clz64(light->range2_q32);
-        int32_t ratio = (int32_t)(gn_umul_high((uint32_t)((d2 << clz) >> 32), light->inv_range2.mant) >> 1);
-        int32_t window = (1 << 30) - 4 * gn_mul_high(ratio, ratio);
-        factor = 4 * gn_mul_high(factor, 4 * gn_mul_high(window, window));
-    }
+    if (light->range2_q32 != UINT64_MAX) factor = 4 * gn_mul_high(factor, gn_corner_window_q30(light, d2));
     int32_t cosine = 2 * gn_mul_high(gn_min32(facing_q16, most) << half, root_q31);
     int32_t share = 4 * gn_mul_high(factor, cosine);
     /* 1 / d^2 = root^2 * 2^(shift - 94), of which 31 bits are used */

@@ -92,6 +92,15 @@ GN_HOT static inline void gn_corner_from(const gn_corner *c, const gn_light_stat
     for (int i = 0; i < 3; i++) from_q16[i] = c->ray_q16[i] + (int32_t)light->from_light[i].d_q16;
 }
 
+/* The share that the window of a light's range leaves at a square of a distance that is less. */
+GN_HOT static inline int32_t gn_corner_window_q30(const gn_light_state *light, uint64_t d2_q32)
+{
+    int32_t clz = gn_clz64(light->range2_q32);
+    int32_t ratio = (int32_t)(gn_umul_high((uint32_t)((d2_q32 << clz) >> 32), light->inv_range2.mant) >> 1);
+    int32_t window = (1 << 30) - 4 * gn_mul_high(ratio, ratio);
+    return 4 * gn_mul_high(window, window);
+}
+
 /* A difference of cosines at a spot's rim, as a share of the rim's, Q30: below 2^48. */
 GN_HOT static inline uint64_t gn_corner_rim_q30(const gn_light_state *light, uint32_t cosine_q30)
 {

@@ -17,8 +17,7 @@
 
 /* A light that pixels ask for: its shadow has an edge in the triangle, or its light ends there. */
 typedef struct {
-    const uint32_t *radiance_uq16;
-    gn_slope cosine_q24;          /* of the interpolated normal */
+    gn_slope colour_q24[3];       /* without its shadow */
     uint32_t lit_uq16, dark_uq16; /* what is left of it without a shadow, and in one */
     int has_edge;
     gn_facet_edge edge;
@@ -46,7 +45,7 @@ typedef struct {
     gn_slope colour_q24[3];
     gn_facet_curve length2_q20; /* of the normal, if it turns */
     gn_slope tint_q16[3];       /* the vertices' colours, if those are to be multiplied */
-    int tinted;
+    int tinted, each;           /* nodes are all pixels */
 } facet_look;
 
 GN_HOT static int use_screen(facet *f)
@@ -117,6 +116,26 @@ GN_HOT static int add_whole_light(facet *f, const uint32_t radiance_uq16[3], con
     return most <= 1 << 27;
 }
 
+/* A vertex colour's channel: 65536 is 1. */
+GN_HOT static inline int32_t tint_q16(const gn_surface *s, int channel, int vertex)
+{
+    const int i = GN_ATTRIBUTE_RGB + channel;
+    return s->attribute_q16[0][i] + (vertex ? s->attribute_q16[vertex][i] : 0);
+}
+
+/* What a light adds at the vertices; it may be negative there. */
+GN_HOT static void find_light_slopes(facet *f, pixel_light *out, const uint32_t radiance_uq16[3], const int32_t e[3])
+{
+    for (int c = 0; c < 3; c++) {
+        int32_t at[3];
+        for (int k = 0; k < 3; k++) {
+            int32_t v = gn_corner_times(radiance_uq16[c], (int32_t)gn_abs32(e[k]));
+            at[k] = e[k] < 0 ? -v : v;
+        }
+        gn_facet_slope(&f->screen, &out->colour_q24[c], at);
+    }
+}
+
 /* Adds a light. Returns 0 if the triangle is to be shaded by cells. */
 GN_HOT static int add_vertex_light(facet *f, uint32_t slot)
 {
@@ -134,9 +153,8 @@ GN_HOT static int add_vertex_light(facet *f, uint32_t slot)
     uint32_t share = said == GN_CELL_DARK ? lattice_light->dark_uq16 : lattice_light->lit_uq16;
     if (said != GN_CELL_EDGE && !ends) return add_whole_light(f, light->radiance_uq16, e, share);
     if (!use_screen(f)) return 0;
-    gn_facet_slope(&f->screen, &out->cosine_q24, e);
+    find_light_slopes(f, out, light->radiance_uq16, e);
     out->has_edge = said == GN_CELL_EDGE;
-    out->radiance_uq16 = light->radiance_uq16;
     out->lit_uq16 = share;
     out->dark_uq16 = lattice_light->dark_uq16;
     f->n_lights++;
@@ -151,34 +169,34 @@ GN_HOT static inline int32_t over_length(int32_t v, int32_t per_length_q30)
     return 4 * gn_mul_high(v, per_length_q30);
 }
 
-/* 1 / |n| of n pixels of a row: as gn_rsqrt_norm() finds it in one step, of what lies in 1/4 .. 1. */
-GN_HOT static void find_lengths(const gn_facet_curve *length2_q20, int32_t right, int32_t down, int32_t n,
-                                uint32_t *out_q30)
+/* What is left of a light's channel; per_length_q30: 1 / |n|, or 0. */
+GN_HOT static inline int32_t light_of(int32_t v_q24, uint32_t share_uq16, int32_t per_length_q30)
 {
-    gn_facet_row row = gn_facet_row_of(length2_q20, right, down);
-    for (int32_t i = 0; i < n; i++, row.at += row.step, row.step += row.change) {
-        uint32_t v = (uint32_t)gn_max32(1 << 18, gn_min32(row.at, (1 << 20) - 1)); /* 1/3 and more on the triangle */
-        uint32_t y_q31 = (uint32_t)gn_rsqrt_entry((v >> 12) - 64U) << 16;
-        out_q30[i] = gn_umul_high(y_q31, (3U << 30) - gn_umul_high(v << 12, gn_umul_high(y_q31, y_q31)));
-    }
+    int32_t v = gn_max32(v_q24, 0);
+    if (per_length_q30) v = gn_min32(over_length(v, per_length_q30), 1 << 27);
+    return share_uq16 == 65536 ? v : (int32_t)((int64_t)v * (int32_t)share_uq16 >> 16);
 }
 
 /* Adds a light that pixels ask for to n pixels from (x, y) of the picture on. */
 GN_HOT static void add_pixel_light(const facet *f, const pixel_light *light, int32_t x, int32_t y, int32_t n)
 {
     gn_lattice *l = &f->s->lattice;
-    int32_t(*node)[3] = l->by.node[0];
-    uint32_t *attenuation = l->row.attenuation[0], less = light->lit_uq16 - light->dark_uq16;
-    int32_t e = gn_facet_at(&light->cosine_q24, x - f->screen.x0, y - f->screen.y0);
-    if (light->has_edge) gn_facet_attenuation(f->s, &f->screen, &light->edge, x, y, n, attenuation);
-    for (int32_t i = 0; i < n; i++, e += light->cosine_q24.dx) {
-        uint32_t share = light->lit_uq16;
-        if (e <= 0) continue;
-        if (light->has_edge) share = light->dark_uq16 + gn_mul_uq16(less, attenuation[i]);
+    const gn_slope *slope = light->colour_q24;
+    const uint32_t *attenuation = l->row.attenuation[0], *per_length = f->turns ? l->row.attenuation[1] : NULL;
+    const uint32_t least = light->dark_uq16, less = light->lit_uq16 - light->dark_uq16;
+    const int32_t right = x - f->screen.x0, down = y - f->screen.y0, dr = slope[0].dx, dg = slope[1].dx,
+                  db = slope[2].dx;
+    int32_t r = gn_facet_at(&slope[0], right, down), g = gn_facet_at(&slope[1], right, down),
+            b = gn_facet_at(&slope[2], right, down), (*node)[3] = l->by.node[0];
+    uint32_t share = light->lit_uq16;
+    if (light->has_edge) gn_facet_attenuation(f->s, &f->screen, &light->edge, x, y, n, l->row.attenuation[0]);
+    for (int32_t(*end)[3] = node + n; node < end; node++, r += dr, g += dg, b += db) {
+        if (light->has_edge) share = least + gn_mul_uq16(less, *attenuation++);
+        int32_t per = per_length ? (int32_t)*per_length++ : 0;
         if (!share) continue;
-        int32_t v = gn_cell_share(f->turns ? over_length(e, (int32_t)l->row.attenuation[1][i]) : e, share);
-        for (int c = 0; c < 3; c++) /* 2^27 each, and as much to begin with */
-            node[i][c] += gn_corner_times(light->radiance_uq16[c], v);
+        (*node)[0] += light_of(r, share, per);
+        (*node)[1] += light_of(g, share, per); /* 2^27 each, and as much to begin with */
+        (*node)[2] += light_of(b, share, per);
     }
 }
 
@@ -200,29 +218,17 @@ GN_HOT static void begin_nodes(const facet *f, const facet_look *look, int32_t r
     }
 }
 
-GN_HOT static void tint_nodes(int32_t (*node)[3], int32_t n, const gn_slope tint_q16[3], int32_t right, int32_t down)
-{
-    int32_t r = gn_facet_at(&tint_q16[0], right, down), g = gn_facet_at(&tint_q16[1], right, down),
-            b = gn_facet_at(&tint_q16[2], right, down);
-    const int32_t dr = tint_q16[0].dx, dg = tint_q16[1].dx, db = tint_q16[2].dx;
-    for (int32_t(*end)[3] = node + n; node < end; node++, r += dr, g += dg, b += db) {
-        (*node)[0] = (int32_t)((int64_t)(*node)[0] * r >> 16);
-        (*node)[1] = (int32_t)((int64_t)(*node)[1] * g >> 16);
-        (*node)[2] = (int32_t)((int64_t)(*node)[2] * b >> 16);
-    }
-}
-
 /* The colours of n pixels from (x, y) of the picture on, a node each. */
 GN_HOT static void light_pixels(const facet *f, const facet_look *look, int32_t x, int32_t y, int32_t n)
 {
     gn_lattice *l = &f->s->lattice;
     int32_t right = x - f->screen.x0, down = y - f->screen.y0;
     if (f->turns) {
-        find_lengths(&look->length2_q20, right, down, n, l->row.attenuation[1]);
+        gn_facet_lengths(&look->length2_q20, right, down, n, l->row.attenuation[1]);
         begin_nodes(f, look, right, down, n, l->row.attenuation[1]);
     } else begin_nodes(f, look, right, down, n, NULL);
     for (int32_t i = 0; i < f->n_lights; i++) add_pixel_light(f, &f->light[i], x, y, n);
-    if (look->tinted) tint_nodes(l->by.node[0], n, look->tint_q16, right, down);
+    if (look->tinted) gn_facet_tint(l->by.node[0], n, look->tint_q16, right, down);
 }
 
 #if GN_TEXTURES
@@ -259,7 +265,7 @@ GN_HOT static void use_texels(const facet *f, const gn_run_span *span, int32_t n
 /* Nodes are all pixels, or, of a texture under light that is linear, two. */
 GN_HOT static void draw_lit_span(const facet *f, const facet_look *look, const gn_run_span *span)
 {
-    const int each = f->n_lights || f->turns;
+    const int each = look->each;
     int32_t(*node)[3] = f->s->lattice.by.node[0], n = each ? span->n_px : 2;
     gn_pixel_line line = {.node = (const int32_t(*)[3])node, .spacing_log2 = each ? 0 : 4};
     if (each) light_pixels(f, look, span->x, span->y, n);
@@ -273,64 +279,85 @@ GN_HOT static void draw_lit_span(const facet *f, const facet_look *look, const g
     gn_pixel_store_line(f->s->frame, &f->s->rows, span->x, span->y, (1U << span->n_px) - 1, &line);
 }
 
-GN_HOT static void draw_run(const facet *f, const facet_look *look, const gn_run_span *span)
+GN_HOT static void draw_runs(const facet *f, const facet_look *look)
 {
-    int32_t at[3], step[3];
-    for (int c = 0; c < 3; c++) {
-        const gn_slope *colour = &look->colour_q24[c];
-        at[c] = f->base_q24[c] + gn_facet_at(colour, span->x - f->screen.x0, span->y - f->screen.y0);
-        step[c] = colour->dx;
+    gn_shading *s = f->s;
+    const gn_lattice *l = &s->lattice;
+    const gn_slope *slope = look->colour_q24;
+    const gn_run_span *span = l->span;
+    const int32_t step[3] = {slope[0].dx, slope[1].dx, slope[2].dx};
+    int32_t at[3];
+    for (const gn_run_span *end = span + l->n_spans; span < end; span++) {
+        const int32_t x = span->x, y = span->y, right = x - f->screen.x0, down = y - f->screen.y0;
+        at[0] = f->base_q24[0] + gn_facet_at(&slope[0], right, down);
+        at[1] = f->base_q24[1] + gn_facet_at(&slope[1], right, down);
+        at[2] = f->base_q24[2] + gn_facet_at(&slope[2], right, down);
+        gn_pixel_store_run(s->frame, &s->rows, x, y, span->n_px, at, step);
     }
-    gn_pixel_store_run(f->s->frame, &f->s->rows, span->x, span->y, span->n_px, at, step);
 }
 
 GN_HOT static void draw_spans(const facet *f, const facet_look *look)
 {
     gn_lattice *l = &f->s->lattice;
     GN_COUNT(facet_pixels, f->n_px);
-    if (f->n_lights || f->turns || f->s->surface.textured) {
+    if (look->each || f->s->surface.textured) {
         for (int32_t i = 0; i < l->n_spans; i++) draw_lit_span(f, look, &l->span[i]);
         gn_levels_forget(l); /* nodes took their place */
-        return;
-    }
-    for (int32_t i = 0; i < l->n_spans; i++) draw_run(f, look, &l->span[i]);
+    } else draw_runs(f, look);
 }
 
 #if GN_VERTEX_COLOURS
-/* Times the vertices' colours. */
-GN_HOT static void tint_vertices(facet *f)
+GN_HOT static inline int32_t spread(int32_t a, int32_t b, int32_t c)
 {
-    const int32_t(*rgb)[GN_ATTRIBUTE_COUNT] = (const int32_t(*)[GN_ATTRIBUTE_COUNT])f->s->surface.attribute_q16;
+    return gn_max32(gn_max32(a, b), c) - gn_min32(gn_min32(a, b), c);
+}
+
+/* Whether colours at the vertices, times the light there, are linear enough: between two vertices the product of what
+ * changes by d and by e is off by d e / 4. */
+GN_HOT static int tints_hold(const facet *f)
+{
+    const gn_surface *s = &f->s->surface;
+    const int32_t most_log2 = GN_K(f->s->frame, persp_step) == 16 ? 4 : 6;
     for (int c = 0; c < 3; c++) {
-        int32_t first = rgb[0][GN_ATTRIBUTE_RGB + c];
+        const int32_t *at = f->colour_q24[c], light = spread(at[0], at[1], at[2]),
+                      tint = spread(tint_q16(s, c, 0), tint_q16(s, c, 1), tint_q16(s, c, 2));
+        if (gn_mul_high(light, tint) > 1 << (10 - most_log2)) return 0; /* Q8 */
+    }
+    return 1;
+}
+
+/* Times the vertices' colours. Returns 0 if pixels are to be multiplied. */
+GN_HOT static int tint_vertices(facet *f)
+{
+    const gn_surface *s = &f->s->surface;
+    if (!GN_COLOURED(s)) return 1;
+    if (f->n_lights || f->turns || (GN_SMOOTH(s) && !tints_hold(f))) return 0;
+    for (int c = 0; c < 3; c++) {
         for (int k = 0; k < 3; k++)
-            f->colour_q24[c][k] = (int32_t)((int64_t)(f->base_q24[c] + f->colour_q24[c][k]) *
-                                                (first + (k ? rgb[k][GN_ATTRIBUTE_RGB + c] : 0)) >>
-                                            16);
+            f->colour_q24[c][k] = gn_facet_tinted(f->base_q24[c] + f->colour_q24[c][k], tint_q16(s, c, k));
         f->base_q24[c] = 0;
     }
+    return 1;
 }
 
 GN_HOT static void use_tints(facet *f, facet_look *look)
 {
-    const int32_t(*rgb)[GN_ATTRIBUTE_COUNT] = (const int32_t(*)[GN_ATTRIBUTE_COUNT])f->s->surface.attribute_q16;
-    look->tinted = GN_COLOURED(&f->s->surface) && (f->n_lights || f->turns);
+    const gn_surface *s = &f->s->surface;
     for (int c = 0; look->tinted && c < 3; c++) {
-        int32_t first = rgb[0][GN_ATTRIBUTE_RGB + c];
-        const int32_t at[3] = {first, first + rgb[1][GN_ATTRIBUTE_RGB + c], first + rgb[2][GN_ATTRIBUTE_RGB + c]};
+        const int32_t at[3] = {tint_q16(s, c, 0), tint_q16(s, c, 1), tint_q16(s, c, 2)};
         gn_facet_slope(&f->screen, &look->tint_q16[c], at);
     }
 }
 #else
-GN_HOT static void tint_vertices(facet *f)
+GN_HOT static int tint_vertices(facet *f)
 {
     (void)f;
+    return 1;
 }
 
 GN_HOT static void use_tints(facet *f, facet_look *look)
 {
-    (void)f;
-    look->tinted = 0;
+    (void)f, (void)look;
 }
 #endif
 
@@ -344,8 +371,7 @@ GN_HOT static int use_two_colours(facet *f)
     if (f->n_lights != 1 || !light->has_edge || GN_SMOOTH(s) || GN_COLOURED(s) || s->textured) return 0;
     if (shows_shadow(f)) return 0;
     for (int c = 0; c < 3; c++) {
-        int32_t all = gn_corner_times(light->radiance_uq16[c], light->cosine_q24.at),
-                shadowed = gn_cell_share(all, light->dark_uq16);
+        int32_t all = light->colour_q24[c].at, shadowed = gn_cell_share(all, light->dark_uq16);
         dark[c] = f->base_q24[c] + f->colour_q24[c][0] + shadowed;
         more[c] = gn_cell_share(all, light->lit_uq16) - shadowed;
     }
@@ -374,12 +400,12 @@ GN_HOT static void draw_levels(const facet *f, const gn_run_span *span)
 }
 #endif
 
-/* Whether no light reaches the vertices. */
-GN_HOT static int is_unlit(const facet *f)
+/* Whether some light that pixels do not ask for arrives at a vertex. */
+GN_HOT static inline int is_lit(const facet *f)
 {
-    int32_t lit = 0;
-    for (int c = 0; c < 3; c++) lit |= f->colour_q24[c][0] | f->colour_q24[c][1] | f->colour_q24[c][2];
-    return !lit;
+    int32_t any = 0;
+    for (int c = 0; c < 3; c++) any |= f->colour_q24[c][0] | f->colour_q24[c][1] | f->colour_q24[c][2];
+    return any != 0;
 }
 
 /* Whether all pixels look the same; fills them in. */
@@ -388,12 +414,13 @@ GN_HOT static int draw_one_colour(facet *f)
     gn_shading *s = f->s;
     const gn_lattice *l = &s->lattice;
     uint32_t q20[3], differs = 0;
+    if (s->surface.textured || shows_shadow(f)) return 0;
     for (int c = 0; c < 3; c++) {
         const int32_t *colour = f->colour_q24[c];
         differs |= (uint32_t)(colour[0] ^ colour[1]) | (uint32_t)(colour[0] ^ colour[2]);
         q20[c] = (uint32_t)gn_max32(f->base_q24[c] + colour[0], 0) >> 4;
     }
-    if (differs || f->turns || f->n_lights || s->surface.textured || shows_shadow(f)) return 0;
+    if (differs) return 0;
     uint32_t packed = gn_exact_pack(s, q20);
     for (int32_t i = 0; i < l->n_spans; i++)
         gn_pixel_fill(s->frame, &s->rows, l->span[i].x, l->span[i].y, l->span[i].n_px, packed);
@@ -423,9 +450,10 @@ GN_HOT static GN_NOINLINE int draw(facet *f)
 {
     const gn_lattice *l = &f->s->lattice;
     facet_look look;
-    if (!f->n_lights && is_unlit(f)) f->turns = 0;
-    if (GN_COLOURED(&f->s->surface) && !f->n_lights && !f->turns) tint_vertices(f);
-    if (draw_one_colour(f)) return 1;
+    if (!f->n_lights && f->turns && !is_lit(f)) f->turns = 0;
+    look.tinted = !tint_vertices(f);
+    look.each = f->n_lights || f->turns || look.tinted;
+    if (!look.each && draw_one_colour(f)) return 1;
     if (!f->screen.steep && use_two_colours(f)) {
         GN_COUNT(facet_pixels, f->n_px);
         for (int32_t i = 0; i < l->n_spans; i++) draw_levels(f, &l->span[i]);

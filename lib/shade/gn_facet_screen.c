@@ -1,6 +1,7 @@
 /* A small triangle on the screen. */
 #include "gn_internal.h"
 
+#include "base/gn_hint.h"
 #include "base/gn_math.h"
 #include "base/gn_q.h"
 #include "shade/gn_facet_screen.h"
@@ -13,12 +14,17 @@ GN_HOT static int vertex_on_screen(const gn_frame *frame, const int32_t v_q16[3]
     int32_t z = v_q16[2], clz = gn_clz32((uint32_t)z), focal2 = (int32_t)frame->cam.focal2_px_q16;
     if (clz < 2 || gn_abs32(v_q16[0]) >> 1 >= (uint32_t)z || gn_abs32(v_q16[1]) >> 1 >= (uint32_t)z) return 0;
     int32_t half = (int32_t)(gn_recip_norm((uint32_t)z << clz, GN_K(frame, newton_steps)) >> 1);
-    for (int i = 0; i < 2; i++) { /* (x / z)_q28 times 2 F */
-        int64_t p = (int64_t)gn_mul_high(v_q16[i] * (1 << (clz - 2)), half) * focal2 >> 32;
-        p_q12[i] = (int32_t)p;
-        if (p != p_q12[i]) return 0;
-    }
+    GN_KEEP(half); /* signed: one multiplication */
+    GN_KEEP(focal2);
+    for (int i = 0; i < 2; i++) /* (x / z)_q28 times 2 F */
+        p_q12[i] = gn_mul_high(gn_mul_high(v_q16[i] * (1 << (clz - 2)), half), focal2);
     return 1;
+}
+
+/* v / 2^(32 - up), 0 < up < 32, which fits */
+GN_HOT static inline int32_t upper_32(int64_t v, int32_t up)
+{
+    return (int32_t)((uint32_t)((uint64_t)v >> 32) << up | (uint32_t)v >> (32 - up));
 }
 
 /* Returns 0 if the triangle does not fit. */
@@ -26,7 +32,7 @@ GN_HOT static GN_NOINLINE int find_screen(gn_facet_screen *out, const gn_frame *
 {
     int32_t p[3][2], d[3][2];
     uint32_t longest = 0;
-    if (s->z_max_q16 - s->z_min_q16 > s->z_min_q16 >> 3 || frame->cam.focal2_px_q16 >> 31) return 0;
+    if (s->z_max_q16 - s->z_min_q16 > s->z_min_q16 >> 2 || frame->cam.focal2_px_q16 >> 31) return 0;
     for (int k = 0; k < 3; k++) {
         if (s->v_q16[k][2] < frame->cam.near_q16 || !vertex_on_screen(frame, s->v_q16[k], p[k])) return 0;
         for (int i = 0; i < 2; i++) {
@@ -37,13 +43,13 @@ GN_HOT static GN_NOINLINE int find_screen(gn_facet_screen *out, const gn_frame *
     if (longest > GN_FACET_PX << 13) return 0;
     int64_t area = (int64_t)d[1][0] * d[2][1] - (int64_t)d[1][1] * d[2][0]; /* Q24, 2^35 */
     uint64_t size = gn_abs64(area);
-    if (size >> 12 < longest || !size) return 0;
+    if (size >> 12 < longest || !size) return 0; /* 2^12 to 2^36, and 2^12 of what is longest */
     int32_t clz = gn_clz64(size),
             recip = (int32_t)(gn_recip_norm((uint32_t)(size << clz >> 32), GN_K(frame, newton_steps)) >> 1);
     if (area < 0) recip = -recip;
     for (int i = 0; i < 2; i++) { /* 2 d / area */
-        out->along_q24[i][0] = (int32_t)((int64_t)d[2][1 - i] * recip >> (57 - clz));
-        out->along_q24[i][1] = -(int32_t)((int64_t)d[1][1 - i] * recip >> (57 - clz));
+        out->along_q24[i][0] = upper_32((int64_t)d[2][1 - i] * recip, clz - 25);
+        out->along_q24[i][1] = -upper_32((int64_t)d[1][1 - i] * recip, clz - 25);
     }
     int32_t x = p[0][0] + frame->picture.width * 4096, y = frame->picture.height * 4096 - p[0][1];
     out->x0 = x >> 13;
@@ -106,6 +112,29 @@ GN_HOT void gn_facet_curve_find(gn_facet_screen *screen, gn_facet_curve *out, co
     out->xx = v[0];
     out->xy = v[1];
     out->yy = v[2];
+}
+
+GN_HOT void gn_facet_lengths(const gn_facet_curve *length2_q20, int32_t right, int32_t down, int32_t n,
+                             uint32_t *out_q30)
+{
+    gn_facet_row row = gn_facet_row_of(length2_q20, right, down);
+    for (int32_t i = 0; i < n; i++, row.at += row.step, row.step += row.change) {
+        uint32_t v = (uint32_t)gn_max32(1 << 18, gn_min32(row.at, (1 << 20) - 1)); /* 1/3 and more on the triangle */
+        uint32_t y_q31 = (uint32_t)gn_rsqrt_entry((v >> 12) - 64U) << 16;
+        out_q30[i] = gn_umul_high(y_q31, (3U << 30) - gn_umul_high(v << 12, gn_umul_high(y_q31, y_q31)));
+    }
+}
+
+GN_HOT void gn_facet_tint(int32_t (*node)[3], int32_t n, const gn_slope tint_q16[3], int32_t right, int32_t down)
+{
+    int32_t r = gn_facet_at(&tint_q16[0], right, down), g = gn_facet_at(&tint_q16[1], right, down),
+            b = gn_facet_at(&tint_q16[2], right, down);
+    const int32_t dr = tint_q16[0].dx, dg = tint_q16[1].dx, db = tint_q16[2].dx;
+    for (int32_t(*end)[3] = node + n; node < end; node++, r += dr, g += dg, b += db) {
+        (*node)[0] = gn_facet_tinted((*node)[0], r);
+        (*node)[1] = gn_facet_tinted((*node)[1], g);
+        (*node)[2] = gn_facet_tinted((*node)[2], b);
+    }
 }
 
 #endif

@@ -50,6 +50,18 @@ GN_HOT static inline gn_facet_row gn_facet_row_of(const gn_facet_curve *c, int32
     return row;
 }
 
+/* 1 / |n| of n pixels of a row, |n|^2 in 1/4 .. 1: as gn_rsqrt_norm() finds it in one step. */
+void gn_facet_lengths(const gn_facet_curve *length2_q20, int32_t right, int32_t down, int32_t n, uint32_t *out_q30);
+
+/* A colour's channel times that of a vertex colour. */
+GN_HOT static inline int32_t gn_facet_tinted(int32_t v_q24, int32_t tint_q16)
+{
+    return (int32_t)((int64_t)v_q24 * tint_q16 >> 16);
+}
+
+/* The same of n pixels of a row, whose vertex colours are linear. */
+void gn_facet_tint(int32_t (*node)[3], int32_t n, const gn_slope tint_q16[3], int32_t right, int32_t down);
+
 #endif
 
 #endif

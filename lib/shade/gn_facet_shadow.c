@@ -8,6 +8,7 @@
 #include "shade/gn_lattice_cell.h"
 #include "shade/gn_shadow.h"
 #include "shadow/gn_filter.h"
+#include "shadow/gn_lookup.h"
 #include "shadow/gn_texel.h"
 
 #if GN_INTERPOLATES
@@ -46,28 +47,48 @@ GN_HOT static inline int32_t depth_q30_of(const gn_light_view *view, int32_t dep
     return gn_max32(-(1 << 29) >> up, gn_min32(depth_q16, ((1 << 30) - 1) >> up)) * (1 << up);
 }
 
+/* Offsets of receivers at the vertices: texels along u, v and depth. */
+GN_HOT static inline void find_offsets(const gn_shading *shading, uint32_t slot, const gn_light_view *view,
+                                       int32_t offset[3][3])
+{
+    const gn_surface *s = &shading->surface;
+    const int lifts = GN_SMOOTH(s) && shading->lattice.light[slot].lifts;
+    for (int k = 0; k < 3; k++) {
+        int32_t n[3] = {s->normal_q30[0][0], s->normal_q30[0][1], s->normal_q30[0][2]};
+        for (int i = 0; k && i < 3; i++) n[i] += s->normal_q30[k][i];
+        if (k && !GN_SMOOTH(s))
+            for (int i = 0; i < 3; i++) offset[k][i] = offset[0][i];
+        else if (!lifts) gn_sample_offset(shading->frame, s, slot, view, n, offset[k]);
+        else
+            for (int i = 0; i < 3; i++)
+                offset[k][i] = 4 * gn_mul_high((int32_t)(gn_dot64(n, view->axis_q30[i]) >> 30), view->offset_q16);
+    }
+}
+
+/* Coordinate of a vertex, saturated. */
+GN_HOT static inline int32_t placed(const int32_t m[3], const int32_t v[3], int32_t shift, int64_t d, int32_t offset)
+{
+    int64_t at = (gn_dot64(m, v) >> shift) + d + offset;
+    return (int32_t)at == at ? (int32_t)at : gn_sat32(at);
+}
+
 GN_HOT static GN_NOINLINE void place_vertices(const gn_shading *shading, uint32_t slot, const gn_light_view *view,
                                               vertex_places *out)
 {
-    const gn_surface *s = &shading->surface;
-    const gn_view_matrix *matrix = &shading->lattice.matrix;
-    const int smooth = GN_SMOOTH(s), lifts = smooth && shading->lattice.light[slot].lifts,
-              shift = view->fit.ortho.ray_shift;
-    int32_t moved[3];
-    if (!smooth) gn_sample_offset(shading->frame, s, slot, view, s->normal_q30[0], moved);
-    for (int k = 0; k < 3; k++) {
-        const int32_t v[3] = {s->v_q16[k][0], s->v_q16[k][1], s->v_q16[k][2]};
-        int32_t n[3] = {s->normal_q30[0][0], s->normal_q30[0][1], s->normal_q30[0][2]};
-        for (int i = 0; smooth && k && i < 3; i++) n[i] += s->normal_q30[k][i];
-        if (smooth && !lifts) gn_sample_offset(shading->frame, s, slot, view, n, moved);
-        for (int i = 0; i < 3; i++) {
-            int32_t along_q30 = lifts ? (int32_t)(gn_dot64(n, view->axis_q30[i]) >> 30) : 0;
-            int32_t offset = lifts ? 4 * gn_mul_high(along_q30, view->offset_q16) : moved[i];
-            int64_t at = (gn_dot64(v, matrix->m[i]) >> shift) + (int32_t)view->fit.ortho.ray[i].d_q16 + offset;
-            out->at[i][k] = (int32_t)at == at ? (int32_t)at : gn_sat32(at);
-        }
-        out->at[2][k] = depth_q30_of(view, out->at[2][k]);
+    const int32_t(*v)[3] = (const int32_t(*)[3])shading->surface.v_q16;
+    const int32_t shift = view->fit.ortho.ray_shift;
+    int32_t offset[3][3];
+    find_offsets(shading, slot, view, offset);
+    for (int i = 0; i < 3; i++) {
+        const int32_t m[3] = {shading->lattice.matrix.m[i][0], shading->lattice.matrix.m[i][1],
+                              shading->lattice.matrix.m[i][2]};
+        const int64_t d = (int32_t)view->fit.ortho.ray[i].d_q16;
+        int32_t *at = out->at[i];
+        at[0] = placed(m, v[0], shift, d, offset[0][i]);
+        at[1] = placed(m, v[1], shift, d, offset[1][i]);
+        at[2] = placed(m, v[2], shift, d, offset[2][i]);
     }
+    for (int k = 0; k < 3; k++) out->at[2][k] = depth_q30_of(view, out->at[2][k]);
 }
 
 /* The view of a directional light that sees the triangle; NULL: none. */
@@ -78,11 +99,111 @@ GN_HOT static const gn_light_view *view_of(const gn_shading *s, const gn_light_s
     return s->lattice.cascade == GN_CASCADE_NONE ? NULL : first + s->lattice.cascade;
 }
 
+/* ---- Texels behind the triangle's plane ------------------------------------------------------------------------- */
+
+/* Receivers of a triangle: on the plane through its vertices, within their bounds. */
+typedef struct {
+    const vertex_places *p;
+    int32_t lo[3], hi[3];
+    int32_t gradient_q30[2]; /* of depth, per texel */
+    int32_t margin_q30;      /* what depth, or what it is compared with, may be more */
+} receiver_plane;
+
+enum { PLANE_TEXELS = 16 /* along an axis */, PLANE_EDGE_Q16 = 1 << 13 /* pixels beyond the vertices */ };
+
+/* n / det * 2^16, n / det below 2^11. Returns 0 if it is 2^25 or more. */
+GN_HOT static inline int quotient_q30(int64_t n, int32_t clz, int32_t recip, int32_t *out)
+{
+    int64_t high = n >> (45 - clz);
+    if (high != (int32_t)high) return 0;
+    *out = gn_mul_high((int32_t)high, recip) >> 1;
+    return gn_abs32(*out) < 1U << 25;
+}
+
+/* Solves for the gradient: differences of u and v below 2^22, of depth below 2^31. Returns 0 if it is steep. */
+GN_HOT static inline int find_gradient(receiver_plane *r)
+{
+    const int32_t(*at)[3] = (const int32_t(*)[3])r->p->at;
+    const int32_t u1 = at[0][1] - at[0][0], u2 = at[0][2] - at[0][0], v1 = at[1][1] - at[1][0],
+                  v2 = at[1][2] - at[1][0], d1 = at[2][1] - at[2][0], d2 = at[2][2] - at[2][0];
+    const int64_t det = (int64_t)u1 * v2 - (int64_t)u2 * v1;
+    const int32_t clz = gn_clz64(gn_abs64(det) | 1U);
+    if (clz > 45) return 0; /* 2^-14 texels */
+    int32_t recip = (int32_t)(gn_recip_norm2((uint32_t)(gn_abs64(det) << clz >> 32)) >> 1);
+    if (det < 0) recip = -recip;
+    return quotient_q30((int64_t)d1 * v2 - (int64_t)d2 * v1, clz, recip, &r->gradient_q30[0]) &&
+           quotient_q30((int64_t)d2 * u1 - (int64_t)d1 * u2, clz, recip, &r->gradient_q30[1]);
+}
+
+/* By how much receivers that read a texel may be deeper than vertex 0, along an axis. */
+GN_HOT static inline int32_t deepest_q30(const receiver_plane *r, int axis, int32_t texel, int32_t reach_q16)
+{
+    const int32_t g = r->gradient_q30[axis], centre = texel * 65536 + 32768;
+    const int32_t at = g > 0 ? gn_min32(r->hi[axis], centre + reach_q16) : gn_max32(r->lo[axis], centre - reach_q16);
+    return (int32_t)((int64_t)g * (at - r->p->at[axis][0]) >> 16);
+}
+
+/* Whether no texel that receivers read is nearer to the light than any of them: (k + 1) texels around each. */
+GN_HOT static int texels_behind(const gn_light_view *view, const receiver_plane *r, const int32_t first[2],
+                                const int32_t last[2])
+{
+    const int32_t reach_q16 = (view->filter_idx + 1) << 16, bits = GN_VIEW_BITS(view), n = last[0] - first[0] + 1;
+    const int32_t most_q30 = r->hi[2] + r->margin_q30, from_q30 = r->p->at[2][0] + r->margin_q30;
+    int32_t along[PLANE_TEXELS];
+    gn_texels row = gn_view_texels(view, first[0], first[1]);
+    for (int32_t i = 0; i < n; i++) along[i] = deepest_q30(r, 0, first[0] + i, reach_q16);
+    for (int32_t v = first[1]; v <= last[1]; v++, row = gn_texels_at(row, bits, view->tile_texels)) {
+        const int32_t down = from_q30 + deepest_q30(r, 1, v, reach_q16);
+        for (int32_t i = n; i-- > 0;) {
+            const uint32_t texel = gn_texel_load(row, bits, (uint32_t)i);
+            if ((int32_t)(texel >> 2) >= most_q30) continue;
+            if ((int32_t)(texel >> 2) < down + along[i] && texel < gn_texel_far(bits)) return 0;
+        }
+    }
+    return 1;
+}
+
+/* Whether the texel at a vertex is nearer to the light than that: the quickest way to tell an edge. */
+GN_HOT static inline int hides_vertex(const gn_light_view *view, const vertex_places *p)
+{
+    const int32_t bits = GN_VIEW_BITS(view);
+    for (int k = 0; k < 3; k++) {
+        const uint32_t texel = gn_texel_load(gn_view_texels(view, p->at[0][k] >> 16, p->at[1][k] >> 16), bits, 0);
+        if ((int32_t)(texel >> 2) < p->at[2][k] && texel < gn_texel_far(bits)) return 1;
+    }
+    return 0;
+}
+
+/* Whether the plane of the receivers says that all of them are lit, where bounds say nothing. Places of pixels are off
+ * by less than 2^-10 texels. `slope_q30`: what depth at taps may be more than the receiver's. */
+GN_HOT static GN_NOINLINE int plane_is_lit(const gn_frame *frame, const gn_light_view *view, receiver_plane *r,
+                                           int64_t slope_q30)
+{
+    const int32_t k = view->filter_idx, end[2] = {view->tile_texels - 1, GN_TILE_ROWS(view) - 1},
+                  dropped = gn_dropped_bits(frame, view);
+    int32_t first[2], last[2];
+    for (int i = 0; i < 2; i++) {
+        r->lo[i] -= PLANE_EDGE_Q16;
+        r->hi[i] += PLANE_EDGE_Q16;
+        first[i] = ((r->lo[i] + 32768) >> 16) - (k + 1);
+        last[i] = ((r->hi[i] + 32768) >> 16) + k;
+        if (first[i] < 0 || last[i] > end[i] || last[i] - first[i] >= PLANE_TEXELS) return 0;
+    }
+    if (hides_vertex(view, r->p) || !find_gradient(r)) return 0;
+    const uint32_t steep = gn_abs32(r->gradient_q30[0]) + gn_abs32(r->gradient_q30[1]); /* 2^26 */
+    const int64_t margin = (int64_t)((dropped ? 1U << (dropped - 1) : 0) >> 2) + (steep >> 10) + slope_q30 + 64;
+    r->hi[2] += (int32_t)(steep >> 3);
+    if (margin >> 29 || r->lo[2] < -(1 << 28) || r->hi[2] >> 29) return 0;
+    r->margin_q30 = (int32_t)margin;
+    return texels_behind(view, r, first, last);
+}
+
 /* What depth bounds of the texels say of all pixels between the vertices: GN_CELL_SPLIT if that does not fit. */
 GN_HOT static int judge(const gn_frame *frame, const gn_light_view *view, const vertex_places *p,
                         const int32_t slope_q28[2])
 {
-    int32_t lo[3], hi[3];
+    receiver_plane r = {.p = p};
+    int32_t *lo = r.lo, *hi = r.hi;
     for (int i = 0; i < 3; i++) {
         lo[i] = gn_min32(p->at[i][0], gn_min32(p->at[i][1], p->at[i][2]));
         hi[i] = gn_max32(p->at[i][0], gn_max32(p->at[i][1], p->at[i][2]));
@@ -95,8 +216,8 @@ GN_HOT static int judge(const gn_frame *frame, const gn_light_view *view, const 
     const gn_receiver_step a = {lo[0], lo[1], 2 * (int32_t)gn_clamp64(lo[2] - slope, -(1 << 29), (1 << 30) - 16384)},
                            b = {hi[0], hi[1], 2 * (int32_t)gn_clamp64(hi[2] + slope, -(1 << 29), (1 << 30) - 16384)};
     uint32_t attenuation;
-    if (!gn_filter_decides(frame, view, &a, &b, &attenuation)) return GN_CELL_EDGE;
-    return attenuation ? GN_CELL_LIT : GN_CELL_DARK;
+    if (gn_filter_decides(frame, view, &a, &b, &attenuation)) return attenuation ? GN_CELL_LIT : GN_CELL_DARK;
+    return plane_is_lit(frame, view, &r, slope) ? GN_CELL_LIT : GN_CELL_EDGE;
 }
 
 /* Whether perspective bends places by less than the tolerance. */

@@ -26,7 +26,7 @@ GN_HOT static const gn_texture *texture_of(gn_surface *s)
     return texture;
 }
 
-/* e at the vertices, by which they are nearer than the middle depth; |e| <= 1/16. */
+/* e at the vertices, by which they are nearer than the middle depth; |e| <= 1/8. */
 GN_HOT static void find_nearness(const gn_surface *s, int32_t e_q30[3])
 {
     int32_t middle = s->z_min_q16 + ((s->z_max_q16 - s->z_min_q16) >> 1);
@@ -44,8 +44,8 @@ enum { ROW_LOG2 = 4, CHANGE_LOG2 = 26 /* 2^9 texels */ };
 GN_HOT static uint32_t error_q17(const gn_slope *coord_q17, const gn_slope *e_q30, uint32_t e_most_q30, uint32_t most)
 {
     uint32_t row = gn_abs32(coord_q17->dx) << ROW_LOG2, e_row = (gn_abs32(e_q30->dx) << ROW_LOG2) >> 14,
-             e = (e_most_q30 >> 14) + e_row;                        /* Q16, <= 2^13 */
-    uint64_t cube_q32 = ((uint64_t)e * e * e) >> 16;                /* 2^23 */
+             e = (e_most_q30 >> 14) + e_row;                        /* Q16, <= 3 * 2^12 */
+    uint64_t cube_q32 = ((uint64_t)e * e * e) >> 16;                /* 2^25 */
     uint64_t bent = (uint64_t)row + ((uint64_t)most * e_row >> 16); /* 2^27 + 2^23 */
     uint64_t cut_off = most * cube_q32 >> 32, between = (bent * (e_row * e_row >> 3)) >> 32,
              moved = (gn_abs32(coord_q17->dx) + gn_abs32(coord_q17->dy)) >> 13;

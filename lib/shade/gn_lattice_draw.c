@@ -5,6 +5,7 @@
 #include "base/gn_q.h"
 #include "shade/gn_exact.h"
 #include "shade/gn_lattice.h"
+#include "shade/gn_lattice_block.h"
 #include "shade/gn_lattice_look.h"
 #include "shade/gn_lattice_texture.h"
 #include "shade/gn_levels.h"
@@ -25,36 +26,6 @@ typedef struct {
     gn_cell_textures textures;
 #endif
 } drawing;
-
-/* ---- One colour -------------------------------------------------------------------------------------------------- */
-
-/* Whether all corners have the same pixel, as where nothing varies. */
-GN_HOT static GN_NOINLINE int is_plain(gn_shading *s, const gn_lattice_look *look, uint32_t *packed)
-{
-    const int32_t(*c)[3] = look->colour_q24;
-    uint32_t first = 0;
-    for (int j = 0; j < 3; j++)
-        for (int i = 1; i < 4; i++)
-            if (gn_abs32(c[i][j] - c[0][j]) >> 17) return 0; /* 1 / 128 */
-    for (int i = 0; i < 4; i++) {
-        uint32_t q20[3];
-        for (int j = 0; j < 3; j++) q20[j] = (uint32_t)gn_max32(c[i][j], 0) >> 4;
-        *packed = gn_exact_pack(s, q20);
-        if (i > 0 && *packed != first) return 0;
-        first = *packed;
-    }
-    return 1;
-}
-
-GN_HOT static void fill(const drawing *d, uint32_t packed)
-{
-    gn_shading *s = d->s;
-    GN_COUNT(cells_plain, 1);
-    for (int32_t y = d->y; y < d->y + (1 << d->size_log2); y++) {
-        uint32_t bits = gn_lattice_bits(&s->lattice, d->x, y, d->size_log2);
-        if (bits) gn_pixel_store_bits(s->frame, &s->rows, d->x, y, bits, packed);
-    }
-}
 
 /* ---- Two colours ------------------------------------------------------------------------------------------------ */
 
@@ -279,72 +250,61 @@ GN_HOT static GN_NOINLINE void find_attenuations(const drawing *d, const gn_latt
     look_up_row(d, edge, below, &at, &step, 0, d->n, out);
 }
 
-/* A channel of a row of nodes: of the cell's colours, or what is there already, and what a light adds to it. */
-GN_HOT static inline uint32_t add_channel(const drawing *d, const gn_patch *base, const gn_patch *more, int32_t below,
-                                          int32_t (*node)[3], int c)
+/* Adds the light of an edge to a row of nodes. */
+GN_HOT static GN_NOINLINE void add_edge_light(const drawing *d, const gn_lattice_edge *edge, int32_t below,
+                                              int32_t (*node)[3])
 {
     const uint32_t *share = d->s->lattice.row.attenuation[0], *end = share + d->n;
-    const int32_t log2 = d->s->lattice.look.spacing_log2;
-    int32_t at = gn_patch_at(more, d->first, below), step = (more->dx + below * more->dxy) * (1 << log2);
-    int32_t from = base ? gn_patch_at(base, d->first, below) : 0,
-            change = base ? (base->dx + below * base->dxy) * (1 << log2) : 0;
-    uint32_t all = 0;
-    for (; share < end; share++, node++, at += step, from += change) {
-        int32_t v = base ? from : (*node)[c];
-        if (*share == 65536) v += at;
-        else if (*share) v += gn_mul_high(at * 2, (int32_t)(*share << 15)); /* |at| < 2^30 */
-        (*node)[c] = v;
-        all |= (uint32_t)v | (uint32_t)(v - 64);
+    int32_t twice[3], step[3]; /* |more| < 2^30 */
+    for (int c = 0; c < 3; c++) {
+        int32_t across = 2 * (edge->more_q24[c].dx + below * edge->more_q24[c].dxy);
+        twice[c] = 2 * (edge->more_q24[c].at + below * edge->more_q24[c].dy) + d->first * across;
+        step[c] = across * (1 << d->s->lattice.look.spacing_log2);
     }
-    return all;
-}
-
-/* Adds the light of an edge to a row of nodes; to the cell's colours, if it is the first. */
-GN_HOT static uint32_t add_edge_light(const drawing *d, const gn_lattice_edge *edge, int32_t below, int32_t (*node)[3],
-                                      int first)
-{
-    uint32_t all = 0;
-    find_attenuations(d, edge, below, d->s->lattice.row.attenuation[0]);
-    for (int c = 0; c < 3; c++)
-        all |= first ? add_channel(d, &d->base_q24[c], &edge->more_q24[c], below, node, c)
-                     : add_channel(d, NULL, &edge->more_q24[c], below, node, c);
-    return all;
+    int32_t r = twice[0], g = twice[1], b = twice[2];
+    for (; share < end; share++, node++, r += step[0], g += step[1], b += step[2]) {
+        if (*share == 65536) {
+            (*node)[0] += r >> 1;
+            (*node)[1] += g >> 1;
+            (*node)[2] += b >> 1;
+        } else if (*share) {
+            int32_t half_q31 = (int32_t)(*share << 15);
+            (*node)[0] += gn_mul_high(r, half_q31);
+            (*node)[1] += gn_mul_high(g, half_q31);
+            (*node)[2] += gn_mul_high(b, half_q31);
+        }
+    }
 }
 #else
-GN_HOT static uint32_t add_edge_light(const drawing *d, const gn_lattice_edge *edge, int32_t below, int32_t (*node)[3],
-                                      int first)
+GN_HOT static void add_edge_light(const drawing *d, const gn_lattice_edge *edge, int32_t below, int32_t (*node)[3])
 {
-    (void)d, (void)edge, (void)below, (void)node, (void)first;
-    return 0;
+    (void)d, (void)edge, (void)below, (void)node;
 }
 #endif
 
-/* Colours of a row of nodes without edges: linear, so that the ends tell what they have in common. */
-GN_HOT static uint32_t find_base(const drawing *d, int32_t below, int32_t (*node)[3])
-{
-    uint32_t all = 0;
-    for (int c = 0; c < 3; c++) {
-        const gn_patch *base = &d->base_q24[c];
-        int32_t at = gn_patch_at(base, d->first, below),
-                step = (base->dx + below * base->dxy) * (1 << d->s->lattice.look.spacing_log2);
-        for (int32_t i = 0; i < d->n; i++, at += step) node[i][c] = at;
-        all |= (uint32_t)node[0][c] | (uint32_t)(node[0][c] - 64);
-        all |= (uint32_t)(at - step) | (uint32_t)(at - step - 64);
-    }
-    return all;
-}
-
-/* Colours of a row of nodes. Returns whether they lie in 2^-18 .. 1. */
-GN_HOT static GN_NOINLINE int find_nodes(const drawing *d, int32_t below, int32_t (*node)[3])
+/* Colours of a row of nodes. */
+GN_HOT static void find_nodes(const drawing *d, int32_t below, int32_t (*node)[3])
 {
     const gn_lattice_look *look = &d->s->lattice.look;
-    uint32_t all = 0;
+    int32_t from[3], step[3];
+    for (int c = 0; c < 3; c++) {
+        const gn_patch *base = &d->base_q24[c];
+        from[c] = gn_patch_at(base, d->first, below);
+        step[c] = (base->dx + below * base->dxy) * (1 << look->spacing_log2);
+    }
+    int32_t r = from[0], g = from[1], b = from[2];
+    for (int32_t(*at)[3] = node, (*end)[3] = node + d->n; at < end; at++, r += step[0], g += step[1], b += step[2]) {
+        (*at)[0] = r;
+        (*at)[1] = g;
+        (*at)[2] = b;
+    }
     for (int32_t k = 0; k < look->n_edges; k++) {
-        all = add_edge_light(d, &look->edge[k], below, node, !k);
+#if GN_SHADOWS
+        find_attenuations(d, &look->edge[k], below, d->s->lattice.row.attenuation[0]);
+#endif
+        add_edge_light(d, &look->edge[k], below, node);
         k += look->edge[k].bent >> 2; /* which is the next one, too */
     }
-    if (!look->n_edges) all = find_base(d, below, node);
-    return all < 1U << 24;
 }
 
 /* ---- Cells ------------------------------------------------------------------------------------------------------- */
@@ -388,43 +348,60 @@ GN_HOT static void draw_two_colours(const drawing *d)
 }
 #endif
 
-/* Rows of pixels between two rows of nodes, which then are those below. */
-GN_HOT static GN_NOINLINE void draw_strip(const drawing *d, int32_t below, int inside)
+#if GN_TEXTURES
+/* Whether the nodes at hand lie in 2^-18 .. 1. */
+GN_HOT static int nodes_inside(const drawing *d)
+{
+    const gn_lattice *l = &d->s->lattice;
+    uint32_t all = 0;
+    for (int32_t k = 0; k < (l->look.spacing_log2 ? 2 : 1); k++)
+        for (int32_t i = 0; i < d->n; i++)
+            for (int c = 0; c < 3; c++) all |= (uint32_t)l->by.node[k][i][c] | (uint32_t)(l->by.node[k][i][c] - 64);
+    return all < 1U << 24;
+}
+
+/* Texels take the place of attenuations: after each row of nodes that has been found. */
+GN_HOT static GN_NOINLINE void use_textures(const drawing *d, gn_pixel_line *line)
 {
     gn_shading *s = d->s;
-    gn_lattice *l = &s->lattice;
-    int32_t log2 = l->look.spacing_log2, (*node)[3] = l->by.node[0], (*next)[3] = l->by.node[1],
-            (*step)[3] = l->by.node[2];
-    gn_pixel_line line;
-    line.node = (const int32_t(*)[3])node;
-    line.spacing_log2 = log2;
-    line.inside = inside;
-    line.texel = NULL;
-#if GN_TEXTURES
-    if (s->surface.textured) gn_lattice_textures_line(l, &d->textures, &line);
-#endif
+    line->inside = nodes_inside(d);
+    gn_lattice_textures_line(&s->lattice, &d->textures, line);
 #if GN_GLOW_APART
-    for (int c = 0; line.texel && c < 3; c++) {
+    for (int c = 0; c < 3; c++) {
         uint32_t glow = s->surface.object->emissive_uq16[c];
-        line.glow_q24[c] = GN_GLOWS(&s->surface) ? (int32_t)(glow < 1U << 19 ? glow << 8 : 1U << 27) : 0;
+        line->glow_q24[c] = GN_GLOWS(&s->surface) ? (int32_t)(glow < 1U << 19 ? glow << 8 : 1U << 27) : 0;
     }
 #endif
-    int32_t moves = 0;
-    for (int32_t i = 0; log2 && i < d->n; i++)
-        for (int c = 0; c < 3; c++) moves |= step[i][c] = (next[i][c] - node[i][c]) >> log2;
-    for (int32_t t = 0;; t++) {
-        int32_t y = d->y + below + t;
-        uint32_t bits = gn_lattice_bits(l, d->x, y, d->size_log2);
-#if GN_TEXTURES
-        if (s->surface.textured)
-            bits = gn_lattice_textures_row(l, &d->textures, d->size_log2, below + t, d->first, bits);
+}
 #endif
-        bits >>= d->first;
-        if (bits) gn_pixel_store_line(s->frame, &s->rows, d->x + d->first, y, bits, &line);
-        if (t + 1 == 1 << log2) break;
+
+/* A row of pixels. */
+GN_HOT static void draw_row(const drawing *d, int32_t below, const gn_pixel_line *line)
+{
+    gn_shading *s = d->s;
+    uint32_t bits = gn_lattice_bits(&s->lattice, d->x, d->y + below, d->size_log2);
+#if GN_TEXTURES
+    if (line->texel) bits = gn_lattice_textures_row(&s->lattice, &d->textures, d->size_log2, below, d->first, bits);
+#endif
+    bits >>= d->first;
+    if (bits) gn_pixel_store_line(s->frame, &s->rows, d->x + d->first, d->y + below, bits, line);
+}
+
+/* Rows of pixels between two rows of nodes, which then are those below. */
+GN_HOT static GN_NOINLINE void draw_strip(const drawing *d, int32_t below, const gn_pixel_line *line)
+{
+    gn_lattice *l = &d->s->lattice;
+    int32_t log2 = l->look.spacing_log2, moves = 0, (*node)[3] = l->by.node[0], (*next)[3] = l->by.node[1],
+            (*step)[3] = l->by.node[2];
+    for (int32_t i = 0; i < d->n; i++)
+        for (int c = 0; c < 3; c++) moves |= step[i][c] = (next[i][c] - node[i][c]) >> log2;
+    for (int32_t t = 0; t < 1 << log2; t++) {
+        draw_row(d, below + t, line);
         for (int32_t i = 0; moves && i < d->n; i++)
             for (int c = 0; c < 3; c++) node[i][c] += step[i][c];
     }
+    for (int32_t i = 0; i < d->n; i++)
+        for (int c = 0; c < 3; c++) node[i][c] = next[i][c];
 }
 
 /* Colours without the light of edges. */
@@ -441,21 +418,18 @@ GN_HOT static void begin_base(drawing *d, const gn_lattice_look *look)
 GN_HOT static void draw_nodes(const drawing *d)
 {
     gn_lattice *l = &d->s->lattice;
-    int32_t spacing_log2 = l->look.spacing_log2, known = -1;
-    int inside = 0;
-    for (int32_t below = 0; below < 1 << d->size_log2; below += 1 << spacing_log2) {
-        if (!gn_lattice_columns(l, d->x, d->y + below, 1 << spacing_log2, d->size_log2)) continue;
-        if (known != below) inside = find_nodes(d, below, l->by.node[0]);
-        else
-            for (int32_t i = 0; i < d->n; i++)
-                for (int c = 0; c < 3; c++) l->by.node[0][i][c] = l->by.node[1][i][c];
-        int both = inside;
-        if (spacing_log2) {
-            known = below + (1 << spacing_log2);
-            inside = find_nodes(d, known, l->by.node[1]);
-            both &= inside;
-        }
-        draw_strip(d, below, both);
+    int32_t log2 = l->look.spacing_log2, known = -1;
+    gn_pixel_line line = {.node = (const int32_t(*)[3])l->by.node[0], .spacing_log2 = log2};
+    for (int32_t below = 0; below < 1 << d->size_log2; below += 1 << log2) {
+        if (!gn_lattice_columns(l, d->x, d->y + below, 1 << log2, d->size_log2)) continue;
+        if (known != below || !log2) find_nodes(d, below, l->by.node[0]);
+        known = below + (1 << log2);
+        if (log2) find_nodes(d, known, l->by.node[1]);
+#if GN_TEXTURES
+        if (d->s->surface.textured) use_textures(d, &line);
+#endif
+        if (log2) draw_strip(d, below, &line);
+        else draw_row(d, below, &line);
     }
     gn_levels_forget(l); /* nodes took their place */
 }
@@ -466,16 +440,14 @@ GN_HOT void gn_lattice_draw(gn_shading *s, int32_t x, int32_t y, int32_t size_lo
     const gn_lattice_look *look = &l->look;
     drawing d;
     int32_t size = 1 << size_log2, spacing_log2 = look->spacing_log2;
-    uint32_t packed;
+    if (!look->n_edges && !s->surface.textured) {
+        gn_lattice_draw_blocks(s, x, y, size_log2);
+        return;
+    }
     d.s = s;
     d.x = x;
     d.y = y;
     d.size_log2 = size_log2;
-    int plain = !look->n_edges && !s->surface.textured && s->frame->picture.format != GN_FORMAT_RAW32;
-    if (plain && is_plain(s, look, &packed)) {
-        fill(&d, packed);
-        return;
-    }
     GN_COUNT(cells_drawn, 1);
     begin_base(&d, look);
     uint32_t any = gn_lattice_columns(l, x, y, size, size_log2);

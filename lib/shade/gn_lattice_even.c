@@ -147,7 +147,7 @@ GN_HOT int gn_cell_masks_hold(const gn_lattice_cell *cell)
 
 /* ---- How uneven light is ----------------------------------------------------------------------------------------- */
 
-#if GN_VERTEX_NORMALS || GN_PUNCTUAL_LIGHTS
+#if GN_VERTEX_NORMALS
 /* The longer diagonal of vectors at the corners, along the axes. */
 GN_HOT static uint32_t diagonal(const int32_t *a, const int32_t *b, const int32_t *c, const int32_t *d)
 {
@@ -174,28 +174,99 @@ GN_HOT static uint32_t turn_q12(const gn_lattice_cell *cell)
 }
 
 #if GN_PUNCTUAL_LIGHTS
-/* Once per cell: of its corners, the same for all lights. */
-GN_HOT static uint32_t ray_diagonal(gn_lattice_cell *cell)
+/* Once per cell, the same for all lights: squares of its longest sides along rows and down columns, a quarter of their
+ * sum. Rays are below 2^30. */
+GN_HOT static uint64_t sides_q30(gn_lattice_cell *cell)
 {
     gn_corner *const *c = cell->corner;
-    if (!cell->across_q16) cell->across_q16 = diagonal(c[0]->ray_q16, c[1]->ray_q16, c[2]->ray_q16, c[3]->ray_q16);
-    return cell->across_q16;
+    uint64_t longest[2] = {0, 0};
+    if (cell->sides_q30) return cell->sides_q30;
+    for (int k = 0; k < 4; k++) { /* upper, left, right, lower */
+        const int32_t *a = c[k & 2 ? k - 1 : 0]->ray_q16, *b = c[k & 2 ? 3 : k + 1]->ray_q16;
+        const int32_t side[3] = {(b[0] - a[0]) >> 1, (b[1] - a[1]) >> 1, (b[2] - a[2]) >> 1};
+        uint64_t *most = &longest[k == 1 || k == 2], square = (uint64_t)gn_dot64(side, side);
+        if (square > *most) *most = square;
+    }
+    cell->sides_q30 = longest[0] + longest[1] + 16;
+    return cell->sides_q30;
 }
 
-/* The cell's size over its distance from a light, Q12, saturated at 4. */
-GN_HOT static uint32_t size_over_distance_q12(gn_lattice_cell *cell, uint32_t slot)
+/* a / b, a < b */
+GN_HOT static uint32_t ratio_q30(uint64_t a, uint64_t b)
 {
-    uint32_t nearest = UINT32_MAX, across = ray_diagonal(cell);
+    int32_t down = gn_max32(32 - gn_clz64(b), 0);
+    return gn_quotient_q30((uint32_t)(a >> down), (uint32_t)(b >> down));
+}
+
+GN_HOT static uint64_t share_q30_of(uint64_t v, uint32_t share_q30)
+{
+    return (v >> 30) * share_q30 + ((v & ((1U << 30) - 1)) * share_q30 >> 30);
+}
+
+/* Squares of the corners' distances from a light: the least, and the largest. */
+typedef struct {
+    uint64_t nearest_q32, farthest_q32;
+    int is_far; /* the cell is small beside them */
+} light_distance;
+
+GN_HOT static void find_distance(gn_lattice_cell *cell, const gn_light_state *light, light_distance *d)
+{
+    d->nearest_q32 = UINT64_MAX;
+    d->farthest_q32 = 0;
     for (int i = 0; i < 4; i++) {
         int32_t p[3];
-        gn_corner_from(cell->corner[i], cell->s->light[slot].state, p);
-        uint32_t distance = gn_abs32(p[0]) > gn_abs32(p[1]) ? gn_abs32(p[0]) : gn_abs32(p[1]);
-        if (gn_abs32(p[2]) > distance) distance = gn_abs32(p[2]);
-        if (distance < nearest) nearest = distance;
+        gn_corner_from(cell->corner[i], light, p);
+        uint64_t square = (uint64_t)((int64_t)p[0] * p[0]) + (uint64_t)((int64_t)p[1] * p[1]);
+        square += (uint64_t)((int64_t)p[2] * p[2]);
+        if (square < d->nearest_q32) d->nearest_q32 = square;
+        if (square > d->farthest_q32) d->farthest_q32 = square;
     }
-    if (across >> 2 >= nearest) return 4 << 12;
-    if (across >= nearest) return (gn_quotient_q30(across >> 2, nearest) >> 16) + 1;
-    return (gn_quotient_q30(across, nearest) >> 18) + 1;
+    d->is_far = sides_q30(cell) < d->nearest_q32 >> 4 && !(d->nearest_q32 >> 62);
+}
+
+/* How much a light bends over its distance, K of NUMERICS 4.12, Q8. */
+GN_HOT static uint32_t curvature_q8(const gn_lattice_cell *cell, const gn_light_state *light, const light_distance *d)
+{
+    int32_t p[3];
+    if (d->farthest_q32 > light->range2_q32 >> 2)
+        return d->farthest_q32 + (d->farthest_q32 >> 1) <= light->range2_q32 ? 20 << 8 : 34 << 8;
+    int near = d->farthest_q32 <= light->range2_q32 >> 3;
+    uint32_t most = near ? 14 << 8 : 16 << 8, least = near ? 5 << 8 : 6 << 8;
+    if (GN_SMOOTH(cell->s)) return most;
+    gn_corner_from(cell->corner[0], light, p);
+    uint64_t height = gn_abs64(gn_dot_q30(cell->s->normal_q30[0], p)), square = height * height;
+    if (square >= d->farthest_q32) return least;
+    uint32_t less = ratio_q30(square, d->farthest_q32) >> 18; /* Q12 */
+    less = less * 13 >> 4;
+    return less > most - least ? least : most - less;
+}
+
+/* How far interpolation is off of a spot or point light, as a share of the most at a corner: up to 1, or 4. */
+GN_HOT static GN_NOINLINE uint32_t bend_q30(gn_lattice_cell *cell, const gn_light_state *light, const light_distance *d)
+{
+    if (!d->is_far || d->nearest_q32 >= light->range2_q32) return UINT32_MAX;
+    uint64_t of = d->nearest_q32 - (cell->sides_q30 * 11 >> 2);
+    uint64_t bend = ((cell->sides_q30 >> 9) + 1) * curvature_q8(cell, light, d);
+    if (d->farthest_q32 > light->range2_q32 >> 3)
+        of = share_q30_of(of, (uint32_t)gn_corner_window_q30(light, d->nearest_q32));
+    return bend >= of ? UINT32_MAX : ratio_q30(bend, of);
+}
+
+/* The same of normals that turn, too. */
+GN_HOT static GN_NOINLINE uint32_t bend_of_smooth_q30(uint32_t flat_q30, uint32_t turn_q12)
+{
+    if (flat_q30 == UINT32_MAX) return flat_q30;
+    int32_t up = gn_clz32(flat_q30 | 1U) & ~1;
+    uint32_t m = (flat_q30 | 1U) << up, root_q31 = gn_umul_high(m, gn_rsqrt_norm(m, 1));
+    uint32_t t_q12 = turn_q12 + (root_q31 >> gn_min32(18 + (up >> 1), 31)) + 1;
+    return t_q12 >= 1 << 13 ? UINT32_MAX : t_q12 * t_q12 << 6;
+}
+
+/* The square of the cell's size over its distance from a light, Q24, up to 4. */
+GN_HOT static uint32_t size2_q24(const gn_lattice_cell *cell, const light_distance *d)
+{
+    if (!d->is_far) return 4 << 24;
+    return (ratio_q30(4 * cell->sides_q30, d->nearest_q32 - (cell->sides_q30 * 17 >> 4)) >> 6) + 1;
 }
 
 /* Squares of both diagonals of the corners' positions, a quarter of their sum: the points of a cell scatter about their
@@ -210,11 +281,6 @@ GN_HOT static uint64_t scatter_q32(int32_t p[4][3])
     return sum + 16;
 }
 
-GN_HOT static uint64_t share_q30_of(uint64_t v, uint32_t share_q30)
-{
-    return (v >> 30) * share_q30 + ((v & ((1U << 30) - 1)) * share_q30 >> 30);
-}
-
 /* Whether all of the cell faces away from a light: n . p is that of the corners in the mean, less what both scatter by.
  */
 GN_HOT static int faces_away(gn_lattice_cell *cell, int32_t p[4][3])
@@ -227,7 +293,8 @@ GN_HOT static int faces_away(gn_lattice_cell *cell, int32_t p[4][3])
         int64_t away = gn_dot_q30(cell->corner[i]->normal_q30, p[i]);
         if (away < least) least = away;
     }
-    uint64_t turn = turn_q12(cell), size = ray_diagonal(cell);
+    gn_corner *const *c = cell->corner;
+    uint64_t turn = turn_q12(cell), size = diagonal(c[0]->ray_q16, c[1]->ray_q16, c[2]->ray_q16, c[3]->ray_q16);
     return least > (int64_t)(turn * size >> 14) + 16;
 #else
     return 0;
@@ -262,7 +329,7 @@ GN_HOT GN_NOINLINE int gn_cell_stays_dark(gn_lattice_cell *cell, uint32_t slot)
 /* How far interpolation is off in the rim of a cone, whose factor is the square of a share. `lo`, `hi`: how the light
  * arrives at the corners, but for GN_CORNER_DARK. */
 GN_HOT static GN_NOINLINE uint32_t rim_error_q24(const gn_light_state *light, int32_t lo, int32_t hi, uint32_t most_q24,
-                                                 uint32_t change_q24, uint32_t size_q12)
+                                                 uint32_t change_q24, uint32_t size2_q24)
 {
     enum { WHOLE = 32 };
     uint32_t top = (uint32_t)gn_max32(gn_min32(hi, WHOLE), 1), across = top - (uint32_t)lo + 1, square = top * top;
@@ -272,7 +339,7 @@ GN_HOT static GN_NOINLINE uint32_t rim_error_q24(const gn_light_state *light, in
         error_q10 += 2 * WHOLE * before * beyond / (before + beyond);
     }
     if (error_q10 < square && most_q24 / square * error_q10 < change_q24) error_q24 = most_q24 / square * error_q10;
-    uint64_t bent_q30 = gn_corner_rim_q30(light, size_q12 * size_q12 * 10); /* of the cosine, 5/32 of the square */
+    uint64_t bent_q30 = gn_corner_rim_q30(light, size2_q24 * 32); /* of the cosine, 5/32 of the square */
     uint32_t bent_q10 = (bent_q30 >> 32 ? 1U << 12 : (uint32_t)(bent_q30 >> 20)) * 2 * top / WHOLE;
     return error_q24 + (bent_q10 < square ? most_q24 / square * bent_q10 : most_q24);
 }
@@ -291,10 +358,9 @@ GN_HOT uint32_t gn_cell_unevenness_q24(gn_lattice_cell *cell, uint32_t slot, int
                                        uint32_t *kink_q24)
 {
     const gn_light_state *light = cell->s->light[slot].state;
-    uint32_t change = (uint32_t)(most_q24 - least_q24), kink = 0,
-             t_q12 = turn_q12(cell) << gn_cell_turn_log2(cell->frame) >> 1;
+    uint32_t change = (uint32_t)(most_q24 - least_q24), kink = 0, bend = 0, seen = 0,
+             turn = turn_q12(cell) << gn_cell_turn_log2(cell->frame) >> 1;
     int32_t lo = GN_CORNER_FULLY, hi = 0, dark = 0;
-    (void)light;
     for (int i = 0; i < 4; i++) {
         int32_t at = cell->corner[i]->light[slot].arrives;
         hi = gn_max32(hi, at);
@@ -303,17 +369,23 @@ GN_HOT uint32_t gn_cell_unevenness_q24(gn_lattice_cell *cell, uint32_t slot, int
     }
     if (dark) kink = change;
     else if (lo <= 0 && light->kind == GN_LIGHT_DIRECTIONAL) kink = 3 * terminator_error_q24(lo, (uint32_t)most_q24);
+    int asked = cell->size_log2 > gn_cell_finest_log2(cell->frame);
+    if (asked) bend = turn > 1 << 12 ? 1U << 30 : turn * turn << 6;
 #if GN_PUNCTUAL_LIGHTS
-    if (light->kind != GN_LIGHT_DIRECTIONAL) {
-        uint32_t size_q12 = size_over_distance_q12(cell, slot);
-        t_q12 += 2 * size_q12;
-        if (light->kind == GN_LIGHT_SPOT && lo < 32) /* twice: it comes close to this bound */
-            kink += 2 * rim_error_q24(light, lo, hi, (uint32_t)most_q24, change, size_q12);
+    int ends = light->kind == GN_LIGHT_SPOT && lo < 32;
+    if (light->kind != GN_LIGHT_DIRECTIONAL && (ends || asked)) {
+        light_distance d;
+        find_distance(cell, light, &d);
+        if (asked) bend = bend_q30(cell, light, &d);
+        if (asked && turn) bend = bend_of_smooth_q30(bend, turn);
+        seen = (uint32_t)((uint64_t)change * (cell->bend_q16[0] + cell->bend_q16[1]) >> 18);
+        if (ends) /* twice: it comes close to this bound */
+            kink += 2 * rim_error_q24(light, lo, hi, (uint32_t)most_q24, change, size2_q24(cell, &d));
     }
 #endif
-    if (t_q12 > 1 << 12) t_q12 = 1 << 12;
+    (void)hi;
     *kink_q24 = kink;
-    return kink + (uint32_t)((uint64_t)(uint32_t)most_q24 * (t_q12 * t_q12) >> 24);
+    return kink + seen + (uint32_t)((uint64_t)(uint32_t)most_q24 * bend >> 30);
 }
 
 #endif

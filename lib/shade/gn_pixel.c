@@ -15,19 +15,23 @@ GN_HOT static inline uint32_t srgb_encode(uint32_t linear_q20)
     if (linear_q20 >= GN_ONE_Q20) return 65535;
     /* below 2^-9 the curve is its linear part: 12.92 * 65535 / 2^20 = 0.807494 = 52920 / 2^16 */
     if (linear_q20 < 1U << 11) return (linear_q20 * 52920U + 0x8000U) >> 16;
-    int32_t octave = 20 - gn_clz32(linear_q20); /* 0..8: linear in [2^(octave - 9), 2^(octave - 8)) */
-    int32_t shift = octave + 5;                 /* bits below the 64 steps of an octave */
-    uint32_t i = ((uint32_t)octave << 6) + ((linear_q20 >> shift) & 63U), here = gn_srgb_entry(i),
-             next = gn_srgb_entry(i + 1);
-    uint32_t rest = linear_q20 & ((1U << shift) - 1);
-    return here + (((next - here) * rest + ((1U << shift) >> 1)) >> shift); /* the product: below 2^11 * 2^14 */
+    int32_t zeros = gn_clz32(linear_q20); /* 12..20: linear in [2^(11 - zeros), 2^(12 - zeros)) */
+    uint32_t m = linear_q20 << zeros;     /* below its 64 steps an octave has up to 13 bits */
+    uint32_t i = (uint32_t)((20 - zeros) << 6) + (m >> 25 & 63U), here = gn_srgb_entry(i), next = gn_srgb_entry(i + 1);
+    return here + (((next - here) * (m >> 12 & 0x1FFFU) + (1U << 12)) >> 13); /* the product: below 2^11 * 2^13 */
 }
 
-/* round(levels * v / 65535): x / 65535 is (x + 1 + (x >> 16)) >> 16 below 2^32 - 2^16 */
-GN_HOT static inline uint32_t quantise(uint32_t v, uint32_t levels)
+/* levels * v / 65535 and a half, Q16: x / 65535 is (x + 1 + (x >> 16)) >> 16 below 2^32 - 2^16 */
+GN_HOT static inline uint32_t level_uq16(uint32_t v, uint32_t levels)
 {
     uint32_t x = v * levels + 32767U;
-    return (x + 1 + (x >> 16)) >> 16;
+    return x + 1 + (x >> 16);
+}
+
+/* round(levels * v / 65535) */
+GN_HOT static inline uint32_t quantise(uint32_t v, uint32_t levels)
+{
+    return level_uq16(v, levels) >> 16;
 }
 
 GN_HOT uint32_t gn_srgb_encode(uint32_t linear_q20)
@@ -80,14 +84,17 @@ GN_HOT static inline uint32_t pack_565(uint32_t r_q24, uint32_t g_q24, uint32_t 
            64; /* blue's 64; red's, 64 << 11, lies above the 16 bits */
 }
 
-GN_HOT static inline uint32_t limited_q24(int32_t v)
+GN_HOT static inline int32_t limited_q24(int32_t v)
 {
-    return (uint32_t)gn_min32(gn_max32(v, 0), (1 << 24) - 1); /* a single instruction on cores that have it */
+    return gn_min32(gn_max32(v, 0), (1 << 24) - 1);
 }
 
+/* RGB565 of any colour; bits from 16 on are not cleared. */
 GN_HOT static inline uint32_t limit_and_pack_565(int32_t r_q24, int32_t g_q24, int32_t b_q24)
 {
-    return pack_565(limited_q24(r_q24), limited_q24(g_q24), limited_q24(b_q24));
+    if (GN_SELDOM((uint32_t)(r_q24 | g_q24 | b_q24) >> 24))
+        r_q24 = limited_q24(r_q24), g_q24 = limited_q24(g_q24), b_q24 = limited_q24(b_q24);
+    return pack_565((uint32_t)r_q24, (uint32_t)g_q24, (uint32_t)b_q24);
 }
 
 /* RGB565 of any colour; what is above 1 becomes 1. */
@@ -105,7 +112,7 @@ GN_HOT static uint32_t any_565(const gn_frame *frame, const uint32_t c[3])
 GN_HOT static uint32_t pack_16(const gn_frame *frame, const uint32_t linear_q20[3])
 {
     uint32_t v = any_565(frame, linear_q20);
-    return frame->picture.format == GN_FORMAT_RGB565 ? v : (v >> 8 | (v & 255U) << 8);
+    return frame->picture.format == GN_FORMAT_RGB565 ? v : gn_pixel_swapped(v);
 }
 
 /* A colour in the picture's format. [R5] */
@@ -201,44 +208,32 @@ GN_HOT static uint16_t *pixel_565(const gn_pixel_rows *rows, int32_t x, int32_t 
     return rows->pixels->rgb565 + (y - rows->y0) * rows->width + x - rows->x0;
 }
 
-/* Pixels of `bits` between two nodes; `inside`: colours lie in 0 .. 1. */
-GN_HOT static inline void segment_565(uint16_t *out, uint32_t bits, const int32_t from_q24[3],
-                                      const int32_t step_q24[3], int inside)
-{
-    int32_t r = from_q24[0], g = from_q24[1], b = from_q24[2];
-    for (; bits; bits >>= 1, out++, r += step_q24[0], g += step_q24[1], b += step_q24[2]) {
-        if (!(bits & 1U)) continue;
-        *out = (uint16_t)(inside ? pack_565((uint32_t)r, (uint32_t)g, (uint32_t)b) : limit_and_pack_565(r, g, b));
-    }
-}
-
 /* Pixels of `bits`, a node each. */
-GN_HOT static inline void nodes_565(uint16_t *out, uint32_t bits, const int32_t (*node)[3], int inside)
+GN_HOT static inline void nodes_565(uint16_t *out, uint32_t bits, const int32_t (*node)[3])
 {
-    for (; bits; bits >>= 1, out++, node++) {
-        const int32_t *c = *node;
-        if (!(bits & 1U)) continue;
-        *out = (uint16_t)(inside ? pack_565((uint32_t)c[0], (uint32_t)c[1], (uint32_t)c[2])
-                                 : limit_and_pack_565(c[0], c[1], c[2]));
-    }
+    for (; bits; bits >>= 1, out++, node++)
+        if (bits & 1U) *out = (uint16_t)limit_and_pack_565((*node)[0], (*node)[1], (*node)[2]);
 }
 
-GN_HOT static inline void segments_565(uint16_t *out, uint32_t bits, const gn_pixel_line *line, int inside)
+/* Pixels of `bits` between two nodes. */
+GN_HOT static inline void segment_565(uint16_t *out, uint32_t bits, const int32_t *from, const int32_t *to,
+                                      int32_t log2)
+{
+    int32_t r = from[0], g = from[1], b = from[2];
+    const int32_t r_step = (to[0] - r) >> log2, g_step = (to[1] - g) >> log2, b_step = (to[2] - b) >> log2;
+    for (; bits; bits >>= 1, out++, r += r_step, g += g_step, b += b_step)
+        if (bits & 1U) *out = (uint16_t)limit_and_pack_565(r, g, b);
+}
+
+GN_HOT static inline void line_565(uint16_t *out, uint32_t bits, const gn_pixel_line *line)
 {
     int32_t log2 = line->spacing_log2, n = 1 << log2;
-    for (const int32_t(*node)[3] = line->node; bits; bits >>= n, out += n, node++) {
-        uint32_t part = bits & ((1U << n) - 1);
-        const int32_t *a = node[0], *b = node[1];
-        if (!part) continue;
-        const int32_t step[3] = {(b[0] - a[0]) >> log2, (b[1] - a[1]) >> log2, (b[2] - a[2]) >> log2};
-        segment_565(out, part, a, step, inside);
-    }
-}
-
-GN_HOT static inline void line_565(uint16_t *out, uint32_t bits, const gn_pixel_line *line, int inside)
-{
-    if (line->spacing_log2) segments_565(out, bits, line, inside);
-    else nodes_565(out, bits, line->node, inside);
+    if (!log2) nodes_565(out, bits, line->node);
+    else
+        for (const int32_t(*node)[3] = line->node; bits; bits >>= n, out += n, node++) {
+            uint32_t part = bits & ((1U << n) - 1);
+            if (part) segment_565(out, part, node[0], node[1], log2);
+        }
 }
 
 /* A pixel of any format, in a raw view a share of 65536. */
@@ -399,8 +394,7 @@ GN_HOT void gn_pixel_store_line(const gn_frame *frame, const gn_pixel_rows *rows
     }
 #endif
     if (GN_LEVEL_TABLES && has_levels(frame)) {
-        if (line->inside) line_565(pixel_565(rows, x, y), bits, line, 1);
-        else line_565(pixel_565(rows, x, y), bits, line, 0);
+        line_565(pixel_565(rows, x, y), bits, line);
         return;
     }
     for (int32_t i = 0; bits >> i; i++) {
@@ -411,19 +405,42 @@ GN_HOT void gn_pixel_store_line(const gn_frame *frame, const gn_pixel_rows *rows
     }
 }
 
-GN_HOT void gn_pixel_store_run(const gn_frame *frame, const gn_pixel_rows *rows, int32_t x, int32_t y, int32_t n,
-                               const int32_t from_q24[3], const int32_t step_q24[3])
+/* ---- Levels -------------------------------------------------------------------------------------------------------*/
+
+GN_HOT uint32_t gn_pixel_encode(const gn_frame *frame, const int32_t colour_q24[3], int32_t level_q31[3])
 {
-    int32_t c[3] = {from_q24[0], from_q24[1], from_q24[2]};
+    int wide = GN_OTHER_FORMATS && frame->picture.format == GN_FORMAT_RGB888;
+    for (int c = 0; c < 3; c++) {
+        uint32_t bits = wide ? 8 : c == 1 ? 6 : 5, encoded = encode(frame, (uint32_t)colour_q24[c] >> 4);
+        level_q31[c] = (int32_t)(level_uq16(encoded, (1U << bits) - 1) << (15 - bits));
+    }
+    if (wide) return (uint32_t)(level_q31[0] >> 23 | level_q31[1] >> 23 << 8 | level_q31[2] >> 23 << 16);
+    uint32_t v = gn_pixel_of_levels(level_q31[0], level_q31[1], level_q31[2]);
+    return frame->picture.format == GN_FORMAT_RGB565 ? v : gn_pixel_swapped(v);
+}
+
+GN_HOT static inline void run_of_colours_565(uint16_t *out, int32_t n, int32_t r, int32_t g, int32_t b,
+                                             const int32_t step[3], int inside)
+{
+    const int32_t r_step = step[0], g_step = step[1], b_step = step[2];
+    for (const uint16_t *end = out + n; out < end; r += r_step, g += g_step, b += b_step)
+        *out++ = (uint16_t)(inside ? pack_565((uint32_t)r, (uint32_t)g, (uint32_t)b) : limit_and_pack_565(r, g, b));
+}
+
+GN_HOT void gn_pixel_store_run(const gn_frame *frame, const gn_pixel_rows *rows, int32_t x, int32_t y, int32_t n,
+                               const int32_t from_q24[3], const int32_t step[3])
+{
+    int32_t r = from_q24[0], g = from_q24[1], b = from_q24[2];
     if (GN_LEVEL_TABLES && has_levels(frame)) {
-        int32_t r = c[0], g = c[1], b = c[2];
-        for (uint16_t *out = pixel_565(rows, x, y); n > 0; n--, r += step_q24[0], g += step_q24[1], b += step_q24[2])
-            *out++ = (uint16_t)limit_and_pack_565(r, g, b);
+        const int32_t all = r | g | b | (r + (n - 1) * step[0]) | (g + (n - 1) * step[1]) | (b + (n - 1) * step[2]);
+        uint16_t *out = pixel_565(rows, x, y);
+        if (all >> 24) run_of_colours_565(out, n, r, g, b, step, 0);
+        else run_of_colours_565(out, n, r, g, b, step, 1);
         return;
     }
-    for (; n > 0; n--, x++) {
-        store_colour(frame, rows, x, y, c);
-        for (int i = 0; i < 3; i++) c[i] += step_q24[i];
+    for (; n > 0; n--, r += step[0], g += step[1], b += step[2], x++) {
+        const int32_t colour[3] = {r, g, b};
+        store_colour(frame, rows, x, y, colour);
     }
 }
 

@@ -25,8 +25,8 @@ void gn_pixel_fill(const gn_frame *frame, const gn_pixel_rows *rows, int32_t x, 
 typedef struct {
     const int32_t (*node)[3]; /* Q24, |.| < 2^29, from the row's first pixel on, 2^spacing_log2 pixels apart */
     int32_t spacing_log2;
-    int inside;                /* all nodes are in 2^-18 .. 1: nothing needs a clamp */
     const gn_texel_rgb *texel; /* of each pixel; NULL: no texture */
+    int inside;                /* with a texture: all nodes are in 2^-18 .. 1, so that nothing needs a clamp */
 #if GN_GLOW_APART
 #if GN_GLOW_TEXTURES
     const gn_texel_rgb *glow; /* what that is multiplied by, pixel by pixel, or NULL */
@@ -45,6 +45,30 @@ void gn_pixel_store_line(const gn_frame *frame, const gn_pixel_rows *rows, int32
  * to the one behind the last. */
 void gn_pixel_store_run(const gn_frame *frame, const gn_pixel_rows *rows, int32_t x, int32_t y, int32_t n,
                         const int32_t from_q24[3], const int32_t step_q24[3]);
+
+/* Whether the format's pixels are three levels, which are encoded one by one. */
+GN_HOT static inline int gn_pixel_has_levels(const gn_frame *frame)
+{
+    if (!GN_OTHER_FORMATS) return !GN_RAW_VIEWS || frame->picture.format != GN_FORMAT_RAW32;
+    return frame->picture.format == GN_FORMAT_RGB565 || frame->picture.format == GN_FORMAT_RGB565_SWAPPED ||
+           frame->picture.format == GN_FORMAT_RGB888;
+}
+
+/* Levels of a colour in 0 .. 1 and half a level each, in such a format: Q31 of 32, 64 or 256 levels. What is above the
+ * fraction is the nearest level; these make the pixel that is returned. */
+uint32_t gn_pixel_encode(const gn_frame *frame, const int32_t colour_q24[3], int32_t level_q31[3]);
+
+/* RGB565 of such levels. */
+GN_HOT static inline uint32_t gn_pixel_of_levels(int32_t r_q31, int32_t g_q31, int32_t b_q31)
+{
+    return (((uint32_t)r_q31 & 0x7C000000U) | ((uint32_t)g_q31 & 0x7E000000U) >> 5 | (uint32_t)b_q31 >> 11) >> 15;
+}
+
+/* RGB565 in the other order of bytes. */
+GN_HOT static inline uint32_t gn_pixel_swapped(uint32_t v)
+{
+    return v >> 8 | (v & 255U) << 8;
+}
 
 /* Stores one packed colour in the pixels whose bit in `bits` is set, bit i for pixel (x + i, y). */
 void gn_pixel_store_bits(const gn_frame *frame, const gn_pixel_rows *rows, int32_t x, int32_t y, uint32_t bits,

@@ -66,9 +66,10 @@ GN_HOT static void show_one_light(gn_surface *surface, uint32_t light_idx)
     for (int c = 0; c < 3; c++) surface->light[0].radiance_uq16[c] = 65536;
 }
 
-GN_HOT static inline void shade_those(gn_shading *s)
+GN_HOT static inline void shade_those(gn_shading *s, int32_t n_spans)
 {
-    const gn_lattice *l = &s->lattice;
+    gn_lattice *l = &s->lattice;
+    l->n_spans = n_spans;
     gn_lattice_shade(s);
     if (GN_MIXES(s))
         for (int32_t i = 0; i < l->n_spans; i++) gn_mix_run(s, l->span[i].x, l->span[i].y, l->span[i].n_px);
@@ -81,18 +82,18 @@ GN_HOT static void shade_spans(gn_shading *s, gn_run_taker *taker, uint32_t firs
     uint32_t stride = (uint32_t)GN_K(s->frame, tile_width);
     if (GN_RAW_VIEWS && s->frame->picture.format == GN_FORMAT_RAW32)
         show_one_light(&s->surface, s->frame->picture.view_light);
-    l->n_spans = 0;
+    gn_run_span *span = l->span, *const end = span + GN_SPANS;
+    const int32_t x0 = s->rect.x0, y0 = s->rect.y0;
     do {
-        gn_run_span *span = &l->span[l->n_spans++];
         GN_COUNT(runs, 1);
-        span->x = (int16_t)(s->rect.x0 + (int32_t)(first % stride));
-        span->y = (int16_t)(s->rect.y0 + (int32_t)(first / stride));
+        span->x = (int16_t)(x0 + (int32_t)(first % stride));
+        span->y = (int16_t)(y0 + (int32_t)(first / stride));
         span->n_px = (int16_t)n_px;
-        if (l->n_spans < GN_SPANS) continue;
-        shade_those(s);
-        l->n_spans = 0;
+        if (++span < end) continue;
+        shade_those(s, GN_SPANS);
+        span = l->span;
     } while (gn_runs_take(taker, stride, &first, &n_px));
-    if (l->n_spans) shade_those(s);
+    if (span > l->span) shade_those(s, (int32_t)(span - l->span));
 }
 #else
 GN_HOT static void shade_spans(gn_shading *s, gn_run_taker *taker, uint32_t first, int32_t n_px)
@@ -173,8 +174,8 @@ GN_HOT static const object_look *look_at(gn_shading *s, object_look looks[LOOKS]
 /* The state of sorting a tile's runs. */
 typedef struct {
     gn_shading *s;
-    const char *sources; /* gn_cell_sources */
-    uint32_t n_linked;
+    const char *sources;        /* gn_cell_sources */
+    int links;                  /* some run */
     uint32_t plain_idx, packed; /* the plain object met last, of 16 bits per pixel */
     uint32_t lit_idx;           /* the object met last that is not plain */
     object_look looks[LOOKS];
@@ -184,12 +185,12 @@ typedef struct {
 GN_HOT static GN_NOINLINE void sort_run(run_sorter *sorter, uint32_t *first, uint32_t id, uint32_t n_px)
 {
     gn_shading *s = sorter->s;
-    uint32_t at = (uint32_t)(first - GN_CELLS(s->scratch));
     if (!GN_SIZE_FIRST) {
         const uint32_t object_idx = gn_cell_source(s->frame, sorter->sources, id)->object_idx;
         const object_look *look = look_at(s, sorter->looks, object_idx);
         if (look->plain != NOT_PLAIN) {
-            int32_t stride = GN_K(s->frame, tile_width), x = (int32_t)at % stride, y = (int32_t)at / stride;
+            int32_t stride = GN_K(s->frame, tile_width), at = (int32_t)(first - GN_CELLS(s->scratch)), x = at % stride,
+                    y = at / stride;
             GN_COUNT(runs, 1);
             GN_COUNT(filled, n_px);
             gn_runs_drop(first);
@@ -201,8 +202,8 @@ GN_HOT static GN_NOINLINE void sort_run(run_sorter *sorter, uint32_t *first, uin
         }
         sorter->lit_idx = object_idx;
     }
-    gn_runs_link(s->scratch, id, at, n_px);
-    sorter->n_linked++;
+    gn_runs_link(s->scratch, id, first, n_px);
+    sorter->links = 1;
 }
 
 /* Fills in a short run of a plain object, and does not link it. */
@@ -222,20 +223,20 @@ GN_HOT static void sorter_begin(run_sorter *sorter, gn_shading *s)
 {
     sorter->s = s;
     sorter->sources = gn_cell_sources(s->frame, s->scratch);
-    sorter->n_linked = 0;
+    sorter->links = 0;
     sorter->plain_idx = sorter->lit_idx = UINT32_MAX;
     for (uint32_t i = 0; !GN_SIZE_FIRST && i < LOOKS; i++) sorter->looks[i].object_idx = UINT32_MAX;
 }
 
-/* Links the tile's runs, except those of plain objects, which it fills in. Returns the number of linked runs. */
-GN_HOT static GN_NOINLINE uint32_t sort_runs(gn_shading *s, int32_t n_rows)
+/* Links the tile's runs, except those of plain objects, which it fills in. Returns whether there are others. */
+GN_HOT static GN_NOINLINE int sort_runs(gn_shading *s, int32_t n_rows)
 {
     const gn_frame *frame = s->frame;
     const char *sources = gn_cell_sources(frame, s->scratch);
     run_sorter sorter;
     uint32_t id_mask = (1U << frame->id_bits) - 1, width = (uint32_t)s->rows.width, plain_idx = UINT32_MAX,
              lit_idx = UINT32_MAX, packed = 0;
-    uint32_t *cells = GN_CELLS(s->scratch), *row = cells + n_rows * GN_K(frame, tile_width), n_linked = 0;
+    uint32_t *cells = GN_CELLS(s->scratch), *row = cells + n_rows * GN_K(frame, tile_width);
     uint16_t *pixel = s->scratch->pixel.rgb565 + (uint32_t)n_rows * width;
     sorter_begin(&sorter, s);
     gn_runs_clear(s->scratch);
@@ -244,7 +245,7 @@ GN_HOT static GN_NOINLINE uint32_t sort_runs(gn_shading *s, int32_t n_rows)
         pixel -= width;
         uint32_t before = row[-1], *last = row + width;
         row[-1] = UINT32_MAX;
-        while ((last = gn_runs_last(last)) >= row) {
+        while ((last = gn_runs_last(last, row)) >= row) {
             uint32_t id = *last & id_mask, *first = gn_runs_first(last, id_mask), n_px = (uint32_t)(last - first) + 1;
             last = first;
             if (!GN_SIZE_FIRST && n_px < 8 && gn_cell_source(frame, sources, id)->object_idx == plain_idx) {
@@ -252,8 +253,7 @@ GN_HOT static GN_NOINLINE uint32_t sort_runs(gn_shading *s, int32_t n_rows)
                 continue;
             }
             if (!GN_SIZE_FIRST && gn_cell_source(frame, sources, id)->object_idx == lit_idx) {
-                gn_runs_link(s->scratch, id, (uint32_t)(first - cells), n_px);
-                n_linked++;
+                gn_runs_link(s->scratch, id, first, n_px);
                 continue;
             }
             sort_run(&sorter, first, id, n_px);
@@ -263,7 +263,7 @@ GN_HOT static GN_NOINLINE uint32_t sort_runs(gn_shading *s, int32_t n_rows)
         }
         row[-1] = before;
     }
-    return sorter.n_linked + n_linked;
+    return sorter.links;
 }
 
 /* ---- Layers ------------------------------------------------------------------------------------------------------ */
@@ -278,9 +278,9 @@ GN_HOT static inline void link_layer(gn_shading *s, int32_t n_rows)
         row -= GN_K(s->frame, tile_width);
         uint32_t before = row[-1], *last = row + width;
         row[-1] = UINT32_MAX;
-        while ((last = gn_runs_last(last)) >= row) {
+        while ((last = gn_runs_last(last, row)) >= row) {
             uint32_t id = *last & id_mask, *first = gn_runs_first(last, id_mask);
-            gn_runs_link(s->scratch, id, (uint32_t)(first - cells), (uint32_t)(last - first) + 1);
+            gn_runs_link(s->scratch, id, first, (uint32_t)(last - first) + 1);
             last = first;
         }
         row[-1] = before;
@@ -364,14 +364,14 @@ GN_HOT void gn_shade_tile(const gn_frame *frame, gn_scratch *scratch, uint32_t t
     s->rows.y0 = s->rect.y0;
     clear_background(s);
     const int coloured = !(GN_RAW_VIEWS && frame->picture.format == GN_FORMAT_RAW32);
-    const uint32_t n_linked = sort_runs(s, s->rect.y1 - s->rect.y0);
-    if (!n_linked && !(GN_LAYERS(frame) && coloured && gn_layers_count(scratch))) return;
+    const int links = sort_runs(s, s->rect.y1 - s->rect.y0);
+    if (!links && !(GN_LAYERS(frame) && coloured && gn_layers_count(scratch))) return;
     s->cache.object = NULL;
 #if GN_INTERPOLATES
     gn_lattice_begin_tile(s);
 #endif
     s->cache.lights = GN_PUNCTUAL_LIGHTS && GN_TILE_LIGHTS ? gn_punctual_in_tile(frame, &s->rect) : UINT64_MAX;
     for (uint32_t i = 0; i < GN_VERTEX_CACHE; i++) gn_vertex_drop(&scratch->vertex[i]);
-    if (n_linked) shade_triangles(s, tile_idx);
+    if (links) shade_triangles(s, tile_idx);
     if (GN_LAYERS(frame) && coloured) shade_layers(s, tile_idx);
 }

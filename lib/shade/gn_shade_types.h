@@ -281,7 +281,7 @@ typedef struct {
     int32_t size_log2;
     uint32_t bend_q16[2]; /* by how much view depths differ along and across rows, as a share of the least */
     int near;             /* no shadow fades at any corner */
-    uint32_t across_q16;  /* diagonal of its corners, 0: not known yet */
+    uint64_t sides_q30;   /* of its sides, 0: not known yet */
     uint64_t error_q24;   /* of interpolated light, at most */
     uint64_t kink_q24;    /* the part of it that comes from where a light ends */
     gn_lattice_look *out;

@@ -1,8 +1,6 @@
 /* A visible triangle as a surface. */
 #include "gn_internal.h"
 
-#include <string.h>
-
 #include "base/gn_count.h"
 #include "base/gn_hint.h"
 #include "base/gn_q.h"
@@ -32,7 +30,7 @@ GN_HOT static GN_NOINLINE void find_face(const gn_frame *frame, const gn_surface
     int64_t world[3];
     for (int i = 0; i < 3; i++) {
         world[i] = 0;
-        for (int k = 0; k < 3; k++) world[i] -= gn_shr64((int64_t)s->plane.n[k] * frame->cam.axis_q30[k][i], 2);
+        for (int k = 0; k < 3; k++) world[i] -= (int64_t)s->plane.n[k] * frame->cam.axis_q30[k][i]; /* 3 * 2^60 */
     }
     if (!gn_normalise_q30(out_q30, world))
         for (int i = 0; i < 3; i++) out_q30[i] = -frame->cam.axis_q30[2][i];
@@ -46,11 +44,6 @@ GN_HOT void gn_surface_face(const gn_frame *frame, const gn_surface *s, int32_t 
         for (int i = 0; i < 3; i++) out_q30[i] = s->normal_q30[0][i];
 }
 
-GN_HOT static inline int64_t absolute(int64_t v)
-{
-    return (v ^ (v >> 63)) - (v >> 63);
-}
-
 /* Bits s .. s + 31 below the sign of 64, rounded to 31. */
 GN_HOT static inline int32_t rounded_high(int64_t v, int32_t s)
 {
@@ -58,29 +51,41 @@ GN_HOT static inline int32_t rounded_high(int64_t v, int32_t s)
     return (int32_t)(((int32_t)high >> 1) + (int32_t)(high & 1U));
 }
 
+/* 31 bits times root_q32, which has 2^31 set, over 2^32: as gn_normalise_q30() does it. */
+GN_HOT static inline int32_t normalised(int32_t n, uint32_t root)
+{
+    int64_t p = (int64_t)n * (int32_t)(root - 0x80000000U - 0x80000000U);
+    int32_t v = (int32_t)(p >> 32) + n + (int32_t)((uint32_t)p >> 31);
+    return gn_max32(-(1 << 30), gn_min32(v, 1 << 30));
+}
+
+GN_HOT static inline int64_t row_times(const int32_t row[3], int32_t x, int32_t y, int32_t z)
+{
+    return (int64_t)row[0] * x + (int64_t)row[1] * y + (int64_t)row[2] * z;
+}
+
 GN_HOT void gn_surface_normal(int32_t out_q30[3], const int32_t matrix[3][3], const gn_normal nrm_q15[3])
 {
-    int64_t a[3];
-    for (int r = 0; r < 3; r++)
-        a[r] = (int64_t)matrix[r][0] * nrm_q15[0] + (int64_t)matrix[r][1] * nrm_q15[1] +
-               (int64_t)matrix[r][2] * nrm_q15[2];
-    uint64_t any = (uint64_t)(absolute(a[0]) | absolute(a[1]) | absolute(a[2]));
-    uint32_t high = (uint32_t)(any >> 32);
-    int32_t s = high ? gn_clz32(high) - 1 : 31;
-    if (!high || (uint32_t)(any >> (32 - s)) >= 0x7FFFFFFEU) { /* short, or rounded up to 2^30 */
+    const int32_t x = nrm_q15[0], y = nrm_q15[1], z = nrm_q15[2];
+    const int64_t a = row_times(matrix[0], x, y, z), b = row_times(matrix[1], x, y, z),
+                  c = row_times(matrix[2], x, y, z);
+    /* bits of the absolute values, or 1 less of negative ones: where that makes a difference, all bits below are set */
+    const uint64_t any = (uint64_t)((a ^ a >> 63) | (b ^ b >> 63) | (c ^ c >> 63));
+    const uint32_t high = (uint32_t)(any >> 32);
+    const int32_t s = high ? gn_clz32(high) - 1 : 31;
+    if (!high || (high << s | (uint32_t)any >> (32 - s)) >= 0x7FFFFFFEU) { /* short, or rounded up to 2^30 */
         gn_xform_normal(out_q30, matrix, nrm_q15);
         return;
     }
-    int32_t n[3] = {rounded_high(a[0], s), rounded_high(a[1], s), rounded_high(a[2], s)};
-    uint64_t sum = (uint64_t)gn_dot64(n, n); /* 2^58 to 3 * 2^60 */
-    int32_t up = gn_clz32((uint32_t)(sum >> 32)) & 30;
-    uint32_t root = gn_rsqrt_norm((uint32_t)((sum << up) >> 32), 2);
-    for (int i = 0; i < 3; i++) { /* as gn_normalise_q30() does it */
-        int32_t twice = up == 4 ? 2 * n[i] : n[i];
-        int64_t p = (int64_t)twice * (int32_t)(root - 0x80000000U - 0x80000000U);
-        int32_t v = (int32_t)(p >> 32) + twice + (int32_t)((uint32_t)p >> 31);
-        out_q30[i] = gn_max32(-(1 << 30), gn_min32(v, 1 << 30));
-    }
+    int32_t n[3] = {rounded_high(a, s), rounded_high(b, s), rounded_high(c, s)};
+    const uint64_t sum = (uint64_t)gn_dot64(n, n); /* 2^58 to 3 * 2^60 */
+    const uint32_t sum_high = (uint32_t)(sum >> 32);
+    const int32_t up = gn_clz32(sum_high) & 30; /* 2 or 4 */
+    const uint32_t root = gn_rsqrt_norm(sum_high << up | (uint32_t)sum >> (32 - up), 2);
+    const int32_t more = up >> 2;
+    out_q30[0] = normalised(n[0] * (1 << more), root);
+    out_q30[1] = normalised(n[1] * (1 << more), root);
+    out_q30[2] = normalised(n[2] * (1 << more), root);
 }
 
 /* Of a vertex, by way of the cache, whose entries are not used for positions here. */
@@ -111,11 +116,11 @@ GN_HOT static void normals(const gn_frame *frame, const gn_surface_cache *cache,
                            const uint16_t *idx)
 {
     const gn_mesh *mesh = s->object->mesh;
-    for (int k = 0; k < 3; k++)
-        for (int i = 0; i < 3; i++) s->normal_q30[k][i] = 0;
-    if (s->object->flags & GN_OBJECT_UNLIT && !GN_RAW_VIEWS) return;
-    if (!GN_VERTEX_NORMALS || !mesh->nrm_q15) {
-        find_face(frame, s, s->normal_q30[0]);
+    const int unlit = s->object->flags & GN_OBJECT_UNLIT && !GN_RAW_VIEWS;
+    if (unlit || !GN_VERTEX_NORMALS || !mesh->nrm_q15) {
+        for (int k = 0; k < 3; k++)
+            for (int i = 0; i < 3; i++) s->normal_q30[k][i] = 0;
+        if (!unlit) find_face(frame, s, s->normal_q30[0]);
         return;
     }
     int32_t n[3][3];
@@ -348,6 +353,16 @@ GN_HOT static void flat_plane(const gn_frame *frame, gn_surface *s, int32_t v[3]
 }
 #endif
 
+/* Depth and barycentrics of pixels. */
+GN_HOT static void find_depth(const gn_frame *frame, gn_surface *s, int32_t v[3][3])
+{
+    if (GN_FLAT_Q16(frame)) return;
+    if (s->plane.det > 0)
+        s->depth_scale = gn_bf_mul(gn_bf_from_u64((uint64_t)s->plane.det), gn_bf_from_u64(frame->cam.focal2_px_q16));
+    if (GN_HAS_BARY(s)) gn_bary_setup(&s->bary, &s->plane, v[0], v[1], v[2]);
+    (void)v;
+}
+
 GN_HOT void gn_surface_begin(const gn_frame *frame, gn_scratch *scratch, gn_surface_cache *cache, gn_surface *s,
                              const gn_tri_source *tri)
 {
@@ -356,7 +371,11 @@ GN_HOT void gn_surface_begin(const gn_frame *frame, gn_scratch *scratch, gn_surf
     use_object(frame, cache, s->object);
     const gn_mesh *mesh = s->object->mesh;
     const uint16_t *idx = mesh->idx + 3 * (size_t)tri->triangle_idx;
+#if GN_INTERPOLATES
+    int32_t(*v)[3] = s->v_q16;
+#else
     int32_t v[3][3];
+#endif
 #if GN_GLOW_TEXTURES
     s->glow = NULL;
 #endif
@@ -374,15 +393,10 @@ GN_HOT void gn_surface_begin(const gn_frame *frame, gn_scratch *scratch, gn_surf
     s->z_max_q16 = gn_max32(v[0][2], gn_max32(v[1][2], v[2][2]));
 #if GN_ORTHOGRAPHIC
     if (frame->cam.flat_q16) flat_plane(frame, s, v);
-    else
 #endif
-        if (s->plane.det > 0)
-        s->depth_scale = gn_bf_mul(gn_bf_from_u64((uint64_t)s->plane.det), gn_bf_from_u64(frame->cam.focal2_px_q16));
     attributes(frame, cache, scratch->vertex, s, idx);
-#if GN_INTERPOLATES
-    memcpy(s->v_q16, v, sizeof s->v_q16);
-#else
-    if (GN_HAS_BARY(s) && !GN_FLAT_Q16(frame)) gn_bary_setup(&s->bary, &s->plane, v[0], v[1], v[2]);
+#if !GN_INTERPOLATES
+    find_depth(frame, s, v);
 #endif
     begin_lighting(frame, cache, s, v);
 }
@@ -390,8 +404,6 @@ GN_HOT void gn_surface_begin(const gn_frame *frame, gn_scratch *scratch, gn_surf
 #if GN_INTERPOLATES
 GN_HOT void gn_surface_use_bary(const gn_frame *frame, gn_surface *s)
 {
-    if (GN_HAS_BARY(s) && !GN_FLAT_Q16(frame))
-        gn_bary_setup(&s->bary, &s->plane, s->v_q16[0], s->v_q16[1], s->v_q16[2]);
-    (void)frame;
+    find_depth(frame, s, s->v_q16);
 }
 #endif

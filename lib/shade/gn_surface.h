@@ -12,7 +12,7 @@ void gn_surface_begin(const gn_frame *frame, gn_scratch *scratch, gn_surface_cac
                       const gn_tri_source *tri);
 
 #if GN_INTERPOLATES
-/* Sets up barycentrics, for all but small triangles. */
+/* Sets up depth and barycentrics of pixels, for all but small triangles. */
 void gn_surface_use_bary(const gn_frame *frame, gn_surface *surface);
 #else
 GN_HOT static inline void gn_surface_use_bary(const gn_frame *frame, gn_surface *surface)
@@ -36,8 +36,7 @@ void gn_surface_normal(int32_t out_q30[3], const int32_t matrix[3][3], const gn_
 /* 1: constant radiance, no need to sample it. */
 GN_HOT static inline int gn_surface_is_constant(const gn_surface *s)
 {
-    return !(s->smooth | s->coloured | s->shadowed | s->textured | s->masked | s->baked | s->specular) &&
-           !s->n_punctual;
+    return !(s->has_bary | s->shadowed | s->specular) && !s->n_punctual; /* barycentrics: of what varies */
 }
 
 #endif

@@ -15,12 +15,17 @@
 /* Begins a tile: its lists are empty. */
 void gn_runs_clear(gn_scratch *scratch);
 
-/* The last cell before `end` that something covers: the background's are 0. Stops at the one before the row. */
-GN_HOT static inline uint32_t *gn_runs_last(uint32_t *end)
+/* The last cell before `end` that something covers: the background's are 0. Stops at the one before `row`. After one
+ * that is empty, cells are asked for in pairs, the first of which is that before the row and the row's first. */
+GN_HOT static inline uint32_t *gn_runs_last(uint32_t *end, const uint32_t *row)
 {
-    do end--;
-    while (!*end);
-    return end;
+    if (*--end) return end;
+    if (!((end - row) & 1) && *--end) return end;
+    do {
+        end -= 2;
+        GN_KEEP(end); /* one pointer */
+    } while (!(end[0] | end[1]));
+    return end[1] ? end + 1 : end;
 }
 
 /* The first cell of the run that ends with `last`. The one before the row must be of no triangle: UINT32_MAX. */
@@ -35,13 +40,13 @@ GN_HOT static inline uint32_t *gn_runs_first(uint32_t *last, uint32_t id_mask)
 
 /* Links a run at the head of its list: runs come from the tile's last to its first, so that each list begins with what
  * comes first. */
-GN_HOT static inline void gn_runs_link(gn_scratch *scratch, uint32_t id, uint32_t first, uint32_t n_px)
+GN_HOT static inline void gn_runs_link(gn_scratch *scratch, uint32_t id, uint32_t *first, uint32_t n_px)
 {
     gn_run_idx *list = &scratch->run_list[id & (GN_RUN_LISTS - 1)];
-    uint32_t next = *list == GN_RUN_NONE ? first : *list;
-    GN_CELLS(scratch)[first] = next << 16 | id;
-    if (n_px > 1) GN_CELLS(scratch)[first + 1] = n_px << 16 | id;
-    *list = (gn_run_idx)first;
+    uint32_t at = (uint32_t)(first - GN_CELLS(scratch)), next = *list == GN_RUN_NONE ? at : *list;
+    first[0] = next << 16 | id;
+    if (n_px > 1) first[1] = n_px << 16 | id;
+    *list = (gn_run_idx)at;
 }
 
 /* Leaves a run out: nothing that is linked goes on in its cells. */

@@ -51,7 +51,7 @@ board_guards() { # board_guards BOARD
         status=$?
         case $args in
         none) expected='^stack [0-9]* bytes$' ;;
-        trap) expected='^fault: exception [0-9]* pc=[0-9a-f]* lr=' ;;
+        trap) expected='^fault: exception [0-9]* pc=0*[1-9a-f][0-9a-f]* lr=' ;;
         stack) expected='the stack ran over' ;;
         esac
         if [ $((status != 0)) = "$([ $args = none ] && echo 0 || echo 1)" ] && grep -q "$expected" "$tmp/guard$1"; then echo ok

@@ -37,6 +37,19 @@ for app in "$cube IMAGE=test-cube" APP=crc; do
     grep -E '^[0-9a-f]{8} frame|^frame [0-9] crc' "$tmp/host.log" | cmp -s - "$tmp/crcs" && [ -s "$tmp/crcs" ] && pass || fail "$app: other pictures: $(cat "$tmp/crcs")"
 done
 
+# From a model of one's own to its spinning picture: one command.
+printf 'v -1 0 -1\nv 1 0 -1\nv 1 0 1\nv -1 0 1\nv 0.5 2 0\nf 1 5 2\nf 2 5 3\nf 3 5 4\nf 4 5 1\n' >"$tmp/roof.obj"
+for n in 1 2; do
+    pico screen APP=show SCENE="$tmp/roof.obj" TURN=8 ARGS=$n SCREEN_OUT="$tmp/show$n.ppm" && pass || fail "a model of one's own: $(tail -n 1 "$tmp/log")"
+done
+build/gnomon render "$tmp/roof.obj" -o "$tmp/roof.png" --set output=rgb565 --set atlas_size=256 >"$tmp/log" 2>&1
+cmp -s "$tmp/show1.png" "$tmp/roof.png" && pass || fail "a model of one's own: the display shows another picture than the tool"
+[ -s "$tmp/show2.png" ] && ! cmp -s "$tmp/show2.png" "$tmp/show1.png" && pass || fail "a model of one's own does not turn"
+
+# The core's own counter says what the emulator counts, but for the set-up before the picture.
+pico emulate APP=bench SCENE=docs/scenes/near.gltf IMAGE=test-bench SCENE_FLAGS="--size 64x64 --set preset=tiny --set output=rgb565" && pass || fail "bench: $(tail -n 1 "$tmp/log")"
+awk '/^cycles / { own = $2 / 1e6 } /^frame 0: / { all = $6 } END { exit !(own > 1 && own <= all + 0.05 && own > 0.95 * all) }' "$tmp/log" && pass || fail "bench: $(tr '\n' ';' <"$tmp/log")"
+
 # What cannot run says so.
 run() { NODE_PATH=build/node_modules node boards/tools/pico.js "$@" >"$tmp/log" 2>&1; }
 image=build/firmware/pico/crc

@@ -206,6 +206,10 @@ int main(void)
             demo.scene.shadow.distance_fade_uq16 = demo.scene.shadow.cascade_fade_uq16 = GN_UQ16(0.01);
         }
         compare_all("plain", 16);
+        const uint32_t n_lights = demo.scene.n_lights;
+        demo.scene.n_lights = 0; /* colours of vertices, and nothing else */
+        compare_all("unlit", 16);
+        demo.scene.n_lights = n_lights;
         add_texture(&texture, 19); /* rows of more triangles, those that get deeper to the right, too */
         compare_all("stretched", 16);
         add_texture(&texture, 17);

@@ -565,6 +565,25 @@ static void test_obj_lacks(void)
     scene_free(&s);
 }
 
+/* What other viewers draw: corners of normals that are not there, points among the faces, a material called as ours
+ * before any usemtl. */
+static void test_obj_odd(void)
+{
+    static const char mtl[] = "newmtl default\nKd 1 0 0\n";
+    write_file(TMP ".mtl", mtl, sizeof mtl - 1);
+    if (!CHECK_EQ_INT(load_text(TMP ".obj",
+                                "mtllib test_scene.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1\nf 1 2\nf 1//1 2/7/2 3//-1\n"
+                                "usemtl default\nf 1 3 2\n"),
+                      0))
+        return (void)puts(error);
+    CHECK(has_note("name a normal out of range") && has_note("name a texture coordinate") && has_note("less than 3"));
+    CHECK(!s.meshes[0].nrm && s.meshes[0].n_triangles == 1 && s.n_notes == 3);
+    CHECK_NEAR(s.objects[0].albedo[1], 0.8, 0);
+    CHECK_NEAR(s.objects[1].albedo[1], 0, 0);
+    check_invariants();
+    scene_free(&s);
+}
+
 static void test_obj_errors(void)
 {
     char text[300];
@@ -868,6 +887,7 @@ int main(void)
     test_obj();
     test_obj_transparency();
     test_obj_lacks();
+    test_obj_odd();
     test_obj_errors();
     test_normals();
     test_split();

@@ -15,6 +15,24 @@ static int load_light(const char *members, const char *node_members)
     return load_text(TMP ".gltf", replaced(text, "\"name\":\"sun\"", node_members));
 }
 
+/* As bright as white, or in lux: white is what is left of the brightest, and the others are dimmed with it. */
+static void test_dimmed(void)
+{
+    static const char *const intensity[] = {"314", "315", "68300"};
+    for (int i = 0; i < 3; i++) {
+        char members[200];
+        snprintf(members, sizeof members, "\"intensity\":%s,\"color\":[1,0.5,0.25],\"type\":\"directional\"",
+                 intensity[i]);
+        const char *text = replaced(without_animation(base_json), "\"color\":", "\"x\":");
+        text = replaced(replaced(text, "\"intensity\":", "\"y\":"), "\"type\":\"directional\"", members);
+        if (!CHECK_EQ_INT(load_text(TMP ".gltf", text), 0)) return (void)puts(error);
+        CHECK_NEAR(s.lights[0].colour[0], i == 0 ? 314 / 3.141592653589793 : 0.85, 1e-12);
+        CHECK_NEAR(s.lights[0].colour[2], s.lights[0].colour[0] / 4, 1e-12);
+        CHECK((s.n_remarks == 1 && has_note("dimmed")) == (i > 0));
+        scene_free(&s);
+    }
+}
+
 static void test_spot(void)
 {
     static const char members[] =
@@ -317,6 +335,7 @@ int main(void)
     mkdir("build/tmp", 0777);
     make_base_bin();
     write_file(TMP ".bin", base_bin, sizeof base_bin);
+    test_dimmed();
     test_spot();
     test_cones();
     test_point();

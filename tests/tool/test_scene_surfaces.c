@@ -171,6 +171,41 @@ static void test_image_places(void)
     } else puts(error);
 }
 
+/* KHR_texture_transform, and its own texCoord: scaled, a quarter turn, moved. */
+static void test_texture_transform(void)
+{
+    double before[8];
+    if (!CHECK_EQ_INT(load_textured("\"name\":\"a\"", "\"name\":\"A\""), 0)) return;
+    memcpy(before, s.meshes[1].uv, sizeof before);
+    scene_free(&s);
+    if (!CHECK_EQ_INT(
+            load_textured("\"texCoord\":1",
+                          "\"texCoord\":0,\"extensions\":{\"KHR_texture_transform\":{\"texCoord\":1,\"offset\":"
+                          "[0.5,0.25],\"rotation\":1.5707963267948966,\"scale\":[2,3]}}"),
+            0))
+        return (void)puts(error);
+    CHECK(s.n_notes == 0);
+    for (int i = 0; i < 4; i++) {
+        CHECK_NEAR(s.meshes[1].uv[2 * i], 3 * before[2 * i + 1] + 0.5, 1e-12);
+        CHECK_NEAR(s.meshes[1].uv[2 * i + 1], -2 * before[2 * i] + 0.25, 1e-12);
+    }
+    scene_free(&s);
+    CHECK(load_textured("\"texCoord\":1",
+                        "\"texCoord\":1,\"extensions\":{\"KHR_texture_transform\":{\"scale\":[1e308,1e308]}}") &&
+          strstr(error, "transformed value"));
+}
+
+/* A file may have its meshes twice; one that has them compressed alone is no scene. */
+static void test_compressed(void)
+{
+    make_png(2, 2, checks);
+    const char *json = replaced(textured(), "[{\"attributes\":{",
+                                "[{\"extensions\":{\"KHR_draco_mesh_compression\":{}},\"attributes\":{");
+    if (CHECK_EQ_INT(load_text(TMP ".gltf", json), 0)) scene_free(&s);
+    CHECK(load_text(TMP ".gltf", replaced(json, "\"accessors\":[{\"bufferView\":0,", "\"accessors\":[{")) &&
+          strstr(error, "mesh 'mesh 0' is compressed"));
+}
+
 static void test_texture_changes(void)
 {
     static const change notes[] = {
@@ -181,8 +216,10 @@ static void test_texture_changes(void)
          "texture 'checks': marker FF 89 is out of place: it is drawn without"},
         {"data:image/png;base64,", "data:image/png;base64,UklG", "texture 'checks' ignored: only PNG and JPEG images"},
         {"\"texCoord\":1", "\"texCoord\":2", "base colour texture of material 'glass' ignored: it takes TEXCOORD_2"},
-        {"\"texCoord\":1", "\"texCoord\":0,\"extensions\":{\"KHR_texture_transform\":{}}",
-         "texture transform of material 'glass'"},
+        {"\"name\":\"paint\"",
+         "\"name\":\"paint\",\"emissiveFactor\":[1,1,1],\"emissiveTexture\":{\"index\":0,\"extensions\":{"
+         "\"KHR_texture_transform\":{\"offset\":[0,1]}}}",
+         "emissive texture of material 'paint' ignored: it lies otherwise"},
         {"\"name\":\"paint\"", "\"name\":\"paint\",\"emissiveFactor\":[1,1,1],\"emissiveTexture\":{\"index\":1}",
          "emissive texture of material 'paint' ignored: it wraps otherwise"},
         {"\"name\":\"paint\"",
@@ -609,6 +646,8 @@ int main(void)
     test_textured();
     test_image_places();
     test_jpeg_texture();
+    test_texture_transform();
+    test_compressed();
     test_texture_changes();
     test_shared_textures();
     test_levels();

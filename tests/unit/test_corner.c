@@ -518,6 +518,74 @@ static void check_part(gn_lattice *l, const gn_surface *s, const gn_rect *r, con
     l->cascade = l->surface_cascade;
 }
 
+/* Light between corners of spots and point lights, where all of it arrives: the largest share of the bound. */
+static double worst_light;
+static long n_light, n_split;
+
+static void check_light_inside(gn_lattice_cell *cell, uint32_t slot, double bound)
+{
+    static gn_sample sample;
+    static gn_corner at;
+    const gn_corner *first = cell->corner[0];
+    const int size = 1 << cell->size_log2;
+    for (int y = 0; y <= size; y += size / 4)
+        for (int x = 0; x <= size; x += size / 4) {
+            gn_corner_find(cell->lattice, cell->frame, cell->s, first->x + x, first->y + y, &sample, &at);
+            if (at.state != GN_CORNER_KNOWN) continue;
+            const double right = (double)x / size, down = (double)y / size;
+            double between = 0;
+            for (int i = 0; i < 4; i++)
+                between += (i & 1 ? right : 1 - right) * (i & 2 ? down : 1 - down) *
+                           cell->corner[i]->light[slot].irradiance_q24;
+            const double real = at.light[slot].irradiance_q24;
+            if (!CHECK(fabs(between - real) <= bound + fmax(between, real) * 0x1p-13 + 2)) /* 2^-14 each */
+                printf("%d pixels, at %d %d: %.0f, in between %.0f, off by at most %.0f\n", size, x, y, real, between,
+                       bound);
+            worst_light = fmax(worst_light, (fabs(between - real) - fmax(between, real) * 0x1p-13 - 2) / bound);
+            n_light++;
+        }
+}
+
+static void check_light(const gn_lattice *from, const gn_surface *s, int x, int y, int size_log2)
+{
+    static gn_shading shading;
+    static gn_sample sample;
+    static gn_corner corner[4];
+    gn_corner *corners[4];
+    shading.frame = &renderer.frame;
+    shading.surface = *s;
+    shading.lattice = *from;
+    gn_lattice *l = &shading.lattice;
+    for (int i = 0; i < 4; i++) {
+        corners[i] = &corner[i];
+        gn_corner_find(l, shading.frame, s, x + ((i & 1) << size_log2), y + ((i >> 1) << size_log2), &sample,
+                       corners[i]);
+        if (corner[i].state != GN_CORNER_KNOWN) return;
+    }
+    gn_lattice_cell cell = {.lattice = l,
+                            .frame = shading.frame,
+                            .s = &shading.surface,
+                            .corner = corners,
+                            .size_log2 = size_log2,
+                            .out = &l->look};
+    if (size_log2 <= gn_cell_finest_log2(cell.frame) || !gn_cell_find_bend(&cell)) return;
+    for (uint32_t slot = 0; slot < s->n_lights; slot++) {
+        int32_t least = INT32_MAX, most = 0;
+        int fully = s->light[slot].state->kind != GN_LIGHT_DIRECTIONAL;
+        for (int i = 0; i < 4; i++) {
+            const gn_corner_light *at = &corner[i].light[slot];
+            fully &= at->arrives == GN_CORNER_FULLY && at->irradiance_q24 > 0 && at->irradiance_q24 < 7 << 24;
+            if (at->irradiance_q24 < least) least = at->irradiance_q24;
+            if (at->irradiance_q24 > most) most = at->irradiance_q24;
+        }
+        uint32_t kink;
+        if (!fully) continue;
+        const double bound = gn_cell_unevenness_q24(&cell, slot, least, most, &kink);
+        n_split += bound >= 3.99 * most;
+        if (bound < 3.99 * most) check_light_inside(&cell, slot, bound); /* else the cell is split in any case */
+    }
+}
+
 /* ---- Tests ------------------------------------------------------------------------------------------------------- */
 
 static long n_known, n_unseen, n_wide;
@@ -591,6 +659,9 @@ static void check_scene(const gn_knobs *knobs)
         n_no_plane += !has_plane;
         for (int y = r.y0 - 6; has_plane && y < r.y1 + 14; y += 5)
             for (int x = r.x0 - 6; x < r.x1 + 14; x += 7) check_corner(&lattice, &surface, &p, &r, x, y);
+        for (int i = 0; has_plane && surface.n_punctual && i < 6; i++)
+            check_light(&lattice, &surface, (int)uniform(r.x0 - 12, r.x1 + 2), (int)uniform(r.y0 - 12, r.y1 + 2),
+                        3 + i % 2);
         for (int i = 0; has_plane && surface.textured && i < 6; i++)
             check_cell(&lattice, &surface, &p, (int)uniform(r.x0 - 6, r.x1 + 2), (int)uniform(r.y0 - 6, r.y1 + 2),
                        1 + i % 4);
@@ -611,6 +682,10 @@ int main(int argc, char **argv)
            n_known, n_wide, n_unseen, n_no_plane, n_planes + n_no_plane, n_certain, n_uncertain);
     printf("cells: coordinates of %ld bend along rows, of %ld down columns, of %ld not\n", n_bent_rows, n_bent_columns,
            n_straight);
+    printf(
+        "cells: light between corners at %ld places, off by up to %.2f of the bound; %ld cells are close to a light\n",
+        n_light, worst_light, n_split);
+    CHECK(n_light > 5000 && worst_light > 0.3 && n_split > 10);
     CHECK(n_bent_rows > 300 && n_bent_columns > 300 && n_straight > 100);
     CHECK(n_planes > 2 * n_no_plane);
     CHECK(n_flat > 1000 && n_flat > 2 * n_not_flat);

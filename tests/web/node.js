@@ -33,10 +33,11 @@ const cubeBefore = cube();
 
 // ---- Files and numbers, to the byte -------------------------------------------------------------------------------------
 
-for (const name of fs.readdirSync('host/scenes')) {
-  native('render', `scenes/${name}`, '-o', `${folder}/native.png`);
-  const {status} = engine.run(['render', `scenes/${name}`, '-o', 'out.png']);
-  check(status === 0 && fs.readFileSync(`${folder}/native.png`).equals(files.get('out.png')), `${name}: another PNG file than the native tool's`);
+const COMPACT = ['--size', '160x120', '--set', 'compact=1'];
+for (const [name, ...how] of [...fs.readdirSync('host/scenes').map((name) => [name]), ['sundial.gltf', ...COMPACT], ['avenue.gltf', ...COMPACT]]) {
+  native('render', `scenes/${name}`, '-o', `${folder}/native.png`, ...how);
+  const {status} = engine.run(['render', `scenes/${name}`, '-o', 'out.png', ...how]);
+  check(status === 0 && fs.readFileSync(`${folder}/native.png`).equals(files.get('out.png')), `${name} ${how.join(' ')}: another PNG file than the native tool's`);
 }
 for (const scene of ['scenes/cube.gltf', 'scenes/desk.gltf']) {
   const words = ['compile', scene, '--frames', '0-3', '--set', 'preset=fast', '-o'];

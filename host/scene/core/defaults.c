@@ -274,7 +274,7 @@ bool loader_add_defaults(loader *l)
     static const double ambient[3] = {0.18, 0.18, 0.18}, background[3] = {0.35, 0.45, 0.6};
     scene *s = l->s;
     bounds b;
-    if (!find_bounds(l, &b)) return false;
+    if (!find_bounds(l, &b) || !lights_dim(l, b.centre, b.radius)) return false;
     const floor_parts parts = find_floor(l, &b);
     l->wants_ground = decide_ground(l, &b, &parts);
     s->added = (scene_added){.ground = l->wants_ground, .camera = !l->has_camera, .light = s->n_lights == 0};

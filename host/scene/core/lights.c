@@ -12,6 +12,7 @@ static const double first_azimuth_deg = -60; /* from the camera's: to its left, 
 static const double next_azimuth_deg = 100;  /* another light of the same kind stands elsewhere */
 static const double elevation_deg = 45;
 static const double directional_intensity = 0.85;
+static const double too_bright = 100;           /* times what shows white as white: no picture is left */
 static const double lamp_light = 0.8;           /* of spot and point lights, at the centre of what they light */
 static const double spot_distance_radii = 3;    /* far enough that the cone is not wide ... */
 static const double point_distance_radii = 1.6; /* ... and near enough that shadows spread */
@@ -53,6 +54,27 @@ void lights_set_near(scene *s, const scene_poses *poses, const double *low, cons
             distance = fmin(distance, farthest_corner(poses->light[k * poses->n_lights + i], low, high));
         light->near = near_ratio * fmax(distance, LIGHT_MIN_RANGE);
     }
+}
+
+/* What a light gives from afar: a lamp in the scene's middle, as it were at its rim. */
+static double brightness(const scene_light *light, const double *centre, double radius)
+{
+    double away[3], brightest = 0;
+    for (int i = 0; i < 3; i++) brightest = fmax(brightest, light->colour[i]);
+    if (light->kind == SCENE_LIGHT_DIRECTIONAL) return brightest;
+    vec_sub(away, light->position, centre);
+    return brightest / fmax(vec_dot(away, away), radius * radius);
+}
+
+bool lights_dim(loader *l, const double *centre, double radius)
+{
+    double most = 0;
+    for (size_t i = 0; i < l->s->n_lights; i++) most = fmax(most, brightness(&l->s->lights[i], centre, radius));
+    if (most <= too_bright) return true;
+    for (size_t i = 0; i < l->s->n_lights; i++)
+        for (int k = 0; k < 3; k++) l->s->lights[i].colour[k] *= directional_intensity / most;
+    return loader_remark(l, "lights are %.0f times as bright as what shows white: all are dimmed to 1/%.0f", most,
+                         most / directional_intensity);
 }
 
 static bool is_caster(const scene *s, const scene_object *object, const double *point)

@@ -158,6 +158,8 @@ void light_set_defaults(scene_light *light);
  * farthest corner of the whole animation's box from the place that is nearest to it, one for all frames: shadows do not
  * swim. A range far beyond the scene says nothing of what is in it. */
 void lights_set_near(scene *s, const scene_poses *poses, const double *low, const double *high);
+/* Lights in lux and watts leave nothing but white: there is no exposure, so that they are dimmed, with a remark. */
+bool lights_dim(loader *l, const double *centre, double radius);
 bool lights_add(loader *l, const char *name, scene_light_kind kind);
 /* For those that settings add: around what, if something moves. */
 void lights_find_stage(loader *l);

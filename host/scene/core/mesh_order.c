@@ -42,7 +42,7 @@ static uint32_t place_on_curve(const double at[3], const double low[3], double s
 
 const uint32_t *mesh_order(loader *l, const scene_mesh *input, const uint32_t *idx, size_t n_triangles)
 {
-    double low[3] = {INFINITY, INFINITY, INFINITY}, at[3], size = 0;
+    double low[3] = {HUGE_VAL, HUGE_VAL, HUGE_VAL}, at[3], size = 0;
     if (n_triangles < ORDER_MIN_TRIANGLES) return idx;
     ordered_triangle *order = loader_alloc(l, n_triangles, sizeof *order);
     uint32_t *out = loader_alloc(l, n_triangles, 3 * sizeof *out);

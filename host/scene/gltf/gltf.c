@@ -14,7 +14,7 @@ enum {
 static bool is_supported(const char *extension)
 {
     static const char *const names[] = {"KHR_lights_punctual", "KHR_materials_emissive_strength", "KHR_materials_unlit",
-                                        "KHR_mesh_quantization"};
+                                        "KHR_mesh_quantization", "KHR_texture_transform"};
     for (size_t i = 0; i < sizeof names / sizeof *names; i++) {
         if (strcmp(extension, names[i]) == 0) return true;
     }

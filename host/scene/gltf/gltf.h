@@ -34,10 +34,16 @@ typedef struct {
     size_t first_mesh[2], n_meshes[2];
 } gltf_primitive;
 
+/* KHR_texture_transform: texture coordinates times scale, turned by -rotation, plus offset. */
+typedef struct {
+    double offset[2], rotation, scale[2];
+} gltf_uv_transform;
+
 typedef struct {
     scene_object surface; /* all but name, mesh and place */
     scene_caster casting; /* what casts = 1 means for it */
     size_t uv_set;        /* of its texture; GLTF_NONE: none */
+    gltf_uv_transform uv;
 } gltf_material;
 
 typedef struct {
@@ -108,6 +114,7 @@ bool gltf_read_accessor(gltf *g, size_t accessor_idx, gltf_array *out);
 /* gltf_attribute.c: every attribute of ours but texture coordinates, which are read where something looks them up. */
 typedef struct {
     size_t uv_set; /* 0, 1 or GLTF_NONE */
+    const gltf_uv_transform *uv;
     bool mask_uv;
 } gltf_wants;
 bool gltf_read_attributes(gltf *g, const json_value *attributes, const gltf_wants *wants, scene_mesh *out,

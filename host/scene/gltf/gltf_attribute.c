@@ -26,7 +26,7 @@ static bool is_float_or_normalized(const gltf_array *a)
 static bool check_range(gltf *g, const json_value *where, const gltf_array *a, const char *what)
 {
     for (size_t i = 0; i < a->n_components * a->count; i++) {
-        if (fabs(a->values[i]) > LOADER_MAX_COORDINATE)
+        if (!(fabs(a->values[i]) <= LOADER_MAX_COORDINATE))
             return gltf_fail(g, where, "vertex %zu: %s %g is out of range", i / a->n_components, what, a->values[i]);
     }
     return true;
@@ -76,10 +76,25 @@ static bool read_colour(gltf *g, const json_value *attributes, scene_mesh *out)
     return loader_note(g->l, "vertex colours of '%s' outside 0..1 are clamped", out->name);
 }
 
+static void transform(double *uv, size_t n, const gltf_uv_transform *t)
+{
+    const double c = cos(t->rotation), s = sin(t->rotation);
+    for (size_t i = 0; i < n; i++, uv += 2) {
+        const double u = uv[0] * t->scale[0], v = uv[1] * t->scale[1];
+        uv[0] = c * u + s * v + t->offset[0];
+        uv[1] = c * v - s * u + t->offset[1];
+    }
+}
+
 static bool read_texture_coordinates(gltf *g, const json_value *attributes, const gltf_wants *wants, scene_mesh *out)
 {
     const char *name = wants->uv_set == 1 ? "TEXCOORD_1" : "TEXCOORD_0";
     if (wants->uv_set != GLTF_NONE && !read_real(g, attributes, name, 2, out->n_vertices, &out->uv)) return false;
+    if (out->uv) {
+        transform(out->uv, out->n_vertices, wants->uv);
+        const gltf_array moved = {.count = out->n_vertices, .n_components = 2, .values = out->uv};
+        if (!check_range(g, json_get(attributes, name), &moved, "transformed value")) return false;
+    }
     if (!wants->mask_uv) return true;
     if (!read_real(g, attributes, "TEXCOORD_1", 2, out->n_vertices, &out->mask_uv)) return false;
     if (!out->mask_uv || loader_clamp_colour(out->mask_uv, 2 * out->n_vertices)) return true;

@@ -13,25 +13,45 @@ static bool note_texture(gltf *g, const json_value *owner, const char *key, cons
                        what, material);
 }
 
+/* Where a texture lies; texCoord of the extension goes before that of the texture. */
+static bool read_coordinates(gltf *g, const json_value *info, size_t *set, gltf_uv_transform *out)
+{
+    const json_value *json;
+    *set = 0;
+    *out = (gltf_uv_transform){.scale = {1, 1}};
+    return gltf_get_size(g, info, "texCoord", set) && gltf_get_extension(g, info, "KHR_texture_transform", &json) &&
+           gltf_get_size(g, json, "texCoord", set) && gltf_get_numbers(g, json, "offset", out->offset, 2) &&
+           gltf_get_number(g, json, "rotation", &out->rotation) && gltf_get_numbers(g, json, "scale", out->scale, 2);
+}
+
+static bool lies_alike(const gltf_uv_transform *a, const gltf_uv_transform *b)
+{
+    for (int i = 0; i < 2; i++)
+        if (fabs(a->offset[i] - b->offset[i]) > 0 || fabs(a->scale[i] - b->scale[i]) > 0) return false;
+    return !(fabs(a->rotation - b->rotation) > 0);
+}
+
 /* A texture of a material, `what`. *out SCENE_NONE: none, or ignored with a note. Textures of a surface share a set of
  * coordinates. */
-static bool read_texture(gltf *g, const json_value *info, const char *what, const char *name, size_t *uv_set,
+static bool read_texture(gltf *g, const json_value *info, const char *what, gltf_material *material, const char *name,
                          size_t *out)
 {
-    const json_value *transform;
-    size_t idx = GLTF_NONE, set = 0;
+    gltf_uv_transform uv;
+    size_t idx = GLTF_NONE, set;
     *out = SCENE_NONE;
     if (!info) return true;
-    if (!gltf_get_ref(g, info, "index", g->textures, &idx) || !gltf_get_size(g, info, "texCoord", &set) ||
-        !gltf_get_extension(g, info, "KHR_texture_transform", &transform))
-        return false;
+    if (!gltf_get_ref(g, info, "index", g->textures, &idx) || !read_coordinates(g, info, &set, &uv)) return false;
     if (idx == GLTF_NONE) return gltf_fail(g, info, "index is missing");
-    if (transform && !loader_note(g->l, "texture transform of material '%s' ignored: it is not supported", name))
-        return false;
-    if (set > 1 || (*uv_set != GLTF_NONE && *uv_set != set))
+    const bool first = material->uv_set == GLTF_NONE;
+    if (set > 1 || (!first && material->uv_set != set))
         return loader_note(g->l, "%s texture of material '%s' ignored: it takes TEXCOORD_%zu", what, name, set);
+    if (!first && !lies_alike(&uv, &material->uv))
+        return loader_note(g->l, "%s texture of material '%s' ignored: it lies otherwise than the base colour's", what,
+                           name);
     if (!gltf_load_texture(g, idx, false, out)) return false;
-    if (*out != SCENE_NONE) *uv_set = set;
+    if (*out == SCENE_NONE) return true;
+    material->uv_set = set;
+    material->uv = uv;
     return true;
 }
 
@@ -48,7 +68,7 @@ static bool read_colour(gltf *g, const json_value *json, const char *name, gltf_
     out->surface.alpha = factor[3];
     const json_value *info = NULL;
     return gltf_get(g, pbr, "baseColorTexture", JSON_OBJECT, &info) &&
-           read_texture(g, info, "base colour", name, &out->uv_set, &out->surface.texture_idx) &&
+           read_texture(g, info, "base colour", out, name, &out->surface.texture_idx) &&
            note_texture(g, pbr, "metallicRoughnessTexture", "metallic-roughness", name) &&
            note_texture(g, json, "normalTexture", "normal", name) &&
            note_texture(g, json, "occlusionTexture", "occlusion", name);
@@ -107,8 +127,7 @@ static bool read_emissive(gltf *g, const json_value *json, const char *name, glt
     for (int i = 0; i < 3; i++) emissive[i] = fmin(emissive[i] * strength, 255);
     if (!gltf_get(g, json, "emissiveTexture", JSON_OBJECT, &info)) return false;
     if (!info || !(emissive[0] > 0 || emissive[1] > 0 || emissive[2] > 0)) return true;
-    if (!read_texture(g, info, "emissive", name, &out->uv_set, texture) ||
-        !wraps_alike(g, &out->surface, name, texture))
+    if (!read_texture(g, info, "emissive", out, name, texture) || !wraps_alike(g, &out->surface, name, texture))
         return false;
     for (int i = 0; *texture == SCENE_NONE && i < 3; i++) emissive[i] = 0;
     return true;

@@ -58,6 +58,15 @@ static bool assemble(gltf *g, const json_value *primitive, size_t mode, scene_me
     return true;
 }
 
+/* Whether positions are there uncompressed, too. */
+static bool has_data(gltf *g, const json_value *attributes)
+{
+    size_t accessor = GLTF_NONE;
+    return !gltf_get_ref(g, attributes, "POSITION", g->accessors, &accessor) || accessor == GLTF_NONE ||
+           json_get(g->accessors->children[accessor], "bufferView") ||
+           json_get(g->accessors->children[accessor], "sparse");
+}
+
 /* n_triangles stays 0 for what is skipped, with a note. */
 static bool read_primitive(gltf *g, const json_value *primitive, const char *name, const gltf_wants *wants,
                            scene_mesh *out, mesh_light *light)
@@ -72,6 +81,8 @@ static bool read_primitive(gltf *g, const json_value *primitive, const char *nam
     if (mode > MODE_FAN) return gltf_fail(g, json_get(primitive, "mode"), "mode %zu is unknown", mode);
     if (mode < MODE_TRIANGLES)
         return loader_note(g->l, "points and lines of mesh '%s' ignored: only triangles are drawn", name);
+    if (json_get(json_get(primitive, "extensions"), "KHR_draco_mesh_compression") && !has_data(g, attributes))
+        return gltf_fail(g, primitive, "mesh '%s' is compressed, which is not supported", name);
     if (!json_get(attributes, "POSITION"))
         return loader_note(g->l, "primitive of mesh '%s' ignored: it has no POSITION", name);
     if (json_get(primitive, "targets") &&
@@ -81,10 +92,10 @@ static bool read_primitive(gltf *g, const json_value *primitive, const char *nam
            (out->n_triangles == 0 || mesh_prepare_normals(g->l, out));
 }
 
-static bool load_primitive(gltf *g, const json_value *json, const char *name, size_t uv_set, bool flip,
+static bool load_primitive(gltf *g, const json_value *json, const char *name, const gltf_material *material, bool flip,
                            gltf_primitive *out)
 {
-    const gltf_wants wants = {.uv_set = uv_set, .mask_uv = g->has_mask_texture};
+    const gltf_wants wants = {.uv_set = material->uv_set, .uv = &material->uv, .mask_uv = g->has_mask_texture};
     scene_mesh mesh;
     mesh_light light = {0};
     mesh_splitter splitter;
@@ -134,7 +145,7 @@ static bool emit_primitive(gltf *g, const gltf_node *node, const json_value *jso
     if (!gltf_read_material(g, json, node->moves || skin->moves, &material) ||
         !gltf_material_knobs(g, node->json, &material))
         return false;
-    if (!load_primitive(g, json, mesh_name, material.uv_set, flip, primitive)) return false;
+    if (!load_primitive(g, json, mesh_name, &material, flip, primitive)) return false;
     if (primitive->n_meshes[flip] == 0) return true; /* skipped, with a note */
     scene_object object = material.surface;
     place(&object, g, node, skin);

@@ -57,13 +57,15 @@ static bool read_texture_coordinate(obj_file *o, obj_text *t)
     return o->n_vt < INT32_MAX || obj_fail(t, "too many texture coordinates");
 }
 
-/* One index of a corner: 1 is the first element, -1 the last one so far. */
+/* One index of a corner: 1 is the first element, -1 the last one so far. A shape can do without normals and texture
+ * coordinates that are not there, OBJ_NONE, but not without vertices. */
 static bool read_index(obj_text *t, const char *word, char **end, size_t n, const char *what, uint32_t *out)
 {
     if (strspn(word, "+-0123456789") == 0) return obj_fail(t, "an index of a %s is missing", what);
     long long value = strtoll(word, end, 10); /* saturates, and is then out of range */
     if (value < 0) value = value < -(long long)n ? 0 : value + (long long)n + 1;
     if (value < 1 || value > (long long)n) {
+        if (*what != 'v') return loader_remark(t->l, "corners that name a %s out of range have none", what);
         return obj_fail(t, "%s index %.*s is out of range, there are %zu so far", what, (int)(*end - word), word, n);
     }
     *out = (uint32_t)(value - 1);
@@ -78,12 +80,12 @@ static bool read_corner(obj_file *o, obj_text *t, char *word, obj_corner *out)
     if (!read_index(t, word, &at, o->n_v, "vertex", &out->v)) return false;
     if (*at == '/') {
         at++;
-        if (*at && *at != '/' && !read_index(t, at, &at, o->n_vt, "texture", &out->vt)) return false;
+        if (*at && *at != '/' && !read_index(t, at, &at, o->n_vt, "texture coordinate", &out->vt)) return false;
         if (*at == '/') {
             at++;
             if (!*at) return true;
             if (!read_index(t, at, &at, o->n_vn, "normal", &out->vn)) return false;
-            o->has_vn = true;
+            o->has_vn = o->has_vn || out->vn != OBJ_NONE;
         }
     }
     return *at == '\0' || obj_fail(t, "'%.40s' is not a corner of a face", word);
@@ -134,7 +136,7 @@ static bool read_face(obj_file *o, obj_text *t)
         if (n == MAX_CORNERS) return obj_fail(t, "a face of more than %d corners", MAX_CORNERS);
         if (!read_corner(o, t, word, &corners[n++])) return false;
     }
-    if (n < 3) return obj_fail(t, "a face needs 3 corners, this one has %zu", n);
+    if (n < 3) return loader_remark(t->l, "faces of less than 3 corners are left out");
     if (n > 3 && fan_folds(o, corners, n) && !obj_note(t, "a concave polygon is cut into a fan: it may look wrong"))
         return false;
     for (size_t i = 1; i + 1 < n; i++) {
@@ -178,6 +180,7 @@ bool obj_load(loader *l)
     size_t n_bytes;
     if (!loader_read_file(l, l->path, &bytes, &n_bytes) || !obj_open(&t, l, l->path, bytes, n_bytes)) return false;
     if (!obj_find_material(&o, &t, "default", &o.current_material)) return false;
+    memset(o.bucket, 0, sizeof o.bucket); /* one that the file calls so is another */
     while (obj_next_line(&t)) {
         if (!read_statement(&o, &t)) return false;
     }

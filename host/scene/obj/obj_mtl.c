@@ -161,7 +161,7 @@ static bool read_statement(obj_file *o, obj_text *t, const char *word, uint32_t 
         o->material[*current].defined = true;
         return true;
     }
-    obj_material *material = *current ? &o->material[*current] : NULL;
+    obj_material *material = *current != OBJ_NONE ? &o->material[*current] : NULL;
     bool kd = strcmp(word, "Kd") == 0, d = strcmp(word, "d") == 0, tr = strcmp(word, "Tr") == 0;
     bool map = strcmp(word, "map_Kd") == 0, map_d = strcmp(word, "map_d") == 0;
     if (!(kd || d || tr || map || map_d)) return true; /* gloss and the like: nothing here could show it */
@@ -185,7 +185,7 @@ static bool read_library(obj_file *o, const char *name, const char **missing)
 {
     uint8_t *bytes = NULL;
     size_t n_bytes = 0;
-    uint32_t current = 0;
+    uint32_t current = OBJ_NONE;
     obj_text t;
     *missing = loader_may_read(o->l, name) ? NULL : "is outside the folder of the scene, which only --outside allows";
     if (*missing) return true;

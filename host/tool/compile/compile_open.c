@@ -5,6 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "../../scene/core/bounds.h"
 #include "rig.h"
 
 /* ---- Names ------------------------------------------------------------------------------------------------------- */
@@ -142,6 +143,24 @@ static void write_state(FILE *f, const compiled *c)
     fprintf(f, "} %s_state;\n\n", c->symbol);
 }
 
+static bool casts(const scene *s, const scene_object *object, const double *point)
+{
+    (void)s, (void)point;
+    return object->caster != SCENE_CASTER_OFF;
+}
+
+/* What a model is turned about. */
+static void write_centre(FILE *f, const compiled *c)
+{
+    bounds b = {.radius = 1};
+    if (!bounds_of_scene(&b, &c->scene, casts)) bounds_of_scene(&b, &c->scene, NULL);
+    fprintf(f, "/* The middle of what casts shadows, as the file has it: x, y and z in 16.16. */\n#define ");
+    open_write_upper(f, c->symbol);
+    fprintf(f, "_CENTRE");
+    for (int k = 0; k < 3; k++) fprintf(f, "%s%.0f", k ? ", " : " {", ldexp(b.centre[k], c->fixed.world_exp + 16));
+    fprintf(f, "}\n\n");
+}
+
 void open_write_declarations(FILE *f, const compiled *c)
 {
     fprintf(f, "/* Lengths of the file as the library's: ");
@@ -149,6 +168,7 @@ void open_write_declarations(FILE *f, const compiled *c)
     fprintf(f, "_LENGTH(1.5), a constant, is 1.5 units of the file. */\n#define ");
     open_write_upper(f, c->symbol);
     fprintf(f, "_LENGTH(x) GN_Q16((x) * %.17g)\n\n", ldexp(1, c->fixed.world_exp));
+    write_centre(f, c);
     write_all_names(f, c);
     write_state(f, c);
     fprintf(f, "/* Everything as the file has it. */\nvoid %s_init(%s_state *now);\n\n", c->symbol, c->symbol);
