@@ -135,7 +135,8 @@ GN_HOT static inline int find_gradient(receiver_plane *r)
            quotient_q30((int64_t)d2 * u1 - (int64_t)d1 * u2, clz, recip, &r->gradient_q30[1]);
 }
 
-/* By how much receivers that read a texel may be deeper than vertex 0, along an axis. */
+/* By how much receivers that read a texel may be deeper than vertex 0, along an axis: below 2^29, as they spread over
+ * less than 15 texels of less than 2^25 each. */
 GN_HOT static inline int32_t deepest_q30(const receiver_plane *r, int axis, int32_t texel, int32_t reach_q16)
 {
     const int32_t g = r->gradient_q30[axis], centre = texel * 65536 + 32768;
@@ -143,7 +144,8 @@ GN_HOT static inline int32_t deepest_q30(const receiver_plane *r, int axis, int3
     return (int32_t)((int64_t)g * (at - r->p->at[axis][0]) >> 16);
 }
 
-/* Whether no texel that receivers read is nearer to the light than any of them: (k + 1) texels around each. */
+/* Whether no texel that receivers read is nearer to the light than any of them: (k + 1) texels around each. Depths are
+ * below 2^30 with the margin: below 2^31 in all. */
 GN_HOT static int texels_behind(const gn_light_view *view, const receiver_plane *r, const int32_t first[2],
                                 const int32_t last[2])
 {

@@ -16,15 +16,6 @@ void gn_lattice_begin_tile(gn_shading *s);
 /* Draws the pixels of a cell that its look is known of: gn_lattice_draw.c. */
 void gn_lattice_draw(gn_shading *s, int32_t x, int32_t y, int32_t size_log2, gn_corner *const corner[4]);
 
-/* Whether all corners have the same pixel, as where nothing varies. */
-int gn_lattice_is_plain(gn_shading *s, const gn_lattice_look *look, uint32_t *packed);
-
-#if GN_SHADOWS
-/* Attenuation of the picture's pixel (x, y), so far right of and below the cell's first. */
-uint32_t gn_lattice_look_up(const gn_frame *frame, const gn_lattice_edge *edge, int32_t x, int32_t y, int32_t right,
-                            int32_t down);
-#endif
-
 /* Pixels of the part in a row of a cell. */
 GN_HOT static inline uint32_t gn_lattice_bits(const gn_lattice *l, int32_t x, int32_t y, int32_t size_log2)
 {
