@@ -18,8 +18,8 @@
     X(GN_FIELD_SCENE_LIGHTS, "scene.lights")                                                                           \
     X(GN_FIELD_SCENE_UNIT_LOG2, "scene.unit_log2")                                                                     \
     X(GN_FIELD_SCENE_AMBIENT, "scene.ambient_uq16")                                                                    \
-    X(GN_FIELD_SCENE_BACKGROUND, "scene.background_uq16")                                                              \
-    X(GN_FIELD_SCENE_BACKGROUND_BOTTOM, "scene.background_bottom_uq16")                                                \
+    X(GN_FIELD_SCENE_BACKGROUND, "scene.background_uq20")                                                              \
+    X(GN_FIELD_SCENE_BACKGROUND_BOTTOM, "scene.background_bottom_uq20")                                                \
     X(GN_FIELD_SCENE_BACKGROUND_GRADIENT, "scene.background_gradient")                                                 \
     X(GN_FIELD_SCENE_DRAW_BEHIND, "scene.draw_behind")                                                                 \
     X(GN_FIELD_SCENE_DRAW_OVER, "scene.draw_over")                                                                     \

@@ -216,8 +216,8 @@ typedef struct {
     int32_t unit_log2; /* one unit of length is 2^-unit_log2 of the model's: scales the minimum squared distance 10^-4
                           of spot and point lights, and the penumbra; -30 .. 30 */
     uint32_t ambient_uq16[3];           /* 0..255.99 */
-    uint32_t background_uq16[3];        /* 0..65536; with a gradient, at the picture's upper edge */
-    uint32_t background_bottom_uq16[3]; /* at its lower edge, 0..65536 */
+    uint32_t background_uq20[3];        /* 0..2^20; with a gradient, at the picture's upper edge */
+    uint32_t background_bottom_uq20[3]; /* at its lower edge */
     uint32_t background_gradient;       /* 1: from the one to the other, row by row, in linear light */
     gn_draw_fn draw_behind; /* over the background, before surfaces: pixels without one keep what it wrote; or NULL */
     gn_draw_fn draw_over;   /* over the finished tile, before it is flushed; or NULL. Neither is called for raw views */

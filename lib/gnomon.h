@@ -40,6 +40,7 @@ extern "C" {
 #define GN_Q30(x)        ((int32_t)GN_FIX_(x, 1073741824.0)) /* -2 .. 1.99 */
 #define GN_Q24(x)        ((uint32_t)GN_FIX_(x, 16777216.0))  /* 0 .. 255.99 */
 #define GN_UQ16(x)       ((uint32_t)GN_FIX_(x, 65536.0))
+#define GN_UQ20(x)       ((uint32_t)GN_FIX_(x, 1048576.0)) /* 0 .. 4095.99 */
 #define GN_TURN(degrees) ((uint16_t)(int32_t)GN_FIX_((degrees) / 360.0, 65536.0))
 
 /* ---- Status ------------------------------------------------------------------------------------------------------ */

@@ -63,7 +63,7 @@ static void bench_build_scene(bench_scene *b, const bench_case *c)
     scene->camera.near_q16 = GN_Q16(1);
     scene->camera.far_q16 = GN_Q16(32);
     for (int i = 0; i < 3; i++) scene->ambient_uq16[i] = GN_UQ16(0.1);
-    scene->background_uq16[2] = GN_UQ16(0.1);
+    scene->background_uq20[2] = GN_UQ20(0.1);
 }
 
 #endif

@@ -53,7 +53,7 @@ static void make_light(void)
         sun.direction[k] = k == 1 ? -1000 : between(-900, 900);
         sun.colour_uq16[k] = (uint32_t)between(30000, 70000);
         scene.ambient_uq16[k] = (uint32_t)between(2000, 12000);
-        scene.background_uq16[k] = (uint32_t)between(0, 65536);
+        scene.background_uq20[k] = 16 * (uint32_t)between(0, 65536);
     }
     sun.shadow_strength_uq16 = GN_UQ16(1);
     sun.bias_normal_q16 = between(-GN_Q16(1), GN_Q16(2));

@@ -17,7 +17,7 @@ static const gn_scene scene = {
     .lights = &sun,
     .n_lights = 1,
     .ambient_uq16 = {9000, 11000, 16000},
-    .background_uq16 = {20000, 32000, 50000},
+    .background_uq20 = {320000, 512000, 800000},
     /* from (2.2, 5, 5.6) to (0, 0.35, -0.1), as gn_camera_look_at has it: a constant costs no RAM */
     .camera = {.to_world = {.m_q30 = {{1001719042, -234149502, 307659678},
                                       {0, 854433424, 650280731},

@@ -35,7 +35,7 @@ static void move_receiver(const gn_frame *frame, surface *s, const gn_tri *tri)
 static void surface_begin(const gn_frame *frame, surface *s, uint32_t id)
 {
     const gn_scene *scene = frame->scene;
-    const uint32_t *own = scene->background_uq16; /* what it shines by itself */
+    const uint32_t *own = NULL; /* of a triangle */
     const gn_object *object = NULL;
     uint32_t cosine_q14 = 0;
     s->tri = NULL;
@@ -48,7 +48,7 @@ static void surface_begin(const gn_frame *frame, surface *s, uint32_t id)
         if (cosine_q14 && frame->n_views && object->flags & GN_OBJECT_RECEIVES) move_receiver(frame, s, tri);
     }
     for (int i = 0; i < 3; i++) {
-        s->base_q20[i] = own[i] << 4;
+        s->base_q20[i] = own ? own[i] << 4 : scene->background_uq20[i];
         s->lit_q20[i] = 0;
         if (object) s->base_q20[i] = (uint32_t)(((uint64_t)own[i] * scene->ambient_uq16[i]) >> 12); /* 2^17 * 2^24 */
         if (cosine_q14)

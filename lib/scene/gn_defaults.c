@@ -91,8 +91,8 @@ gn_scene gn_scene_default(const gn_camera *camera, const gn_object *objects, uin
     scene.camera = *camera;
     scene.objects = objects, scene.n_objects = n_objects;
     scene.lights = lights, scene.n_lights = n_lights;
-    set3(scene.ambient_uq16, 9830, 9830, 9830);    /* 0.15 */
-    set3(scene.background_uq16, 1311, 1966, 3277); /* 0.02, 0.03, 0.05 */
+    set3(scene.ambient_uq16, 9830, 9830, 9830);       /* 0.15 */
+    set3(scene.background_uq20, 20972, 31457, 52429); /* 0.02, 0.03, 0.05 */
     gn_shadow_settings *shadow = &scene.shadow;
     shadow->max_distance_q16 = 100 * (int32_t)ONE_UQ16;
     shadow->distance_fade_uq16 = TENTH_UQ16;

@@ -406,8 +406,8 @@ static gn_field wrong_background(const gn_scene *scene)
 static gn_field wrong_colour(const gn_scene *scene)
 {
     if (any_above(scene->ambient_uq16, GN_COLOUR_LIMIT_UQ16)) return GN_AT(GN_FIELD_SCENE_AMBIENT);
-    if (any_above(scene->background_uq16, 65536)) return GN_AT(GN_FIELD_SCENE_BACKGROUND);
-    return any_above(scene->background_bottom_uq16, 65536) ? GN_AT(GN_FIELD_SCENE_BACKGROUND_BOTTOM) : GN_FIELD_NONE;
+    if (any_above(scene->background_uq20, 1U << 20)) return GN_AT(GN_FIELD_SCENE_BACKGROUND);
+    return any_above(scene->background_bottom_uq20, 1U << 20) ? GN_AT(GN_FIELD_SCENE_BACKGROUND_BOTTOM) : GN_FIELD_NONE;
 }
 
 /* Null arrays, and more than there is memory for. */

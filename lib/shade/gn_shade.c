@@ -302,16 +302,17 @@ GN_HOT static inline void shade_layers(gn_shading *s, uint32_t tile_idx)
 /* ---- Background -------------------------------------------------------------------------------------------------- */
 
 #if GN_TILE_DRAWING
-/* The colour of row y: top + (bottom - top) (y + 1/2) / H, in Q20 with one rounding: |difference| 2^16, 2 y + 1 < 2^12,
- * and 2^3 keep within 31 bits. [R11] */
+/* The colour of row y: top + (bottom - top) (2 y + 1) / 2 H, with one rounding: the difference is split into a whole
+ * and a rest by 2 H, so that neither product is above 2^24. [R11] */
 GN_HOT static void gradient_row(gn_shading *s, int32_t y)
 {
     const gn_scene *scene = s->frame->scene;
-    int32_t height = s->frame->picture.height;
+    const int32_t halves = 2 * s->frame->picture.height, down = 2 * y + 1;
     for (int c = 0; c < 3; c++) {
-        int32_t top = (int32_t)scene->background_uq16[c], bottom = (int32_t)scene->background_bottom_uq16[c];
-        int32_t change = (bottom - top) * (2 * y + 1) * 8;
-        s->last_q20[c] = (uint32_t)(top * 16 + (change + (change < 0 ? -height : height) / 2) / height);
+        const int32_t top = (int32_t)scene->background_uq20[c],
+                      change = (int32_t)scene->background_bottom_uq20[c] - top;
+        const int32_t rest = change % halves * down + (change < 0 ? -halves : halves) / 2;
+        s->last_q20[c] = (uint32_t)(top + change / halves * down + rest / halves);
     }
     s->last_pixel = gn_pixel_pack(s->frame, s->last_q20);
 }
@@ -330,7 +331,7 @@ GN_HOT static void draw_behind(const gn_shading *s)
 GN_HOT static void clear_background(gn_shading *s)
 {
     const gn_frame *frame = s->frame;
-    for (int c = 0; c < 3; c++) s->last_q20[c] = frame->scene->background_uq16[c] << 4;
+    for (int c = 0; c < 3; c++) s->last_q20[c] = frame->scene->background_uq20[c];
     s->last_pixel = gn_pixel_pack(frame, s->last_q20);
     if (GN_RAW_VIEWS && frame->picture.format == GN_FORMAT_RAW32) {
         int32_t n = s->rows.width * (s->rect.y1 - s->rect.y0);

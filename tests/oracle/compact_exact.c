@@ -425,7 +425,7 @@ static void surfaces(void)
         scene.objects = &object;
         scene.n_lights = rnd() % 4 > 0;
         for (int i = 0; i < 3; i++) {
-            object.albedo_uq16[i] = rnd() % 65537, scene.background_uq16[i] = rnd() % 65537;
+            object.albedo_uq16[i] = rnd() % 65537, scene.background_uq20[i] = rnd() % 1048577;
             scene.ambient_uq16[i] = rnd() >> 8, sun.colour_uq16[i] = rnd() >> 8;
         }
         frame->stats.n_triangles = 1;
@@ -437,8 +437,10 @@ static void surfaces(void)
         surface_begin(frame, &s, id);
         wrong += (s.tri == t) != (faces && (object.flags & GN_OBJECT_RECEIVES));
         for (int i = 0; i < 3; i++) {
-            const wide own = id ? object.albedo_uq16[i] : scene.background_uq16[i];
-            wrong += s.base_q20[i] != (lit ? floored(own * scene.ambient_uq16[i], 12) : own * 16);
+            const wide own = object.albedo_uq16[i];
+            wrong += s.base_q20[i] != (!id   ? (wide)scene.background_uq20[i]
+                                       : lit ? floored(own * scene.ambient_uq16[i], 12)
+                                             : own * 16);
             wrong +=
                 s.lit_q20[i] != (faces ? floored(floored(own * sun.colour_uq16[i], 12) * -t->normal_q14[2], 14) : 0);
             if (s.tri) wrong += s.offset_q16[i] != floored((wide)frame->offset_q16 * t->normal_q14[i], 14);

@@ -361,7 +361,7 @@ static void spoil(void)
         scene.shadow.cascade_fade_uq16 = (uint32_t)any();
         break;
     default:
-        scene.ambient_uq16[rnd() % 3] = scene.background_uq16[rnd() % 3] = (uint32_t)any();
+        scene.ambient_uq16[rnd() % 3] = scene.background_uq20[rnd() % 3] = (uint32_t)any();
         break;
     }
 }

@@ -194,7 +194,7 @@ static void invert_some(void *user, int x, int y, int w, int h, void *pixels)
 static void use_background(int variant, gn_picture *picture)
 {
     demo.scene.background_gradient = use.tile_drawing && variant % 2;
-    demo.scene.background_bottom_uq16[variant % 3] = 50000;
+    demo.scene.background_bottom_uq20[variant % 3] = 800000;
     if (use.tile_drawing && variant > 1) demo.scene.draw_behind = invert_some;
     if (use.tile_drawing && variant > 2) demo.scene.draw_over = invert_some;
     demo.scene.draw_user = picture;

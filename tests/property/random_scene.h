@@ -451,8 +451,8 @@ static void random_scene_make(random_scene *g)
     random_camera(&s->camera);
     for (int k = 0; k < 3; k++) {
         s->ambient_uq16[k] = (uint32_t)pick(0, 0xFFFFFF);
-        s->background_uq16[k] = (uint32_t)pick(0, 65536);
-        s->background_bottom_uq16[k] = (uint32_t)pick(0, 65536);
+        s->background_uq20[k] = (uint32_t)pick(0, 1 << 20);
+        s->background_bottom_uq20[k] = (uint32_t)pick(0, 1 << 20);
     }
     s->background_gradient = !absent(GN_TILE_DRAWING) && one_in(4);
     s->unit_log2 = seldom(0, -30, 30);

@@ -225,15 +225,15 @@ static void test_gradient(void)
     ls.scene.n_objects = 0;
     ls.scene.background_gradient = 1;
     for (uint32_t k = 0; k < 3; k++) {
-        ls.scene.background_uq16[k] = 60000U - 25000U * k;
-        ls.scene.background_bottom_uq16[k] = 65536U * k / 2;
+        ls.scene.background_uq20[k] = 960000U - 400000U * k;
+        ls.scene.background_bottom_uq20[k] = (1U << 19) * k;
     }
     render_to(&c, GN_FORMAT_RGB888, TILE_W, TILE_H);
     for (int y = 0; y < H; y++)
         for (int x = 0; x < W; x++)
             for (int k = 0; k < 3; k++) {
-                double top = ls.scene.background_uq16[k] / 65536.0,
-                       bottom = ls.scene.background_bottom_uq16[k] / 65536.0;
+                double top = ls.scene.background_uq20[k] / 1048576.0,
+                       bottom = ls.scene.background_bottom_uq20[k] / 1048576.0;
                 CHECK_NEAR(c.pixels[3 * (y * W + x) + k], level(top + (bottom - top) * (y + 0.5) / H), 0.5 + 0.01);
             }
     canvas_end(&c);
@@ -248,7 +248,7 @@ static void test_tall(void)
     scene_begin();
     ls.scene.n_objects = 0;
     ls.scene.background_gradient = 1;
-    for (int k = 0; k < 3; k++) ls.scene.background_uq16[k] = 0, ls.scene.background_bottom_uq16[k] = 65536;
+    for (int k = 0; k < 3; k++) ls.scene.background_uq20[k] = 0, ls.scene.background_bottom_uq20[k] = 1U << 20;
     for (int turn = 0; turn < 2; turn++) {
         canvas_begin(&c, 8, GN_MAX_HEIGHT, GN_FORMAT_GREY8);
         CHECK_EQ_INT(gn_init(&renderer, &p), GN_OK);
@@ -260,7 +260,7 @@ static void test_tall(void)
             CHECK(turn || !y || rows[y] >= rows[y - 1]);
         }
         canvas_end(&c);
-        for (int k = 0; k < 3; k++) ls.scene.background_uq16[k] = 65536, ls.scene.background_bottom_uq16[k] = 0;
+        for (int k = 0; k < 3; k++) ls.scene.background_uq20[k] = 1U << 20, ls.scene.background_bottom_uq20[k] = 0;
     }
     CHECK(rows[0] < 4 && rows[GN_MAX_HEIGHT - 1] == 255);
 }

@@ -232,7 +232,7 @@ static void ambient(gn_scene *s)
 }
 static void background(gn_scene *s)
 {
-    s->background_uq16[0] = 65537;
+    s->background_uq20[0] = (1U << 20) + 1;
 }
 static void half_height_small(gn_scene *s)
 {
@@ -248,7 +248,7 @@ static void half_height_large(gn_scene *s)
 }
 static void background_bottom(gn_scene *s)
 {
-    s->background_bottom_uq16[2] = 65537;
+    s->background_bottom_uq20[2] = (1U << 20) + 1;
 }
 static void background_gradient(gn_scene *s)
 {
@@ -405,11 +405,11 @@ static const struct {
     REFUSED(skin_weights, GN_ERR_SKIN_WEIGHTS, "object.skin->weight_u8", 1, 0, 0),
     REFUSED(skin_moves_out, GN_ERR_VERTEX_RANGE, "object.mesh->pos", 1, 0, 0),
     REFUSED(ambient, GN_ERR_COLOUR, "scene.ambient_uq16", 0, 0, 0),
-    REFUSED(background, GN_ERR_COLOUR, "scene.background_uq16", 0, 0, 0),
+    REFUSED(background, GN_ERR_COLOUR, "scene.background_uq20", 0, 0, 0),
     REFUSED(half_height_small, GN_ERR_CAMERA_FOCAL, "camera.half_height_q16", 0, 0, 0),
     REFUSED(half_height_negative, GN_ERR_CAMERA_FOCAL, "camera.half_height_q16", 0, 0, 0),
     REFUSED(half_height_large, GN_ERR_CAMERA_FOCAL, "camera.half_height_q16", 0, 0, 0),
-    REFUSED(background_bottom, GN_ERR_COLOUR, "scene.background_bottom_uq16", 0, 0, 0),
+    REFUSED(background_bottom, GN_ERR_COLOUR, "scene.background_bottom_uq20", 0, 0, 0),
     REFUSED(background_gradient, GN_ERR_BACKGROUND, "scene.background_gradient", 0, 0, 0),
     REFUSED(light_colour, GN_ERR_COLOUR, "light.colour_uq16", 0, 0, 0),
     REFUSED(objects_65536, GN_ERR_TOO_MANY_OBJECTS, "", 0, 65536, 65535),

@@ -122,7 +122,7 @@ static inline void demo_scene_make(demo_scene *d, uint32_t frame)
     s->camera.far_q16 = GN_Q16(100);
     for (int k = 0; k < 3; k++) {
         s->ambient_uq16[k] = GN_UQ16(0.15);
-        s->background_uq16[k] = 8000U + 6000U * (uint32_t)k;
+        s->background_uq20[k] = 16 * (8000U + 6000U * (uint32_t)k);
     }
     s->shadow.max_distance_q16 = GN_Q16(20);
     s->shadow.distance_fade_uq16 = GN_UQ16(0.1);

@@ -35,7 +35,7 @@ static void make_scene(uint32_t n, uint32_t coloured_in)
     gn_camera camera = {.focal_q24 = GN_Q24(1), .near_q16 = GN_Q16(1), .far_q16 = GN_Q16(100)};
     gn_affine_identity(&camera.to_world);
     scene = gn_scene_default(&camera, object, n, NULL, 0);
-    memset(scene.background_uq16, 0, sizeof scene.background_uq16);
+    memset(scene.background_uq20, 0, sizeof scene.background_uq20);
     for (uint32_t i = 0; i < n; i++) {
         object[i] = gn_object_default(i % coloured_in == 0 ? &coloured : &plain);
         object[i].flags = GN_OBJECT_UNLIT | GN_OBJECT_TWO_SIDED;

@@ -305,8 +305,8 @@ static void write_scene(FILE *f, const compiled *c)
     emit_struct(f, c, camera_fields, EMIT_COUNT(camera_fields), &s->camera, 0, NULL);
     fprintf(f, ",\n    F(unit_log2) %" PRId32 ",\n", s->unit_log2);
     write_vector(f, "ambient_uq16", s->ambient_uq16);
-    write_vector(f, "background_uq16", s->background_uq16);
-    write_vector(f, "background_bottom_uq16", s->background_bottom_uq16);
+    write_vector(f, "background_uq20", s->background_uq20);
+    write_vector(f, "background_bottom_uq20", s->background_bottom_uq20);
     fprintf(f, "    F(background_gradient) %" PRIu32 ", F(draw_behind) 0, F(draw_over) 0, F(draw_user) 0,\n",
             s->background_gradient);
     fprintf(f, "    F(shadow)\n");

@@ -213,8 +213,8 @@ static void quantise_view(gn_scene *out, const scene *s, int world_exp)
     quantise_camera(&out->camera, &s->camera, world_exp);
     for (int r = 0; r < 3; r++) {
         out->ambient_uq16[r] = (uint32_t)fixed(fmin(s->ambient[r], 255.99), 16);
-        out->background_uq16[r] = (uint32_t)fixed(s->background[r], 16);
-        out->background_bottom_uq16[r] = (uint32_t)fixed(s->background_bottom[r], 16);
+        out->background_uq20[r] = (uint32_t)fixed(s->background[r], 20);
+        out->background_bottom_uq20[r] = (uint32_t)fixed(s->background_bottom[r], 20);
     }
     out->background_gradient = s->gradient;
 }
