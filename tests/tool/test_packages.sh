@@ -187,6 +187,78 @@ for file in $(sed -n 's/^  \(cmake\|kconfig\): //p' "$package/zephyr/gnomon/zeph
     [ -e "$package/zephyr/gnomon/$file" ] && pass || fail "zephyr: there is no $file"
 done
 
+# The clock for an ESP32-S3: a stand-in of its drivers that sends a tile as late as it may, and ends after a picture.
+idf=$tmp/idf clock=$package/esp-idf/gnomon/examples/clock
+mkdir -p "$idf/driver"
+cat >"$idf/esp_lcd_panel_io.h" <<'C'
+#pragma once
+#include <stddef.h>
+#include <stdbool.h>
+#include <stdint.h>
+typedef int esp_err_t;
+typedef struct panel_io *esp_lcd_panel_io_handle_t;
+typedef struct panel *esp_lcd_panel_handle_t;
+typedef void *esp_lcd_spi_bus_handle_t;
+typedef struct { int cs_gpio_num, dc_gpio_num, spi_mode; unsigned pclk_hz; size_t trans_queue_depth; int lcd_cmd_bits, lcd_param_bits; } esp_lcd_panel_io_spi_config_t;
+typedef struct { int sclk_io_num, mosi_io_num, miso_io_num, quadwp_io_num, quadhd_io_num, max_transfer_sz; } spi_bus_config_t;
+typedef struct { int reset_gpio_num; unsigned bits_per_pixel; } esp_lcd_panel_dev_config_t;
+enum { SPI2_HOST = 1, SPI_DMA_CH_AUTO = 3, LCD_CMD_NOP = 0 };
+esp_err_t spi_bus_initialize(int host, const spi_bus_config_t *bus, int dma);
+esp_err_t esp_lcd_new_panel_io_spi(esp_lcd_spi_bus_handle_t bus, const esp_lcd_panel_io_spi_config_t *config, esp_lcd_panel_io_handle_t *io);
+esp_err_t esp_lcd_new_panel_st7789(esp_lcd_panel_io_handle_t io, const esp_lcd_panel_dev_config_t *config, esp_lcd_panel_handle_t *panel);
+esp_err_t esp_lcd_panel_reset(esp_lcd_panel_handle_t panel);
+esp_err_t esp_lcd_panel_init(esp_lcd_panel_handle_t panel);
+esp_err_t esp_lcd_panel_invert_color(esp_lcd_panel_handle_t panel, bool invert);
+esp_err_t esp_lcd_panel_disp_on_off(esp_lcd_panel_handle_t panel, bool on);
+esp_err_t esp_lcd_panel_draw_bitmap(esp_lcd_panel_handle_t panel, int x_start, int y_start, int x_end, int y_end, const void *pixels);
+esp_err_t esp_lcd_panel_io_tx_param(esp_lcd_panel_io_handle_t io, int command, const void *bytes, size_t n);
+C
+for header in driver/spi_master.h esp_lcd_panel_commands.h esp_lcd_panel_ops.h esp_lcd_panel_vendor.h; do
+    echo '#include "esp_lcd_panel_io.h"' >"$idf/$header"
+done
+cat >"$idf/board.c" <<'C'
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <time.h>
+#include "esp_lcd_panel_io.h"
+static unsigned char screen[240][480];
+static int at[4], is_on;
+static const unsigned char *under_way;
+static long seconds;
+time_t __wrap_time(time_t *now);
+unsigned __wrap_sleep(unsigned s);
+void app_main(void);
+time_t __wrap_time(time_t *now) { return now ? (*now = seconds) : seconds; }
+unsigned __wrap_sleep(unsigned s) { exit(!is_on || under_way || !s || fwrite(screen, 1, sizeof screen, stdout) != sizeof screen); }
+esp_err_t spi_bus_initialize(int host, const spi_bus_config_t *bus, int dma) { return host != SPI2_HOST || dma != SPI_DMA_CH_AUTO || bus->miso_io_num != -1; }
+esp_err_t esp_lcd_new_panel_io_spi(esp_lcd_spi_bus_handle_t bus, const esp_lcd_panel_io_spi_config_t *c, esp_lcd_panel_io_handle_t *io) { *io = (void *)screen; return !bus || c->lcd_cmd_bits != 8; }
+esp_err_t esp_lcd_new_panel_st7789(esp_lcd_panel_io_handle_t io, const esp_lcd_panel_dev_config_t *c, esp_lcd_panel_handle_t *panel) { *panel = (void *)at; return !io || c->bits_per_pixel != 16; }
+esp_err_t esp_lcd_panel_reset(esp_lcd_panel_handle_t panel) { return !panel; }
+esp_err_t esp_lcd_panel_init(esp_lcd_panel_handle_t panel) { return !panel; }
+esp_err_t esp_lcd_panel_invert_color(esp_lcd_panel_handle_t panel, bool invert) { return !panel || !invert; }
+esp_err_t esp_lcd_panel_disp_on_off(esp_lcd_panel_handle_t panel, bool on) { is_on = on; return !panel; }
+esp_err_t esp_lcd_panel_draw_bitmap(esp_lcd_panel_handle_t panel, int x0, int y0, int x1, int y1, const void *pixels)
+{
+    at[0] = x0, at[1] = y0, at[2] = x1, at[3] = y1, under_way = pixels;
+    return !panel;
+}
+esp_err_t esp_lcd_panel_io_tx_param(esp_lcd_panel_io_handle_t io, int command, const void *bytes, size_t n)
+{
+    const size_t row = 2 * (size_t)(at[2] - at[0]);
+    for (int y = at[1]; under_way && y < at[3]; y++, under_way += row) memcpy(&screen[y][2 * at[0]], under_way, row);
+    under_way = NULL;
+    return !io || command != LCD_CMD_NOP || bytes || n;
+}
+int main(int argc, char **argv) { seconds = argc > 1 ? atol(argv[1]) : 0; app_main(); return 2; }
+C
+ok gcc -std=c99 -D_POSIX_C_SOURCE=200809L -Wall -Wextra -Werror -I"$idf" -I"$package/single" -Wl,--wrap=time,--wrap=sleep -o "$idf/clock" "$clock/main/clock.c" "$clock/main/st7789.c" "$idf/board.c" "$tmp/single.o"
+for at in 36600 79800 36660; do TZ=UTC "$idf/clock" $at >"$idf/$at" && [ "$(wc -c <"$idf/$at")" = 115200 ] && pass || fail "the clock shows nothing $at seconds after midnight"; done
+cmp -s "$idf/36600" "$idf/79800" && pass || fail "the clock at 10:10 and at 22:10 differs"
+cmp -s "$idf/36600" "$idf/36660" && fail "the clock at 10:10 and at 10:11 is the same" || pass
+grep -q 'SRCS "clock.c" "st7789.c" REQUIRES gnomon' "$clock/main/CMakeLists.txt" && [ -e "$clock/$(sed -n 's/^set(EXTRA_COMPONENT_DIRS \(.*\))/\1/p' "$clock/CMakeLists.txt")/idf_component.yml" ] && pass ||
+    fail "the project of the clock does not name its sources and the component"
+
 # ---- CMSIS-Pack: the description, the header of the Configuration Wizard, the example with two buttons -----------------------------
 
 pdsc=$package/cmsis/Gnomon.Gnomon.pdsc

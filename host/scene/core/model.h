@@ -267,6 +267,7 @@ typedef struct {
     bool smooth;       /* meshes without normals: smooth vertex normals instead of face normals */
     bool outside;      /* a file may name files outside the folder of the scene */
     bool rig;          /* nodes and clips are kept */
+    bool posed;        /* for what moves alone: textures have no levels, which take long */
     int budget;        /* how many times the usual limits of what a file may ask for (budget.c); 0: once */
     bool orbit;        /* in the place of any camera of the file: */
     double yaw, pitch; /* degrees: from the front (+Z) to the right (+X); upwards */

@@ -55,7 +55,7 @@ bool texture_add(loader *l, const char *name, rgba8_picture *picture, const text
         texture->clamp_u = use->clamp_u;
         texture->clamp_v = use->clamp_v;
         texture->bilinear = use->bilinear;
-        ok = fit_sides(l, picture, use, texture) && (!use->mipmapped || add_levels(l, texture));
+        ok = fit_sides(l, picture, use, texture) && (!use->mipmapped || l->options->posed || add_levels(l, texture));
     }
     if (ok && picture->depth > 8) ok = loader_note(l, "texture '%s' is rounded from 16 bits to 8", name);
     free(picture->rgba);

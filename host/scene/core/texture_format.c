@@ -221,8 +221,10 @@ bool texture_convert(scene_texture *t, scene_texture_format format)
 
 /* ---- Sizes ------------------------------------------------------------------------------------------------------- */
 
-/* Of what lies between two columns and two rows. Where all is transparent nothing shows: colours count alike. */
-static void mean_of(const scene_texture *t, const double x[2], const double y[2], bool is_data, uint8_t out[4])
+/* Of what lies between two columns and two rows; linear: what each of 256 values stands for. Where all is transparent
+ * nothing shows: colours count alike. */
+static void mean_of(const scene_texture *t, const double x[2], const double y[2], const double *linear, bool is_data,
+                    uint8_t out[4])
 {
     double shown[3] = {0}, plain[3] = {0}, alpha = 0, area = 0;
     for (int j = (int)y[0]; j < y[1]; j++)
@@ -230,9 +232,8 @@ static void mean_of(const scene_texture *t, const double x[2], const double y[2]
             const uint8_t *p = t->rgba + 4 * ((size_t)j * (size_t)t->width + (size_t)i);
             const double part = (fmin(i + 1, x[1]) - fmax(i, x[0])) * (fmin(j + 1, y[1]) - fmax(j, y[0]));
             for (int c = 0; c < 3; c++) {
-                const double v = is_data ? p[c] / 255.0 : decode(p[c] / 255.0);
-                plain[c] += part * v;
-                shown[c] += part * p[3] * v;
+                plain[c] += part * linear[p[c]];
+                shown[c] += part * p[3] * linear[p[c]];
             }
             alpha += part * p[3];
             area += part;
@@ -247,11 +248,13 @@ static void mean_of(const scene_texture *t, const double x[2], const double y[2]
 /* The first level in w by h texels. */
 static void scale(const scene_texture *t, int w, int h, bool is_data, uint8_t *out)
 {
+    double linear[256];
+    for (int v = 0; v < 256; v++) linear[v] = is_data ? v / 255.0 : decode(v / 255.0);
     for (int y = 0; y < h; y++)
         for (int x = 0; x < w; x++) {
             const double columns[2] = {(double)x * t->width / w, (double)(x + 1) * t->width / w},
                          rows[2] = {(double)y * t->height / h, (double)(y + 1) * t->height / h};
-            mean_of(t, columns, rows, is_data, out + 4 * ((size_t)y * (size_t)w + (size_t)x));
+            mean_of(t, columns, rows, linear, is_data, out + 4 * ((size_t)y * (size_t)w + (size_t)x));
         }
 }
 

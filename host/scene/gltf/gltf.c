@@ -21,6 +21,13 @@ static bool is_supported(const char *extension)
     return false;
 }
 
+/* What to do about a file that needs what is not read. */
+static const char *remedy_of(const char *extension)
+{
+    if (strstr(extension, "draco") || strstr(extension, "meshopt")) return GLTF_COMPRESSED;
+    return strstr(extension, "texture") ? ": export textures as PNG or JPEG" : "";
+}
+
 static bool check_extensions(gltf *g, const char *key, bool required)
 {
     const json_value *list = NULL;
@@ -29,7 +36,9 @@ static bool check_extensions(gltf *g, const char *key, bool required)
         const json_value *name = list->children[i];
         if (name->type != JSON_STRING) return gltf_fail(g, name, "a string is expected");
         if (is_supported(name->string)) continue;
-        if (required) return gltf_fail(g, name, "the required extension %s is not supported", name->string);
+        if (required)
+            return gltf_fail(g, name, "the required extension %s is not supported%s", name->string,
+                             remedy_of(name->string));
         if (!loader_note(g->l, "extension %s ignored: it is not supported", name->string)) return false;
     }
     return true;

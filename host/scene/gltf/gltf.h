@@ -77,6 +77,9 @@ typedef struct {
     size_t camera_node; /* of the camera that is used, if loader.has_camera */
 } gltf;
 
+/* What to do about compressed meshes, behind what is wrong. */
+#define GLTF_COMPRESSED ": export without compression, or import it in Blender and export it again"
+
 /* gltf_json.c. Readers leave *out alone where the member is absent, and fail where it has the wrong type. */
 bool gltf_fail(gltf *g, const json_value *where, const char *format, ...) LOADER_PRINTF(3, 4);
 bool gltf_spend(gltf *g, const json_value *where, budget_kind kind, size_t n);

@@ -82,7 +82,7 @@ static bool read_primitive(gltf *g, const json_value *primitive, const char *nam
     if (mode < MODE_TRIANGLES)
         return loader_note(g->l, "points and lines of mesh '%s' ignored: only triangles are drawn", name);
     if (json_get(json_get(primitive, "extensions"), "KHR_draco_mesh_compression") && !has_data(g, attributes))
-        return gltf_fail(g, primitive, "mesh '%s' is compressed, which is not supported", name);
+        return gltf_fail(g, primitive, "mesh '%s' is compressed, which is not supported%s", name, GLTF_COMPRESSED);
     if (!json_get(attributes, "POSITION"))
         return loader_note(g->l, "primitive of mesh '%s' ignored: it has no POSITION", name);
     if (json_get(primitive, "targets") &&

@@ -63,6 +63,7 @@ int tool_load_with(const tool_options *o, const char *const *sets, int n_sets, s
                              .outside = o->outside,
                              .budget = o->budget,
                              .rig = o->open,
+                             .posed = o->posed,
                              .orbit = o->orbit,
                              .yaw = o->yaw,
                              .pitch = o->pitch,

@@ -43,6 +43,7 @@ typedef struct {
     int flash;            /* bytes; 0: not given */
     int triangles;        /* --triangles: meshes are reduced to so many; 0: not given */
     int outside;          /* the scene may name files outside its folder */
+    int posed;            /* loaded for what moves alone: scene_options */
     int budget;           /* times the usual limits of what a scene may ask for; 0: once */
     int orbit;            /* --orbit is given: */
     double yaw, pitch, zoom;

@@ -150,6 +150,7 @@ static int play_later(compiled *c, int i, char *error, size_t bytes)
     settings set;
     fixed_scene f;
     o.frame = c->first_frame + i;
+    o.posed = true;
     if (tool_load_with(&o, o.sets, o.n_sets, &s, &set, error, bytes)) return -1;
     int failed = quantise_scene_for(&f, &s, &set.quality, error, bytes);
     if (!failed) {
