@@ -25,11 +25,14 @@ contracts() {
     esac
 }
 
+# Accuracy is first without cells.
+preset() { case $1 in *_shade.c) echo GN_PRESET_BALANCED ;; *) echo GN_PRESET_ACCURATE ;; esac; }
+
 # prove FILE NAME: no alarm, and every assertion valid. -U__GNUC__: portable C instead of builtins and hints.
 prove() {
     name=$2
     timeout 300 frama-c -eva -main "$name" -lib-entry -machdep gcc_x86_32 -eva-no-show-progress -eva-slevel 3000 -eva-min-loop-unroll 70 \
-        -eva-use-spec "$(contracts "$name")" -cpp-extra-args="-Ilib -Itests/prove -DGN_ONE_FILE -DGN_PRESET=GN_PRESET_ACCURATE -U__GNUC__ $(whole "$name")" \
+        -eva-use-spec "$(contracts "$name")" -cpp-extra-args="-Ilib -Itests/prove -DGN_ONE_FILE -DGN_PRESET=$(preset "$1") -U__GNUC__ $(whole "$name")" \
         "$1" >"$tmp/$name" 2>&1
     status=$?
     problem=$(grep -m 1 -A 2 -E 'eva:alarm|got status unknown|got status invalid|rror:' "$tmp/$name" | tr '\n' ' ')
