@@ -137,7 +137,8 @@ GN_HOT int gn_corner_place_flat(gn_lattice *l, const gn_frame *frame, const gn_s
     int32_t dx = x - l->plane.x, dy = y - l->plane.y;
     if (forms->near_up == INT32_MAX) return 0;
     int32_t u = value_at(&forms->u, dx, dy), v = value_at(&forms->v, dx, dy), z = value_at(&forms->z, dx, dy);
-    if (z < 1 << 22) return 0; /* what roundings of slopes do not matter to */
+    /* what roundings of slopes do not matter to, nor carry to 2^30 */
+    if ((uint32_t)z - (1U << 22) >= (1U << 30) - (1U << 22)) return 0;
     int32_t clz = gn_clz32((uint32_t)z), down = 12 - view->tile_log2, near = value_at(&forms->near, dx, dy);
     uint32_t recip = gn_recip_norm((uint32_t)z << clz, GN_K(frame, newton_steps)); /* 2^63 / (z 2^clz) */
     uint32_t share = near < 0 ? 0 : gn_umul_high((uint32_t)near, recip);
@@ -155,7 +156,7 @@ GN_HOT int gn_corner_place_flat(gn_lattice *l, const gn_frame *frame, const gn_s
     if (gn_abs32(u) >> 1 >= (uint32_t)z || gn_abs32(v) >> 1 >= (uint32_t)z) return 0;
     at->u_q16 = gn_mul_high(u * (1 << (clz - 2)), half) >> down;
     at->v_q16 = gn_mul_high(v * (1 << (clz - 2)), half) >> down;
-    at->depth_q30 = (1 << 30) - 1 - (int32_t)share;
+    at->depth_q30 = (int32_t)((1U << 30) - 1 - share);
     return 1;
 }
 

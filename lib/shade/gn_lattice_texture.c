@@ -8,11 +8,16 @@
 
 #if GN_INTERPOLATES && GN_TEXTURES
 
-/* A difference of coordinates, below 2^9 texels. */
+/* What coordinates differ by: they may go round. */
+GN_HOT static int32_t change_q20(int32_t from_q20, int32_t to_q20)
+{
+    return (int32_t)((uint32_t)to_q20 - (uint32_t)from_q20);
+}
+
+/* The same in texels, below 2^10. */
 GN_HOT static int32_t texels_q17(int32_t from_q20, int32_t to_q20, uint32_t size)
 {
-    int32_t change_q20 = (int32_t)((uint32_t)to_q20 - (uint32_t)from_q20);
-    return (int32_t)((int64_t)change_q20 * (int32_t)size >> 3);
+    return (int32_t)((int64_t)change_q20(from_q20, to_q20) * (int32_t)size >> 3);
 }
 
 /* A coordinate in texels, in 0 .. size where it repeats; clamped: within 2^13, for far out it is the same all over the
@@ -34,13 +39,17 @@ GN_HOT static void set_column(gn_texture_column *out, int32_t origin_q17, int32_
     out->bent_q17 = bends ? out->down_q17 - 2 * texels_q17(c_q20[0], c_q20[1], size) : 0;
 }
 
-/* Whether a place lies within 2^10 texels of the first corner, as all corners do: those of a coordinate that goes round
- * thousands of times in the cell look as near, what is between them does not. */
-GN_HOT static int is_between(const gn_texture *texture, const int32_t uv_q20[2], const int32_t first_q20[2])
+/* Whether column i and row k of three has its place within 2^5 texels of where lines between the corners have it, as
+ * all have that bend as they should: those of a coordinate that goes round thousands of times in the cell have not. */
+GN_HOT static int is_between(const gn_texture *texture, const int32_t uv_q20[2], gn_corner *const corner[4], int i,
+                             int k)
 {
     for (int axis = 0; axis < 2; axis++) {
-        int32_t change_q20 = (int32_t)((uint32_t)uv_q20[axis] - (uint32_t)first_q20[axis]);
-        if ((uint64_t)gn_abs32(change_q20) * gn_texture_size(texture, axis) >> 30) return 0;
+        const int32_t first_q20 = corner[0]->uv_q20[axis];
+        int64_t off = 4 * (int64_t)change_q20(first_q20, uv_q20[axis]);
+        for (int n = 0; n < 4; n++)
+            off -= change_q20(first_q20, corner[((i + (n & 1)) >> 1) + ((k + (n >> 1)) & 2)]->uv_q20[axis]);
+        if (gn_abs64(off) * gn_texture_size(texture, axis) >> 27) return 0;
     }
     return 1;
 }
@@ -58,7 +67,7 @@ GN_HOT static GN_NOINLINE int find_texture_places(gn_shading *s, const gn_textur
             if (in_row || in_column) {
                 if (!gn_corner_texture(&s->lattice, s->frame, &s->surface, x + i * (size >> 1), y + k * (size >> 1),
                                        uv_q20[i][k]) ||
-                    !is_between(texture, uv_q20[i][k], uv_q20[0][0]))
+                    !is_between(texture, uv_q20[i][k], corner, i, k))
                     return 0;
                 continue;
             }

@@ -13,23 +13,26 @@ fi
 # Of these the code itself stands where others take the contract of prove.h.
 whole() {
     case $1 in
-    prove_clz | prove_bfloat | prove_quotient) echo "-DWHOLE_CLZ" ;;
+    prove_clz | prove_bfloat | prove_quotient | prove_add_over_depth | prove_place_flat) echo "-DWHOLE_CLZ" ;;
     prove_long_division) echo "-DWHOLE_DIVISION" ;;
     esac
 }
 contracts() {
     case $1 in
-    prove_clz | prove_bfloat | prove_quotient) echo "gn_udiv64_rest" ;;
+    prove_clz | prove_bfloat | prove_quotient | prove_add_over_depth | prove_place_flat) echo "gn_udiv64_rest" ;;
     prove_long_division) echo "gn_clz32,gn_clz64" ;;
     *) echo "gn_clz32,gn_clz64,gn_udiv64_rest" ;;
     esac
 }
 
+# Accuracy is first without cells.
+preset() { case $1 in *_shade.c) echo GN_PRESET_BALANCED ;; *) echo GN_PRESET_ACCURATE ;; esac; }
+
 # prove FILE NAME: no alarm, and every assertion valid. -U__GNUC__: portable C instead of builtins and hints.
 prove() {
     name=$2
     timeout 300 frama-c -eva -main "$name" -lib-entry -machdep gcc_x86_32 -eva-no-show-progress -eva-slevel 3000 -eva-min-loop-unroll 70 \
-        -eva-use-spec "$(contracts "$name")" -cpp-extra-args="-Ilib -Itests/prove -DGN_ONE_FILE -DGN_PRESET=GN_PRESET_ACCURATE -U__GNUC__ $(whole "$name")" \
+        -eva-use-spec "$(contracts "$name")" -cpp-extra-args="-Ilib -Itests/prove -DGN_ONE_FILE -DGN_PRESET=$(preset "$1") -U__GNUC__ $(whole "$name")" \
         "$1" >"$tmp/$name" 2>&1
     status=$?
     problem=$(grep -m 1 -A 2 -E 'eva:alarm|got status unknown|got status invalid|rror:' "$tmp/$name" | tr '\n' ' ')
