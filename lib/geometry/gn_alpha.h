@@ -22,7 +22,8 @@ GN_HOT static inline void gn_alpha_row(gn_alpha_cut *cut, int32_t y, int32_t py,
     cut->x_begin = x_begin;
     cut->x_end = x_end;
     cut->steps.end = x_begin; /* none yet */
-    cut->exact.x = x_end;     /* nor this: never the first column of a row */
+    cut->steps.bent = -1;
+    cut->exact.x = x_end; /* nor this: never the first column of a row */
 #else
     (void)x_begin, (void)x_end;
 #endif
@@ -37,10 +38,8 @@ uint32_t gn_alpha_keeps(gn_alpha_cut *cut, int32_t x, uint32_t asked);
 /* Texture coordinates of the triangle's corners. */
 void gn_alpha_corners(gn_alpha_cut *cut, const uint16_t idx[3]);
 
-#define GN_ALPHA_STEP_MAX GN_TEXTURE_CURVE_MAX /* pixels: screen tiles begin at multiples of it */
-
-/* Texture coordinates from pixel x of the row on. Returns for how many pixels: with persp_step > 1 they are
- * interpolated between exact ones at most 8 pixels apart; error below 2^-8 texel (NUMERICS 4.9). */
+/* Texture coordinates from pixel x >= 0 of the row on. Returns for how many pixels: with persp_step > 1 they are
+ * interpolated between exact ones, 32 pixels apart or at most 8; error below 2^-8 texel (NUMERICS 4.9). */
 int32_t gn_alpha_coords(gn_alpha_cut *cut, int32_t x, gn_texture_curve *curve);
 
 #endif

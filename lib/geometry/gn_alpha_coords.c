@@ -20,7 +20,7 @@ GN_HOT void gn_alpha_plane(gn_alpha_cut *cut, const gn_frame *frame, int32_t (*v
     cut->focal2_px_q16 = focal2_px_q16;
     cut->width = width;
     cut->newton_steps = newton_steps;
-    cut->px_per_step = gn_min32(GN_K(frame, persp_step), GN_ALPHA_STEP_MAX);
+    cut->px_per_step = gn_min32(GN_K(frame, persp_step), 8);
 }
 
 /* By division. Returns 0 where the plane is edge on or behind: the coordinates are those of vertex 0 there. */
@@ -35,6 +35,7 @@ GN_HOT static int exact_coords(const gn_alpha_cut *cut, int32_t x, int32_t uv_q2
 
 #define GN_ALPHA_BEND_MAX_Q30 (3 << 26) /* 3/16; the parabola is in NUMERICS 4.9 */
 #define GN_ALPHA_TEXEL_LOG2   8         /* maximum distance of coordinates from the parabola: 2^-8 texel */
+#define GN_ALPHA_LONG_PX      32        /* tried first, before cut->px_per_step */
 
 GN_HOT static void find_exact(const gn_alpha_cut *cut, gn_alpha_exact *at, int32_t x)
 {
@@ -56,45 +57,55 @@ GN_HOT static int32_t bend_between(const gn_alpha_exact *a, const gn_alpha_exact
     return w0 < w1 ? -bend_q30 : bend_q30;
 }
 
-/* A coordinate that changes by d over n pixels. Returns 0 if its distance from the parabola is above the limit. */
+/* A coordinate that changes by d over n <= 32 pixels. Returns 0 if that is two turns or more, or if its distance from
+ * the parabola is above the limit. */
 GN_HOT static int step_coord(gn_alpha_steps *steps, int axis, int64_t d, int32_t n, int32_t bend_q30,
                              uint32_t size_log2)
 {
     uint32_t bend_q16 = (gn_abs32(bend_q30) >> 14) + 1; /* at most 2^13.6 */
-    if (gn_abs64(d) >> 25) return 0;
+    if (gn_abs64(d) >> 21) return 0;
     if (gn_abs64(d) * (bend_q16 * bend_q16) > (uint64_t)1 << (34 + 20 - GN_ALPHA_TEXEL_LOG2 - size_log2))
         return 0; /* a^2/4 */
-    int32_t d_q24 = (int32_t)d * 16, per_px_q30 = 4 * bend_q30 / (n * n);
-    steps->bend_q24[axis] = (int32_t)gn_shr64((int64_t)d_q24 * per_px_q30, 30);
-    steps->step_q24[axis] = (d_q24 - steps->bend_q24[axis] * (n * (n - 1) / 2)) / n; /* 2^29 + 2^29 * 3/8 */
+    int32_t d_q28 = (int32_t)d * 256;
+    steps->bend_q28[axis] = (int32_t)((int64_t)d_q28 * bend_q30 >> 28) / (n * n); /* 2^29 * 3/4 before it is divided */
+    steps->step_q28[axis] = (d_q28 - steps->bend_q28[axis] * (n * (n - 1) / 2)) / n; /* 2^29 + 2^29 * 3/8 */
     return 1;
 }
 
-/* The span between two exact samples around x: they lie at multiples of the step in the picture, or where the
- * triangle's row begins and ends. */
-GN_HOT static void alpha_steps(gn_alpha_cut *cut, int32_t x)
+/* The pixels from `at` on between two exact samples, at multiples of px in the picture, or where the triangle's row
+ * begins and ends. Returns 0 if they are too far apart for the limit. */
+GN_HOT static int find_steps(gn_alpha_cut *cut, int32_t at, int32_t px)
 {
     const gn_texture *texture = cut->object->texture;
-    int32_t at = x & -cut->px_per_step;
     gn_alpha_steps *steps = &cut->steps;
     gn_alpha_exact from = cut->exact;
     steps->first = gn_max32(at, cut->x_begin);
-    steps->end = gn_min32(at + cut->px_per_step, cut->x_end);
+    steps->end = gn_min32(at + px, cut->x_end);
     steps->hold = 0;
-    int32_t last = gn_min32(at + cut->px_per_step, cut->x_end - 1), n = last - steps->first;
-    if (n < 2) return;
+    int32_t last = gn_min32(at + px, cut->x_end - 1), n = last - steps->first;
+    if (n < 2) return 1;
     if (from.x != steps->first) find_exact(cut, &from, steps->first);
     find_exact(cut, &cut->exact, last);
-    if (!from.w_norm || !cut->exact.w_norm) return;
+    if (!from.w_norm || !cut->exact.w_norm) return 0;
     int32_t bend_q30 = bend_between(&from, &cut->exact);
-    if (gn_abs32(bend_q30) > GN_ALPHA_BEND_MAX_Q30) return;
+    if (gn_abs32(bend_q30) > GN_ALPHA_BEND_MAX_Q30) return 0;
     for (int i = 0; i < 2; i++) {
         int64_t d = (int64_t)cut->exact.uv_q20[i] - from.uv_q20[i];
         if (!gn_texture_clamps(texture, i)) d = (int32_t)(uint32_t)d; /* modulo whole turns */
         steps->from_q20[i] = from.uv_q20[i];
-        if (!step_coord(steps, i, d, n, bend_q30, gn_texture_size_log2(texture, i))) return;
+        if (!step_coord(steps, i, d, n, bend_q30, gn_texture_size_log2(texture, i))) return 0;
     }
     steps->hold = 1;
+    return 1;
+}
+
+/* The span around x. What it is does not depend on the pixels before: a row in two screen tiles is one row. */
+GN_HOT static void alpha_steps(gn_alpha_cut *cut, int32_t x)
+{
+    int32_t at = x & -GN_ALPHA_LONG_PX;
+    if (cut->steps.bent != at && find_steps(cut, at, GN_ALPHA_LONG_PX)) return;
+    cut->steps.bent = at;
+    find_steps(cut, x & -cut->px_per_step, cut->px_per_step);
 }
 
 GN_HOT int32_t gn_alpha_coords(gn_alpha_cut *cut, int32_t x, gn_texture_curve *curve)
@@ -107,14 +118,14 @@ GN_HOT int32_t gn_alpha_coords(gn_alpha_cut *cut, int32_t x, gn_texture_curve *c
             int32_t k = x - steps->first, bends = k * (k - 1) / 2;
             for (int i = 0; i < 2; i++) {
                 curve->from_q20[i] = steps->from_q20[i];
-                curve->at_q24[i] = k * steps->step_q24[i] + bends * steps->bend_q24[i] + 8;
-                curve->step_q24[i] = steps->step_q24[i] + k * steps->bend_q24[i];
-                curve->bend_q24[i] = steps->bend_q24[i];
+                curve->at_q28[i] = k * steps->step_q28[i] + bends * steps->bend_q28[i] + 128;
+                curve->step_q28[i] = steps->step_q28[i] + k * steps->bend_q28[i];
+                curve->bend_q28[i] = steps->bend_q28[i];
             }
             return steps->end - x;
         }
     }
     exact_coords(cut, x, curve->from_q20, &recip);
-    for (int i = 0; i < 2; i++) curve->at_q24[i] = curve->step_q24[i] = curve->bend_q24[i] = 0;
+    for (int i = 0; i < 2; i++) curve->at_q28[i] = curve->step_q28[i] = curve->bend_q28[i] = 0;
     return 1;
 }

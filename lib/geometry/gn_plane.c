@@ -85,8 +85,9 @@ GN_HOT void gn_bary_at(int32_t b_q30[2], const gn_bary *bary, const gn_ray_recip
     const int32_t one = 1 << 30;
     for (int k = 0; k < 2; k++) {
         int64_t b = gn_plane_at(bary->form[k], px, py, focal2_px_q16);
-        uint64_t t = bary_fraction(b, 32 - recip->clz - bary->exp[k], recip->w_norm);
-        b_q30[k] = (int32_t)((t * recip->recip) >> 33); /* 2^64 / 2^33 */
+        uint32_t t = bary_fraction(b, 32 - recip->clz - bary->exp[k], recip->w_norm);
+        GN_KEEP(t);                                               /* 32 bits: one multiplication */
+        b_q30[k] = (int32_t)(gn_umul_high(t, recip->recip) >> 1); /* 2^64 / 2^33 */
         b_q30[k] = gn_min32(b_q30[k], one);
     }
     if (b_q30[1] > one - b_q30[0]) b_q30[1] = one - b_q30[0];

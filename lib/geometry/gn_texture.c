@@ -55,23 +55,24 @@ GN_HOT static inline uint32_t texel_alpha(const gn_texture *t, const uint8_t *ro
     return 65535U;
 }
 
-GN_HOT static inline uint32_t filtered_alpha(const gn_texture *texture, int32_t u_q20, int32_t v_q20)
+/* 65535: 1 */
+GN_HOT static uint32_t filtered_alpha(const gn_texture *texture, int32_t u_q20, int32_t v_q20)
 {
     footprint f;
     uint32_t stride = gn_texel_stride(texture);
     find_texels(&f, texture, u_q20, v_q20);
     const uint8_t *upper = texture->rgba + f.v.first * stride, *lower = texture->rgba + f.v.second * stride;
     uint32_t a = texel_alpha(texture, upper, f.u.first);
-    if (!f.bilinear) return gn_texture_to_uq16(a);
+    if (!f.bilinear) return a;
     uint32_t b = texel_alpha(texture, upper, f.u.second), c = texel_alpha(texture, lower, f.u.first),
              d = texel_alpha(texture, lower, f.u.second);
     if ((a ^ b) | (a ^ c) | (a ^ d)) a = blend(f.u.weight_uq16, f.v.weight_uq16, a, b, c, d);
-    return gn_texture_to_uq16(a);
+    return a;
 }
 
 /* Bilinear taps along a curve, which need no look at the border: it repeats a power of two, or is not met. */
 typedef struct {
-    uint32_t at_q24, step_q24, bend_q24;
+    uint32_t at_q28, step_q28, bend_q28;
     uint32_t size, first_q20; /* of texels, less half of one: size times the pixel's coordinate and this, modulo 2^32 */
     uint32_t mask;            /* of texels */
 } inner_axis;
@@ -79,9 +80,9 @@ typedef struct {
 /* Texels, Q20, of the pixel that is reached. */
 GN_INLINE uint32_t inner_at(inner_axis *axis)
 {
-    uint32_t at_q20 = (uint32_t)((int32_t)axis->at_q24 >> 4) * axis->size + axis->first_q20;
-    axis->at_q24 += axis->step_q24;
-    axis->step_q24 += axis->bend_q24;
+    uint32_t at_q20 = (uint32_t)((int32_t)axis->at_q28 >> 8) * axis->size + axis->first_q20;
+    axis->at_q28 += axis->step_q28;
+    axis->step_q28 += axis->bend_q28;
     return at_q20;
 }
 
@@ -89,10 +90,10 @@ GN_INLINE uint32_t inner_at(inner_axis *axis)
  * descend all along it. */
 GN_HOT static int is_inside(const gn_texture *texture, const gn_texture_curve *curve, int i, int32_t n)
 {
-    uint32_t size = gn_texture_size(texture, i), at = (uint32_t)curve->at_q24[i], k = (uint32_t)n - 1, half = 1U << 19,
-             last = at + k * (uint32_t)curve->step_q24[i] + k * (k - 1) / 2 * (uint32_t)curve->bend_q24[i],
-             a = (uint32_t)curve->from_q20[i] + (uint32_t)((int32_t)at >> 4),
-             b = (uint32_t)curve->from_q20[i] + (uint32_t)((int32_t)last >> 4);
+    uint32_t size = gn_texture_size(texture, i), at = (uint32_t)curve->at_q28[i], k = (uint32_t)n - 1, half = 1U << 19,
+             last = at + k * (uint32_t)curve->step_q28[i] + k * (k - 1) / 2 * (uint32_t)curve->bend_q28[i],
+             a = (uint32_t)curve->from_q20[i] + (uint32_t)((int32_t)at >> 8),
+             b = (uint32_t)curve->from_q20[i] + (uint32_t)((int32_t)last >> 8);
     if ((a ^ b) >> 20 || (gn_texture_clamps(texture, i) && a >> 20)) return 0;
     a = (a & 0xFFFFFU) * size - half;
     b = (b & 0xFFFFFU) * size - half;
@@ -104,11 +105,11 @@ GN_HOT static inline int begin_inner(inner_axis *axis, const gn_texture *texture
                                      int32_t n)
 {
     uint32_t size = gn_texture_size(texture, i);
-    axis->at_q24 = (uint32_t)curve->at_q24[i];
-    axis->step_q24 = (uint32_t)curve->step_q24[i];
-    axis->bend_q24 = (uint32_t)curve->bend_q24[i];
+    axis->at_q28 = (uint32_t)curve->at_q28[i];
+    axis->step_q28 = (uint32_t)curve->step_q28[i];
+    axis->bend_q28 = (uint32_t)curve->bend_q28[i];
     axis->size = size;
-    const uint32_t before = (uint32_t)(curve->at_q24[i] >> 4), c = (uint32_t)curve->from_q20[i] + before;
+    const uint32_t before = (uint32_t)(curve->at_q28[i] >> 8), c = (uint32_t)curve->from_q20[i] + before;
     axis->first_q20 = ((c & 0xFFFFFU) - before) * size - (1U << 19);
     axis->mask = size - 1;
     if (!gn_texture_clamps(texture, i) && !(size & (size - 1))) return 1;
@@ -122,18 +123,21 @@ GN_HOT static inline uint32_t alpha_pitch(const gn_texture *t)
     return GN_TEXEL_IS(t, GN_TEXTURE_RGBA8888) ? 4 : GN_TEXEL_IS(t, GN_TEXTURE_ALPHA8) ? 1 : 0;
 }
 
-/* The same as of each alone, but most pixels are in the midst of a texture, and among texels of one alpha. */
-GN_HOT static GN_NOINLINE int inner_alphas(const gn_texture *texture, const gn_texture_curve *curve, int32_t n,
-                                           uint32_t *alpha)
+/* The same as of each alone, but most pixels are in the midst of a texture, and among texels of one alpha. Returns 0 if
+ * some are not in its midst. */
+GN_HOT static GN_NOINLINE int inner_keeps(const gn_texture *texture, const gn_texture_curve *curve, uint32_t bits,
+                                          const gn_alpha_test *test, uint32_t *kept)
 {
     inner_axis u, v;
-    uint32_t pitch = alpha_pitch(texture), stride = gn_texel_stride(texture);
+    uint32_t pitch = alpha_pitch(texture), stride = gn_texel_stride(texture), passed = 0;
+    const int32_t n = 32 - gn_clz32(bits);
     const uint8_t *first = texture->rgba + (pitch == 4 ? 3 : 0);
     if (!pitch || !(texture->flags & GN_TEXTURE_BILINEAR) || !begin_inner(&u, texture, curve, 0, n) ||
         !begin_inner(&v, texture, curve, 1, n))
         return 0;
-    for (const uint32_t *end = alpha + n; alpha != end; alpha++) {
+    for (int32_t i = 0; i < n; i++) {
         uint32_t at_u = inner_at(&u), at_v = inner_at(&v);
+        if (!(bits >> i & 1U)) continue;
         uint32_t left = (at_u >> 20 & u.mask) * pitch, right = (((at_u >> 20) + 1) & u.mask) * pitch;
         const uint8_t *upper = first + (at_v >> 20 & v.mask) * stride,
                       *lower = first + (((at_v >> 20) + 1) & v.mask) * stride;
@@ -141,36 +145,36 @@ GN_HOT static GN_NOINLINE int inner_alphas(const gn_texture *texture, const gn_t
         uint32_t mixed = a * 257U;
         if (a != b || a != c || a != d)
             mixed = blend(at_u >> 4 & 0xFFFFU, at_v >> 4 & 0xFFFFU, a * 257U, b * 257U, c * 257U, d * 257U);
-        *alpha = gn_texture_to_uq16(mixed);
+        if (gn_alpha_passes(test, i, mixed)) passed |= 1U << i;
     }
+    *kept = passed;
     return 1;
 }
 
-GN_HOT void gn_texture_alphas(const gn_texture *texture, const gn_texture_curve *curve, int32_t n, uint32_t *alpha)
+GN_HOT uint32_t gn_texture_keeps(const gn_texture *texture, const gn_texture_curve *curve, uint32_t bits,
+                                 const gn_alpha_test *test)
 {
-    uint32_t at[2], step[2];
-    if (!GN_SIZE_FIRST && n > 1 && inner_alphas(texture, curve, n, alpha)) return;
+    uint32_t at[2], step[2], kept = 0;
+    if (!GN_SIZE_FIRST && bits > 1 && inner_keeps(texture, curve, bits, test, &kept)) return kept;
     for (int i = 0; i < 2; i++) {
-        at[i] = (uint32_t)curve->at_q24[i];
-        step[i] = (uint32_t)curve->step_q24[i];
+        at[i] = (uint32_t)curve->at_q28[i];
+        step[i] = (uint32_t)curve->step_q28[i];
     }
-    for (; n > 0; n--) {
+    for (int32_t k = 0; bits; k++, bits >>= 1) {
         int32_t uv[2];
         for (int i = 0; i < 2; i++) {
-            uv[i] = (int32_t)((uint32_t)curve->from_q20[i] + (uint32_t)((int32_t)at[i] >> 4));
+            uv[i] = (int32_t)((uint32_t)curve->from_q20[i] + (uint32_t)((int32_t)at[i] >> 8));
             at[i] += step[i];
-            step[i] += (uint32_t)curve->bend_q24[i];
+            step[i] += (uint32_t)curve->bend_q28[i];
         }
-        *alpha++ = filtered_alpha(texture, uv[0], uv[1]);
+        if (bits & 1U && gn_alpha_passes(test, k, filtered_alpha(texture, uv[0], uv[1]))) kept |= 1U << k;
     }
+    return kept;
 }
 
 GN_HOT uint32_t gn_texture_alpha(const gn_texture *texture, int32_t u_q20, int32_t v_q20)
 {
-    const gn_texture_curve curve = {{u_q20, v_q20}, {0, 0}, {0, 0}, {0, 0}};
-    uint32_t alpha;
-    gn_texture_alphas(texture, &curve, 1, &alpha);
-    return alpha;
+    return gn_texture_to_uq16(filtered_alpha(texture, u_q20, v_q20));
 }
 #endif
 
@@ -190,10 +194,14 @@ GN_HOT void gn_texture_corners(gn_texture_triangle *out, const gn_mesh *mesh, co
 GN_HOT int32_t gn_texture_coord(const gn_texture_triangle *triangle, const gn_texture *texture, const int32_t b_q30[2],
                                 int32_t which)
 {
-    int64_t at = triangle->uv_q16[0][which], e1 = triangle->uv_q16[1][which], e2 = triangle->uv_q16[2][which];
     /* the lowest bit of differences of at most 15 fraction bits is zero; half of them is below 2^31 */
-    int64_t c_q20 = at * 16 + gn_shr64((int64_t)b_q30[0] * (int32_t)(e1 >> 1), 25) +
-                    gn_shr64((int64_t)b_q30[1] * (int32_t)(e2 >> 1), 25);
+    int32_t e1 = (int32_t)(triangle->uv_q16[1][which] >> 1), e2 = (int32_t)(triangle->uv_q16[2][which] >> 1),
+            b1 = b_q30[0], b2 = b_q30[1];
+    GN_KEEP(e1); /* signed: one multiplication */
+    GN_KEEP(e2);
+    GN_KEEP(b1);
+    GN_KEEP(b2);
+    int64_t c_q20 = triangle->uv_q16[0][which] * 16 + gn_shr64((int64_t)b1 * e1, 25) + gn_shr64((int64_t)b2 * e2, 25);
     return gn_texture_clamps(texture, which) ? gn_sat32(c_q20) : (int32_t)(uint32_t)c_q20;
 }
 

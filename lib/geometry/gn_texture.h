@@ -2,22 +2,30 @@
 #ifndef GN_TEXTURE_H
 #define GN_TEXTURE_H
 
+#include "base/gn_noise.h"
 #include "base/gn_q.h"
 #include "gnomon.h"
 
 /* Alpha, 0..65536. u and v of any value, v downwards, 20 fraction bits: 1/256 of a texel of the largest texture. */
 uint32_t gn_texture_alpha(const gn_texture *texture, int32_t u_q20, int32_t v_q20);
 
-/* Coordinates along a row of pixels, k of them on: from + (at + k step + k (k - 1) / 2 bend), of the sum in brackets
- * without its lowest 4 bits. */
+/* Coordinates along a row of pixels, k < 32 of them on: from + (at + k step + k (k - 1) / 2 bend), of the sum in
+ * brackets without its lowest 8 bits. */
 typedef struct {
-    int32_t from_q20[2], at_q24[2], step_q24[2], bend_q24[2];
+    int32_t from_q20[2], at_q28[2], step_q28[2], bend_q28[2];
 } gn_texture_curve;
 
-#define GN_TEXTURE_CURVE_MAX 8
+/* Which pixels a row's alphas keep: those of at least `least`, 65535: 1; if it dithers, those of which alpha times
+ * `whole` is at least the noise. */
+typedef struct {
+    uint32_t least, whole_uq16;
+    int dithers;
+    int32_t x, y; /* the row's first pixel */
+} gn_alpha_test;
 
-/* The alphas of the first n <= GN_TEXTURE_CURVE_MAX pixels of such a row. */
-void gn_texture_alphas(const gn_texture *texture, const gn_texture_curve *curve, int32_t n, uint32_t *alpha);
+/* Of the pixels `bits` of such a row those that are kept; the lowest bit is the first. */
+uint32_t gn_texture_keeps(const gn_texture *texture, const gn_texture_curve *curve, uint32_t bits,
+                          const gn_alpha_test *test);
 
 /* A channel of a mask image: bilinear and clamped, whatever its flags say, and lit in a channel that it lacks. */
 uint32_t gn_texture_mask(const gn_texture *image, int32_t u_q16, int32_t v_q16, uint32_t channel);
@@ -118,6 +126,13 @@ GN_HOT static inline uint32_t gn_texture_mix(uint32_t a, uint32_t b, uint32_t we
 GN_HOT static inline uint32_t gn_texture_to_uq16(uint32_t v)
 {
     return v + (v >> 15);
+}
+
+/* Whether the row's pixel i, whose alpha is 0..65535, is kept. */
+GN_HOT static inline int gn_alpha_passes(const gn_alpha_test *test, int32_t i, uint32_t alpha)
+{
+    if (!test->dithers) return alpha >= test->least;
+    return gn_mul_uq16(test->whole_uq16, gn_texture_to_uq16(alpha)) >= gn_noise_uq16(test->x + i, test->y);
 }
 
 /* A texel's colour in linear light, 65535: 1. */

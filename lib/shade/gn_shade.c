@@ -155,58 +155,27 @@ typedef struct {
 
 #define LOOKS 8 /* a power of two */
 
-GN_HOT static const object_look *look_at(gn_shading *s, object_look looks[LOOKS], uint32_t object_idx)
+GN_HOT static void find_look_of(gn_shading *s, object_look *look, uint32_t object_idx)
 {
     const gn_object *object = &s->frame->scene->objects[object_idx];
-    object_look *look = &looks[object_idx & (LOOKS - 1)];
     uint32_t q20[3];
-    if (look->object_idx != object_idx) {
-        look->object_idx = object_idx;
-        int plain = object->flags & GN_OBJECT_UNLIT && !(GN_VERTEX_COLOURS && object->mesh->rgb_uq16) &&
-                    !(GN_TEXTURES && object->texture) && s->frame->picture.format != GN_FORMAT_RAW32;
-        look->plain = !plain ? NOT_PLAIN : s->frame->picture.format == GN_FORMAT_RGB565 ? PLAIN_565 : PLAIN;
-        for (int c = 0; c < 3; c++) q20[c] = object->albedo_uq16[c] << 4;
-        if (plain) look->packed = gn_exact_pack(s, q20);
-    }
-    return look;
+    look->object_idx = object_idx;
+    int plain = object->flags & GN_OBJECT_UNLIT && !(GN_VERTEX_COLOURS && object->mesh->rgb_uq16) &&
+                !(GN_TEXTURES && object->texture) && s->frame->picture.format != GN_FORMAT_RAW32;
+    look->plain = !plain ? NOT_PLAIN : s->frame->picture.format == GN_FORMAT_RGB565 ? PLAIN_565 : PLAIN;
+    for (int c = 0; c < 3; c++) q20[c] = object->albedo_uq16[c] << 4;
+    if (plain) look->packed = gn_exact_pack(s, q20);
 }
 
-/* The state of sorting a tile's runs. */
-typedef struct {
-    gn_shading *s;
-    const char *sources;        /* gn_cell_sources */
-    int links;                  /* some run */
-    uint32_t plain_idx, packed; /* the plain object met last, of 16 bits per pixel */
-    uint32_t lit_idx;           /* the object met last that is not plain */
-    object_look looks[LOOKS];
-} run_sorter;
-
-/* Links a run, or fills it in if its object is plain. */
-GN_HOT static GN_NOINLINE void sort_run(run_sorter *sorter, uint32_t *first, uint32_t id, uint32_t n_px)
+/* Fills in a run of a plain object, and does not link it. */
+GN_HOT static void fill_run(gn_shading *s, uint32_t *first, uint32_t n_px, uint32_t packed)
 {
-    gn_shading *s = sorter->s;
-    if (!GN_SIZE_FIRST) {
-        const uint32_t object_idx = gn_cell_source(s->frame, sorter->sources, id)->object_idx;
-        const object_look *look = look_at(s, sorter->looks, object_idx);
-        if (look->plain != NOT_PLAIN) {
-            int32_t stride = GN_K(s->frame, tile_width), at = (int32_t)(first - GN_CELLS(s->scratch)), x = at % stride,
-                    y = at / stride;
-            GN_COUNT(runs, 1);
-            GN_COUNT(filled, n_px);
-            gn_runs_drop(first);
-            gn_pixel_fill(s->frame, &s->rows, s->rect.x0 + x, s->rect.y0 + y, (int32_t)n_px, look->packed);
-            if (look->plain == PLAIN) return;
-            sorter->plain_idx = look->object_idx;
-            sorter->packed = look->packed;
-            return;
-        }
-        sorter->lit_idx = object_idx;
-    }
-    gn_runs_link(s->scratch, id, first, n_px);
-    sorter->links = 1;
+    int32_t stride = GN_K(s->frame, tile_width), at = (int32_t)(first - GN_CELLS(s->scratch)), x = at % stride,
+            y = at / stride;
+    gn_pixel_fill(s->frame, &s->rows, s->rect.x0 + x, s->rect.y0 + y, (int32_t)n_px, packed);
 }
 
-/* Fills in a short run of a plain object, and does not link it. */
+/* The same of a short one, of 16 bits per pixel. */
 GN_HOT static inline void fill_short_run(uint16_t *out, uint32_t *first, uint32_t n_px, uint32_t packed)
 {
     GN_COUNT(runs, 1);
@@ -218,14 +187,40 @@ GN_HOT static inline void fill_short_run(uint16_t *out, uint32_t *first, uint32_
     } while (--n_px);
 }
 
+/* The state of sorting a tile's runs. */
+typedef struct {
+    gn_shading *s;
+    uint32_t plain_idx, packed; /* the plain object met last, of 16 bits per pixel */
+    uint32_t lit_idx[LOOKS];    /* objects met last that are not plain */
+    object_look look[LOOKS];
+} run_sorter;
+
 /* Empty state. */
 GN_HOT static void sorter_begin(run_sorter *sorter, gn_shading *s)
 {
     sorter->s = s;
-    sorter->sources = gn_cell_sources(s->frame, s->scratch);
-    sorter->links = 0;
-    sorter->plain_idx = sorter->lit_idx = UINT32_MAX;
-    for (uint32_t i = 0; !GN_SIZE_FIRST && i < LOOKS; i++) sorter->looks[i].object_idx = UINT32_MAX;
+    sorter->plain_idx = UINT32_MAX;
+    for (uint32_t i = 0; !GN_SIZE_FIRST && i < LOOKS; i++) sorter->look[i].object_idx = sorter->lit_idx[i] = UINT32_MAX;
+}
+
+/* A run of an object that is plain, and is filled in, or was not met yet. Returns 0 if it is to be linked. */
+GN_HOT static GN_NOINLINE int sort_run(run_sorter *sorter, uint32_t *first, uint32_t n_px, uint32_t object_idx)
+{
+    object_look *look = &sorter->look[object_idx & (LOOKS - 1)];
+    if (look->object_idx != object_idx) find_look_of(sorter->s, look, object_idx);
+    if (look->plain == NOT_PLAIN) {
+        sorter->lit_idx[object_idx & (LOOKS - 1)] = object_idx;
+        return 0;
+    }
+    GN_COUNT(runs, 1);
+    GN_COUNT(filled, n_px);
+    gn_runs_drop(first);
+    fill_run(sorter->s, first, n_px, look->packed);
+    if (look->plain == PLAIN_565) {
+        sorter->plain_idx = object_idx;
+        sorter->packed = look->packed;
+    }
+    return 1;
 }
 
 /* Links the tile's runs, except those of plain objects, which it fills in. Returns whether there are others. */
@@ -233,11 +228,11 @@ GN_HOT static GN_NOINLINE int sort_runs(gn_shading *s, int32_t n_rows)
 {
     const gn_frame *frame = s->frame;
     const char *sources = gn_cell_sources(frame, s->scratch);
-    run_sorter sorter;
-    uint32_t id_mask = (1U << frame->id_bits) - 1, width = (uint32_t)s->rows.width, plain_idx = UINT32_MAX,
-             lit_idx = UINT32_MAX, packed = 0;
+    uint32_t id_mask = (1U << frame->id_bits) - 1, width = (uint32_t)s->rows.width, links = 0;
     uint32_t *cells = GN_CELLS(s->scratch), *row = cells + n_rows * GN_K(frame, tile_width);
     uint16_t *pixel = s->scratch->pixel.rgb565 + (uint32_t)n_rows * width;
+    run_sorter sorter;
+    GN_KEEP(sources); /* one pointer */
     sorter_begin(&sorter, s);
     gn_runs_clear(s->scratch);
     while (row > cells) {
@@ -248,22 +243,22 @@ GN_HOT static GN_NOINLINE int sort_runs(gn_shading *s, int32_t n_rows)
         while ((last = gn_runs_last(last, row)) >= row) {
             uint32_t id = *last & id_mask, *first = gn_runs_first(last, id_mask), n_px = (uint32_t)(last - first) + 1;
             last = first;
-            if (!GN_SIZE_FIRST && n_px < 8 && gn_cell_source(frame, sources, id)->object_idx == plain_idx) {
-                fill_short_run(pixel + (first - row), first, n_px, packed);
-                continue;
+            if (!GN_SIZE_FIRST) {
+                const uint32_t idx = gn_cell_source(frame, sources, id)->object_idx;
+                if (sorter.lit_idx[idx & (LOOKS - 1)] != idx) {
+                    if (n_px < 8 && idx == sorter.plain_idx) {
+                        fill_short_run(pixel + (first - row), first, n_px, sorter.packed);
+                        continue;
+                    }
+                    if (sort_run(&sorter, first, n_px, idx)) continue;
+                }
             }
-            if (!GN_SIZE_FIRST && gn_cell_source(frame, sources, id)->object_idx == lit_idx) {
-                gn_runs_link(s->scratch, id, first, n_px);
-                continue;
-            }
-            sort_run(&sorter, first, id, n_px);
-            lit_idx = sorter.lit_idx;
-            plain_idx = sorter.plain_idx;
-            packed = sorter.packed;
+            gn_runs_link(s->scratch, id, first, n_px);
+            links |= id;
         }
         row[-1] = before;
     }
-    return sorter.links;
+    return links != 0;
 }
 
 /* ---- Layers ------------------------------------------------------------------------------------------------------ */

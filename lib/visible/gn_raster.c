@@ -205,17 +205,26 @@ GN_HOT static GN_NOINLINE void raster_span_slow(const raster_depth *depth, uint3
 }
 
 #if GN_VISIBLE_ALPHA
+/* A candidate with all identity bits; its depth is bounded where it may leave the triangle's range. */
+GN_INLINE uint32_t candidate_at(uint32_t iz, const raster_depth *depth, int bounded)
+{
+    return (bounded ? gn_raster_clamp(iz, depth) : iz) | depth->id_mask;
+}
+
 /* At most 32 pixels of a row that alpha may cut: it is looked up only where the surface would be the nearest.
  * Transparent surfaces go into layers. */
-GN_HOT static void raster_cut(const raster_tile *tile, const raster_depth *depth, uint32_t *cell, int32_t n,
-                              uint32_t iz, gn_alpha_cut *cut, int32_t x)
+GN_INLINE void raster_cut(const raster_tile *tile, const raster_depth *depth, uint32_t *cell, int32_t n, uint32_t iz,
+                          gn_alpha_cut *cut, int32_t x, int bounded)
 {
-    uint32_t bits = 0, at = iz;
-    for (int32_t i = 0; i < n; i++, at -= depth->minus_dx)
-        if ((gn_raster_clamp(at, depth) | depth->id_mask) >= cell[i]) bits |= 1U << i;
+    uint32_t bits = 0, at = iz - (uint32_t)n * depth->minus_dx;
+    for (const uint32_t *last = cell + n; last != cell;) {
+        at += depth->minus_dx;
+        bits = 2 * bits + (candidate_at(at, depth, bounded) >= *--last);
+    }
+    if (!bits) return;
     for (bits = gn_alpha_keeps(cut, x, bits); bits; bits >>= 1, cell++, iz -= depth->minus_dx) {
         if (!(bits & 1U)) continue;
-        uint32_t nearest = (gn_raster_clamp(iz, depth) | depth->id_mask) - depth->below;
+        uint32_t nearest = candidate_at(iz, depth, bounded) - depth->below;
         if (GN_LAYERS_MAX && cut->mode == GN_ALPHA_BLEND)
             gn_layers_put(tile->scratch, GN_LAYERS(tile->frame), cell, nearest);
         else *cell = nearest;
@@ -225,9 +234,13 @@ GN_HOT static void raster_cut(const raster_tile *tile, const raster_depth *depth
 GN_HOT static GN_NOINLINE void raster_span_cut(const raster_tile *tile, const raster_depth *depth, uint32_t *cell,
                                                int32_t n, uint32_t iz, gn_alpha_cut *cut, int32_t x)
 {
+    const uint32_t above = iz - depth->lo, end = above - (uint32_t)(n - 1) * depth->minus_dx;
+    const int bounded = GN_SIZE_FIRST || above >= depth->range || end >= depth->range;
     GN_COUNT(covered_cut, n);
-    for (; n > 0; n -= 32, cell += 32, x += 32, iz -= 32 * depth->minus_dx)
-        raster_cut(tile, depth, cell, gn_min32(n, 32), iz, cut, x);
+    for (; n > 0; n -= 32, cell += 32, x += 32, iz -= 32 * depth->minus_dx) {
+        if (bounded) raster_cut(tile, depth, cell, gn_min32(n, 32), iz, cut, x, 1);
+        else raster_cut(tile, depth, cell, gn_min32(n, 32), iz, cut, x, 0);
+    }
 }
 #else
 GN_HOT static void raster_span_cut(const raster_tile *tile, const raster_depth *depth, uint32_t *cell, int32_t n,

@@ -55,12 +55,13 @@ GN_HOT static inline void gn_runs_drop(uint32_t *first)
     *first = 0;
 }
 
-/* Walks the runs of one triangle, top down and left to right, and takes them from their list. */
+/* Walks the runs of one triangle, top down and left to right, and takes them from their list: all of them. */
 typedef struct {
     uint32_t *cell;
     gn_run_idx *list;
     uint32_t id;
     uint32_t at, prev; /* GN_RUN_NONE: at its end, at its beginning */
+    uint32_t head;     /* of what is left of the list */
 } gn_run_taker;
 
 GN_HOT static inline void gn_runs_begin(gn_run_taker *taker, gn_scratch *scratch, uint32_t id)
@@ -68,7 +69,7 @@ GN_HOT static inline void gn_runs_begin(gn_run_taker *taker, gn_scratch *scratch
     taker->cell = GN_CELLS(scratch);
     taker->list = &scratch->run_list[id & (GN_RUN_LISTS - 1)];
     taker->id = id;
-    taker->at = *taker->list;
+    taker->at = taker->head = *taker->list;
     taker->prev = GN_RUN_NONE;
 }
 
@@ -83,13 +84,14 @@ GN_HOT static inline int gn_runs_take(gn_run_taker *taker, uint32_t stride, uint
             taker->prev = i;
             continue;
         }
-        if (taker->prev == GN_RUN_NONE) *taker->list = (gn_run_idx)next;
+        if (taker->prev == GN_RUN_NONE) taker->head = next;
         else cell[taker->prev] = (next == GN_RUN_NONE ? taker->prev : next) << 16 | (cell[taker->prev] & 0xFFFFU);
         *first = i;
         /* one pixel, or a second whose cell names the same triangle: what begins there otherwise is another's */
         *n_px = (i + 1) % stride && (cell[i + 1] & 0xFFFFU) == taker->id ? (int32_t)(cell[i + 1] >> 16) : 1;
         return 1;
     }
+    *taker->list = (gn_run_idx)taker->head;
     return 0;
 }
 

@@ -120,8 +120,8 @@ static int32_t coordinates_at(gn_alpha_cut *cut, int32_t x, int32_t k, int32_t u
     gn_texture_curve curve;
     int32_t n = gn_alpha_coords(cut, x, &curve);
     for (int i = 0; i < 2; i++) {
-        int64_t sum = curve.at_q24[i] + (int64_t)k * curve.step_q24[i] + (int64_t)(k * (k - 1) / 2) * curve.bend_q24[i];
-        uv_q20[i] = (int32_t)(uint32_t)(curve.from_q20[i] + (sum >> 4));
+        int64_t sum = curve.at_q28[i] + (int64_t)k * curve.step_q28[i] + (int64_t)(k * (k - 1) / 2) * curve.bend_q28[i];
+        uv_q20[i] = (int32_t)(uint32_t)(curve.from_q20[i] + (sum >> 8));
     }
     return n;
 }

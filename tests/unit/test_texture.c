@@ -188,30 +188,36 @@ static void try_lookup(verdict *result, const gn_texture *t)
     }
 }
 
-/* Along a curve every pixel has the alpha of its coordinates. */
+/* Along a curve every pixel that is asked is kept as the alpha of its coordinates has it. */
 static void try_curve(tally *same, const gn_texture *t)
 {
     gn_texture_curve curve;
-    uint32_t alpha[GN_TEXTURE_CURVE_MAX + 1];
-    int32_t n = rng_range(&random_state, 1, GN_TEXTURE_CURVE_MAX);
+    const gn_alpha_test test = {rng_below(&random_state, 65537), rng_below(&random_state, 65537),
+                                rng_below(&random_state, 4) == 0, rng_range(&random_state, 0, 1000),
+                                rng_range(&random_state, 0, 1000)};
+    const uint32_t bits = rng_u32(&random_state) >> rng_below(&random_state, 32) & rng_u32(&random_state);
     for (int i = 0; i < 2; i++) {
         curve.from_q20[i] = random_coordinate(side(t, i));
-        curve.at_q24[i] = rng_range(&random_state, -(1 << 20), 1 << 20);
-        curve.step_q24[i] = rng_range(&random_state, -(1 << 22), 1 << 22) >> rng_below(&random_state, 8);
-        curve.bend_q24[i] = curve.step_q24[i] / rng_range(&random_state, 9, 90);
+        curve.at_q28[i] = rng_range(&random_state, -(1 << 24), 1 << 24);
+        curve.step_q28[i] = rng_range(&random_state, -(1 << 24), 1 << 24) >> rng_below(&random_state, 8);
+        curve.bend_q28[i] = curve.step_q28[i] / rng_range(&random_state, 33, 330);
     }
-    alpha[n] = 0xDEADBEEFU;
-    gn_texture_alphas(t, &curve, n, alpha);
-    for (int32_t k = 0; k < n; k++) {
+    const uint32_t passed = gn_texture_keeps(t, &curve, bits, &test);
+    HOLDS(same, !(passed & ~bits), "pixels that were not asked");
+    for (int32_t k = 0; k < 32; k++) {
+        if (!(bits >> k & 1U)) continue;
         uint32_t c[2];
         for (int i = 0; i < 2; i++)
             c[i] = (uint32_t)curve.from_q20[i] +
-                   (uint32_t)((curve.at_q24[i] + k * curve.step_q24[i] + k * (k - 1) / 2 * curve.bend_q24[i]) >> 4);
-        HOLDS(same, alpha[k] == gn_texture_alpha(t, (int32_t)c[0], (int32_t)c[1]),
-              "format %d, %dx%d, flags %d, (%d, %d): pixel %d of %d", (int)t->format, (int)side(t, 0), (int)side(t, 1),
-              (int)t->flags, (int)c[0], (int)c[1], (int)k, (int)n);
+                   (uint32_t)((curve.at_q28[i] + k * curve.step_q28[i] + k * (k - 1) / 2 * curve.bend_q28[i]) >> 8);
+        const uint32_t alpha_uq16 = gn_texture_alpha(t, (int32_t)c[0], (int32_t)c[1]), /* 65536: 1 */
+            alpha = alpha_uq16 - (alpha_uq16 > 32768);
+        const int want = test.dithers ? gn_mul_uq16(test.whole_uq16, alpha_uq16) >= gn_noise_uq16(test.x + k, test.y)
+                                      : alpha >= test.least;
+        HOLDS(same, (int)(passed >> k & 1U) == want, "format %d, %dx%d, flags %d, (%d, %d): pixel %d of %x",
+              (int)t->format, (int)side(t, 0), (int)side(t, 1), (int)t->flags, (int)c[0], (int)c[1], (int)k,
+              (unsigned)bits);
     }
-    HOLDS(same, alpha[n] == 0xDEADBEEFU, "more than %d written", (int)n);
 }
 
 #if GN_INTERPOLATES
