@@ -38,12 +38,13 @@ speed() {
         function per_px(core, s, preset) { return (core, s, preset) in at ? sprintf("%.0f", at[core, s, preset] / pixels) : "·" }
         function per_second(core, s, board, kind) { return sprintf("%.1f", clock[board] * 1e6 / (at[core, s, "balanced"] * cycles[kind])) }
         END {
-            print "| scene, 320×240 | tiny | fast | balanced | accurate | balanced, Cortex-M0 | frames per second: Pico, 125 MHz | STM32F429, 168 MHz |"
-            print "| --- | --- | --- | --- | --- | --- | --- | --- |"
+            print "| scene, 320×240 | tiny | fast | balanced | accurate | balanced, Cortex-M0 | frames per second: Pico, 125 MHz | nRF52840, 64 MHz | STM32F411, 100 MHz | STM32F429, 168 MHz |"
+            print "| --- | --- | --- | --- | --- | --- | --- | --- | --- | --- |"
             for (i = 1; i <= n; i++) {
                 s = scene[i]
-                printf "| %s | %s | %s | %s | %s | %s | %s | %s |\n", s, per_px("M3", s, "tiny"), per_px("M3", s, "fast"), per_px("M3", s, "balanced"),
-                    per_px("M3", s, "accurate"), per_px("M0", s, "balanced"), per_second("M0", s, "pico", "cortex-m0"), per_second("M4", s, "stm32f429-discovery", "cortex")
+                printf "| %s | %s | %s | %s | %s | %s | %s | %s | %s | %s |\n", s, per_px("M3", s, "tiny"), per_px("M3", s, "fast"), per_px("M3", s, "balanced"),
+                    per_px("M3", s, "accurate"), per_px("M0", s, "balanced"), per_second("M0", s, "pico", "cortex-m0"), per_second("M4", s, "nrf52840-dk", "cortex"), per_second("M4", s, "black-pill", "cortex"),
+                    per_second("M4", s, "stm32f429-discovery", "cortex")
             }
         }' host/web/boards.txt tests/bench/bench_target_baseline.txt
 }

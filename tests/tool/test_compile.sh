@@ -147,6 +147,8 @@ nearest sundial-groups host/scenes/sundial.gltf --board microbit --size 160x120 
 echo "$near" | grep -q -e '--set triangle_groups=256' && ! echo "$near" | grep -q -e '--size' && pass || fail "16 KB for the sundial: '$near'"
 nearest sundial-compact host/scenes/sundial.gltf --flash 20000 --size 160x120 --frames 72-74
 echo "$near" | grep -q -e '--set compact=1$' && pass || fail "20000 bytes of flash for the sundial: '$near'"
+nearest cube-textures host/scenes/cube.gltf --flash 38000 --size 64x64 --frames 0-0 --set persp_step=1 --set fit=stable --set tiles=equal
+echo "$near" | grep -q -e '--set texture_size=32$' && pass || fail "38000 bytes of flash for the cube: '$near'"
 nearest edge-flash docs/scenes/edge.gltf --flash 30000 --size 64x48
 "$tool" compile docs/scenes/slopes.gltf -o "$tmp/no" --flash 20000 2>"$tmp/err" && fail "20000 bytes of flash are enough" || pass
 grep -q 'bytes of flash (scene [0-9]*, code about [0-9]*) of 20000' "$tmp/err" && pass || fail "too much flash: $(cat "$tmp/err")"

@@ -221,23 +221,32 @@ bool texture_convert(scene_texture *t, scene_texture_format format)
 
 /* ---- Sizes ------------------------------------------------------------------------------------------------------- */
 
+/* How much of texel i lies between. */
+static double overlap(int i, const double between[2])
+{
+    if (i >= between[0] && i + 1 <= between[1]) return 1;
+    return fmin(i + 1, between[1]) - fmax(i, between[0]);
+}
+
 /* Of what lies between two columns and two rows; linear: what each of 256 values stands for. Where all is transparent
  * nothing shows: colours count alike. */
 static void mean_of(const scene_texture *t, const double x[2], const double y[2], const double *linear, bool is_data,
                     uint8_t out[4])
 {
     double shown[3] = {0}, plain[3] = {0}, alpha = 0, area = 0;
-    for (int j = (int)y[0]; j < y[1]; j++)
-        for (int i = (int)x[0]; i < x[1]; i++) {
-            const uint8_t *p = t->rgba + 4 * ((size_t)j * (size_t)t->width + (size_t)i);
-            const double part = (fmin(i + 1, x[1]) - fmax(i, x[0])) * (fmin(j + 1, y[1]) - fmax(j, y[0]));
+    for (int j = (int)y[0]; j < y[1]; j++) {
+        const double high = overlap(j, y);
+        const uint8_t *p = t->rgba + 4 * ((size_t)j * (size_t)t->width + (size_t)x[0]);
+        for (int i = (int)x[0]; i < x[1]; i++, p += 4) {
+            const double part = overlap(i, x) * high, weight = part * p[3];
             for (int c = 0; c < 3; c++) {
                 plain[c] += part * linear[p[c]];
-                shown[c] += part * p[3] * linear[p[c]];
+                shown[c] += weight * linear[p[c]];
             }
-            alpha += part * p[3];
+            alpha += weight;
             area += part;
         }
+    }
     for (int c = 0; c < 3; c++) {
         const double v = alpha > 0 && !is_data ? shown[c] / alpha : plain[c] / area;
         out[c] = (uint8_t)floor((is_data ? v : encode(v)) * 255 + 0.5);

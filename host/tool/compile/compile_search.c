@@ -2,9 +2,9 @@
  *
  * What changes the picture (shadow maps, depth, fractions of pixels, filters) is tried in every combination by the
  * prediction of memory alone; of those that fit, all that could be had with less change are dropped, and the others are
- * drawn and compared with what was requested, compact arithmetic among them. What changes no picture but costs
- * instructions (screen tiles, caches, bounds, last of all records of triangles) is then given up as far as it must be.
- * Only where nothing fits, or shadows would be lost, the picture gets smaller. */
+ * drawn and compared with what was requested, compact arithmetic and smaller textures among them. What changes no
+ * picture but costs instructions (screen tiles, caches, bounds, last of all records of triangles) is then given up as
+ * far as it must be. Only where nothing fits, or shadows would be lost, the picture gets smaller. */
 #include <math.h>
 #include <stdarg.h>
 #include <stdlib.h>
@@ -14,6 +14,7 @@
 #include "../settings/settings_parse.h"
 
 enum { SAMPLES = 3, LISTED_MAX = 48, EIGHTHS = 8, LEAN_BARE = 2, LEAN_MAX = 3, SMALL_VERTEX_CACHE = 8, GROUPS = 256 };
+enum { TEXTURE_SIDE_MIN = 8, TEXTURE_SIDE_MAX = 2048 };
 #define MUCH 16.0 /* a change, RMS of 255, for which a picture of down to half the sides is looked for instead */
 
 /* What changes the picture, each from 0: as it was requested. */
@@ -339,30 +340,67 @@ static bool find(search *s, bool smaller, char *out, size_t bytes)
     return false;
 }
 
-/* Compact arithmetic in the picture's own size, where the scene is not beyond it and that changes less than `change`.
- */
-static bool find_compact(search *s, const tool_options *requested, double change, char *out, size_t bytes)
+/* With one setting more in the picture's own size, where that fits and changes less than `change`. */
+static bool find_with(search *s, const tool_options *requested, const char *set, double change, char *out, size_t bytes)
 {
     char error[TOOL_ERROR_BYTES];
     tool_options o = *requested;
     compiled c;
-    if (s->c->set.build.compact || o.n_sets == TOOL_SETS_MAX) return false;
-    o.sets[o.n_sets++] = "compact=1";
+    if (o.n_sets == TOOL_SETS_MAX) return false;
+    o.sets[o.n_sets++] = set;
     if (compile_all(&c, &o, error, sizeof error)) return false;
-    const search compact = {.c = &c, .b = s->b};
+    const search with = {.c = &c, .b = s->b};
     const compile_memory m = compile_measure(&c, s->b);
     const size_t n = SAMPLES * frame_bytes(s);
     uint8_t *both = malloc(2 * n);
     bool found = both && compile_fits(&m, s->b) && !show_samples(s, &(variant){.lean = 0}, both) &&
-                 !show_samples(&compact, &(variant){.lean = 0}, both + n);
+                 !show_samples(&with, &(variant){.lean = 0}, both + n);
     if (found) s->change = sqrt(mean_square(both, both + n, n));
-    if (found && s->change < change)
+    found = found && s->change < change;
+    if (found)
         snprintf(out, bytes,
-                 "nearest that does: --set compact=1: %ld bytes of RAM, %ld of flash, colours off by %.1f of 255 (RMS)",
+                 "nearest that does: --set %s: %ld bytes of RAM, %ld of flash, colours off by %.1f of 255 (RMS)", set,
                  compile_ram_bytes(&m, s->b), compile_rom_bytes(&m), s->change);
-    else found = false;
     free(both);
     compile_free(&c);
+    return found;
+}
+
+/* The texture's flash if its longer side were halved until it has at most so many texels. */
+static long shrunk_bytes(const gn_texture *t, size_t side)
+{
+    size_t longer = quantise_texture_side(t, 0) > quantise_texture_side(t, 1) ? quantise_texture_side(t, 0)
+                                                                              : quantise_texture_side(t, 1);
+    long bytes = (long)quantise_texture_bytes(t);
+    for (; longer > side; longer /= 2) bytes /= 4;
+    return bytes;
+}
+
+/* The longest side of textures by which all would fit the flash; 0: none does, or they do not matter. */
+static int texture_side(const search *s)
+{
+    const compile_memory m = compile_measure(s->c, s->b);
+    for (int side = TEXTURE_SIDE_MAX; side >= TEXTURE_SIDE_MIN; side /= 2) {
+        long less = 0;
+        for (size_t i = 0; i < s->c->n_textures; i++)
+            less += (long)quantise_texture_bytes(&s->c->fixed.textures[i]) -
+                    shrunk_bytes(&s->c->fixed.textures[i], (size_t)side);
+        if (less > 0 && compile_rom_bytes(&m) - less <= s->b->flash) return side;
+    }
+    return 0;
+}
+
+/* Compact arithmetic, where the scene is not beyond it, or smaller textures, where they are what flash is too short
+ * for. `change` is of what was found so far. */
+static bool find_otherwise(search *s, double change, char *out, size_t bytes)
+{
+    char set[32];
+    bool found = !s->c->set.build.compact && find_with(s, s->c->options, "compact=1", change, out, bytes);
+    const int side = texture_side(s);
+    if (found) change = s->change;
+    snprintf(set, sizeof set, "texture_size=%d", side);
+    if (side && find_with(s, s->c->options, set, change, out, bytes)) return true;
+    s->change = change;
     return found;
 }
 
@@ -397,10 +435,10 @@ bool compile_find_nearest(const compiled *c, const board *b, char *out, size_t b
         .c = c, .b = &narrow, .min_ram = compile_ram_bytes(&requested, b), .min_flash = compile_rom_bytes(&requested)};
     find_losses(&s, compile_rom_bytes(&requested) > narrow.flash);
     bool found = find(&s, false, out, bytes);
-    search compact = s;
-    if (find_compact(&compact, c->options, found ? s.change : HUGE_VAL, out, bytes)) {
+    search other_way = s;
+    if (find_otherwise(&other_way, found ? s.change : HUGE_VAL, out, bytes)) {
         found = true;
-        s.change = compact.change;
+        s.change = other_way.change;
     }
     if (found && s.change <= MUCH) return true;
     for (int eighths = EIGHTHS - 1; eighths > 0 && !(found && eighths < EIGHTHS / 2); eighths--) {
