@@ -156,7 +156,7 @@ GN_HOT int gn_corner_place_flat(gn_lattice *l, const gn_frame *frame, const gn_s
     if (gn_abs32(u) >> 1 >= (uint32_t)z || gn_abs32(v) >> 1 >= (uint32_t)z) return 0;
     at->u_q16 = gn_mul_high(u * (1 << (clz - 2)), half) >> down;
     at->v_q16 = gn_mul_high(v * (1 << (clz - 2)), half) >> down;
-    at->depth_q30 = (1 << 30) - 1 - (int32_t)share;
+    at->depth_q30 = (int32_t)((1U << 30) - 1 - share);
     return 1;
 }
 

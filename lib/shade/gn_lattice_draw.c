@@ -255,7 +255,7 @@ GN_HOT static GN_NOINLINE void add_edge_light(const drawing *d, const gn_lattice
                                               int32_t (*node)[3])
 {
     const uint32_t *share = d->s->lattice.row.attenuation[0], *end = share + d->n;
-    int32_t twice[3], step[3]; /* |more| < 2^30 */
+    int32_t twice[3], step[3]; /* |more| <= 2^28, one step beyond the cell below 2^30 */
     for (int c = 0; c < 3; c++) {
         int32_t across = 2 * (edge->more_q24[c].dx + below * edge->more_q24[c].dxy);
         twice[c] = 2 * (edge->more_q24[c].at + below * edge->more_q24[c].dy) + d->first * across;

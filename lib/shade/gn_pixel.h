@@ -23,7 +23,7 @@ void gn_pixel_fill(const gn_frame *frame, const gn_pixel_rows *rows, int32_t x, 
 /* Part of a row of pixels. Its colours are known at nodes, 2^spacing_log2 pixels apart, and linear in between; a
  * textured surface multiplies each by the colour of a texel, 65535: 1. */
 typedef struct {
-    const int32_t (*node)[3]; /* Q24, |.| < 2^29, from the row's first pixel on, 2^spacing_log2 pixels apart */
+    const int32_t (*node)[3]; /* Q24, from -5 2^27 to 9 2^27: the row's first pixel, and 2^spacing_log2 pixels on */
     int32_t spacing_log2;
     const gn_texel_rgb *texel; /* of each pixel; NULL: no texture */
     int inside;                /* with a texture: all nodes are in 2^-18 .. 1, so that nothing needs a clamp */

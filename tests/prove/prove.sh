@@ -13,13 +13,13 @@ fi
 # Of these the code itself stands where others take the contract of prove.h.
 whole() {
     case $1 in
-    prove_clz | prove_bfloat | prove_quotient) echo "-DWHOLE_CLZ" ;;
+    prove_clz | prove_bfloat | prove_quotient | prove_add_over_depth | prove_place_flat) echo "-DWHOLE_CLZ" ;;
     prove_long_division) echo "-DWHOLE_DIVISION" ;;
     esac
 }
 contracts() {
     case $1 in
-    prove_clz | prove_bfloat | prove_quotient) echo "gn_udiv64_rest" ;;
+    prove_clz | prove_bfloat | prove_quotient | prove_add_over_depth | prove_place_flat) echo "gn_udiv64_rest" ;;
     prove_long_division) echo "gn_clz32,gn_clz64" ;;
     *) echo "gn_clz32,gn_clz64,gn_udiv64_rest" ;;
     esac

@@ -1,0 +1,178 @@
+/* Harnesses for Frama-C's value analysis, as in prove_base.c: cells, small triangles, forms on the screen. */
+#include "prove.h"
+
+#include "base/gn_math.c"
+#include "base/gn_tables.c"
+#include "shade/gn_corner_screen.c"
+#include "shade/gn_facet_screen.h"
+#include "shade/gn_facet_shadow.c"
+#include "shade/gn_lattice_draw.c"
+
+/* ---- Cells --------------------------------------------------------------------------------------------------------
+ */
+
+static void any_patch(gn_patch *p, int32_t most, int32_t log2)
+{
+    int32_t at[4];
+    for (int i = 0; i < 4; i++) at[i] = any_i32(-most, most);
+    gn_patch_make(p, at, log2);
+}
+
+/* gn_patch_make, gn_patch_at, step_row: corners up to 2^27, 2 to 16 pixels apart, all pixels between them */
+void prove_patch(void)
+{
+    const int32_t most = 1 << 27;
+    for (int32_t log2 = 1; log2 <= 4; log2++) {
+        gn_patch p;
+        drawing d;
+        gn_corner_light at;
+        gn_receiver_step end, from, step;
+        any_patch(&p, most, log2);
+        sink = gn_patch_at(&p, any_i32(0, 1 << log2), any_i32(0, 1 << log2));
+        d.size_log2 = log2, d.first = any_i32(0, (1 << log2) - 1);
+        at.u_q16 = any_i32(-most, most), end.u_q16 = any_i32(-most, most);
+        at.v_q16 = any_i32(-most, most), end.v_q16 = any_i32(-most, most);
+        at.depth_q30 = any_i32(-(1 << 29), 1 << 29), end.depth_q31 = any_i32(-(1 << 29), 1 << 29);
+        step_row(&d, &at, &end, &from, &step);
+    }
+}
+
+/* ---- Small triangles ----------------------------------------------------------------------------------------------
+ */
+
+/* gn_facet_tinted: colours up to 2^28, vertex colours up to 5 */
+void prove_facet_tinted(void)
+{
+    sink = gn_facet_tinted(any_i32(-(1 << 28), 1 << 28), any_i32(-(5 << 16), 5 << 16));
+}
+
+/* quotient_q30: any numerator, reciprocals of 31 bits and a sign */
+void prove_facet_gradient(void)
+{
+    for (int clz = 0; clz <= 45; clz++) {
+        int32_t out;
+        sink = quotient_q30(any_i64(INT64_MIN, INT64_MAX), clz, any_i32(-INT32_MAX, INT32_MAX), &out);
+    }
+}
+
+/* deepest_q30: bounds within 15 texels of vertex 0, in tiles of up to 256; filters that reach 1 to 4 texels; gradients
+ * below 2^25 */
+void prove_deepest(void)
+{
+    vertex_places p;
+    receiver_plane r;
+    r.p = &p;
+    for (int32_t i = 0; i < 16; i++)
+        for (int32_t k = 0; k < 16; k++)
+            for (int32_t reach = 1; reach <= 4; reach++) {
+                const int32_t base = 16 * i + k, first = base * 65536;
+                p.at[0][0] = any_i32(first, first + 65535);
+                r.lo[0] = any_i32(first - 15 * 65536 + 65535, first + 65535);
+                r.hi[0] = any_i32(first, first + 15 * 65536);
+                if (any_i32(0, 1)) r.gradient_q30[0] = any_i32(1, (1 << 25) - 1);
+                else r.gradient_q30[0] = any_i32(-(1 << 25) + 1, 0);
+                int32_t v = deepest_q30(&r, 0, any_i32(base - 14 - reach, base + 14 + reach), reach * 65536);
+                //@ assert -(1 << 29) < v < (1 << 29);
+                sink = v;
+            }
+}
+
+/* placed, depth_q30_of: rows of any numbers, vertices up to 2^30 */
+void prove_placed(void)
+{
+    int32_t m[3], v[3];
+    gn_light_view view;
+    for (int i = 0; i < 3; i++) m[i] = any_i32(INT32_MIN, INT32_MAX), v[i] = any_i32(-(1 << 30), 1 << 30);
+    for (int32_t shift = 0; shift <= 62; shift++)
+        sink = placed(m, v, shift, any_i32(INT32_MIN, INT32_MAX), any_i32(INT32_MIN, INT32_MAX));
+    for (int up = -40; up <= 14; up++) {
+        view.tile_log2 = 5, view.depth_log2 = 14 - 5 - up;
+        int32_t depth = depth_q30_of(&view, any_i32(INT32_MIN, INT32_MAX));
+        //@ assert up < 0 || -(1 << 29) <= depth < (1 << 30);
+        sink = depth;
+    }
+}
+
+/* ---- Forms on the screen ------------------------------------------------------------------------------------------
+ */
+
+/* drop_bits: slopes up to 2^30, any number of bits */
+void prove_drop_bits(void)
+{
+    for (int32_t n = 0; n < 70; n++) {
+        gn_slope s = {any_i32(-(1 << 30), 1 << 30), any_i32(-(1 << 30), 1 << 30), any_i32(-(1 << 30), 1 << 30)};
+        drop_bits(&s, n);
+    }
+}
+
+/* narrow: forms up to 2^62, parts of the largest picture */
+void prove_narrow(void)
+{
+    const int64_t most = (int64_t)1 << 62;
+    const wide_slope s = {any_i64(-most, most), any_i64(-most, most), any_i64(-most, most)};
+    gn_screen_plane p;
+    gn_slope out;
+    p.w_px = any_i32(1, 1041), p.h_px = any_i32(1, 1041);
+    sink = narrow(&p, &s, &out);
+}
+
+/* add_over_depth: any length, forms up to 2^30 */
+void prove_add_over_depth(void)
+{
+    const gn_slope w = {any_i32(-(1 << 30), 1 << 30), any_i32(-(1 << 30), 1 << 30), any_i32(-(1 << 30), 1 << 30)};
+    const int64_t most = (int64_t)1 << 61;
+    for (int k = 0; k < 31; k++)
+        for (int negative = 0; negative < 2; negative++) {
+            const int32_t lo = 1 << k, hi = lo + (lo - 1);
+            wide_slope out = {any_i64(-most, most), any_i64(-most, most), any_i64(-most, most)};
+            sink = add_over_depth(&w, negative ? any_i32(-hi, -lo) : any_i32(lo, hi), any_u32(0, UINT32_MAX),
+                                  any_i32(-100, 100), &out);
+        }
+    wide_slope out = {0, 0, 0};
+    sink = add_over_depth(&w, 0, any_u32(0, UINT32_MAX), any_i32(-100, 100), &out);
+}
+
+/* find_form: axes up to 2^30, factors as make_forms has them, any rays */
+void prove_find_form(void)
+{
+    static gn_frame frame;
+    static gn_light_view view;
+    gn_screen_plane p;
+    wide_slope out;
+    int32_t eye;
+    const int32_t by_q27[2] = {any_i32(0, 1 << 29), any_i32(-(5 << 27), 5 << 27)};
+    p.x = any_i32(-64, 2112), p.y = any_i32(-64, 2112);
+    frame.picture.width = (uint16_t)any_i32(1, 2048), frame.picture.height = (uint16_t)any_i32(1, 2048);
+    view.light_idx = 0;
+    for (int i = 0; i < 3; i++) {
+        gn_ray_plane *r = &frame.light[0].from_light[i];
+        r->a0 = any_i32(INT32_MIN, INT32_MAX), r->ax = any_i32(INT32_MIN, INT32_MAX);
+        r->ay = any_i32(INT32_MIN + 1, INT32_MAX);
+        r->d_q16 = any_i64(INT64_MIN, INT64_MAX);
+        for (int k = 0; k < 3; k++) view.axis_q30[i][k] = any_i32(-(1 << 30), 1 << 30);
+    }
+    sink = find_form(&frame, &p, &view, any_i32(0, 2), by_q27, &out, &eye);
+}
+
+/* gn_corner_place_flat, behind its forms: |u|, |v| below 2 z, octave by octave; any share of the near plane */
+void prove_place_flat(void)
+{
+    static gn_lattice l;
+    static gn_frame frame;
+    static gn_surface s;
+    const gn_light_view *view = &frame.view[0];
+    gn_corner_light at;
+    gn_view_forms *forms = &l.forms[0];
+    forms->view = view;
+    frame.view[0].tile_log2 = (uint8_t)any_i32(4, 10);
+    l.plane.x = (int16_t)any_i32(0, 2048), l.plane.y = (int16_t)any_i32(0, 2048);
+    for (int k = 22; k < 30; k++)
+        for (int up = -40; up <= 40; up++) {
+            const int32_t most = (int32_t)((1U << (k + 1)) - 1) * 2 - 1;
+            forms->u = (gn_slope){any_i32(-most, most), 0, 0}, forms->v = (gn_slope){any_i32(-most, most), 0, 0};
+            forms->z = (gn_slope){any_i32(1 << k, (int32_t)((1U << (k + 1)) - 1)), 0, 0};
+            forms->near = (gn_slope){any_i32(-(1 << 30), 1 << 30), 0, 0};
+            forms->near_up = up;
+            sink = gn_corner_place_flat(&l, &frame, &s, 0, view, any_i32(-64, 2112), any_i32(-64, 2112), &at);
+        }
+}
