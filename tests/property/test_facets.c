@@ -210,6 +210,11 @@ int main(void)
         demo.scene.n_lights = 0; /* colours of vertices, and nothing else */
         compare_all("unlit", 16);
         demo.scene.n_lights = n_lights;
+        const gn_light sun = demo.light[0];
+        demo.light[0].colour_uq16[1] = GN_UQ16(0.05); /* each channel changes in a way of its own */
+        demo.light[0].colour_uq16[2] = GN_UQ16(1.5);
+        compare_all("violet", 16);
+        demo.light[0] = sun;
         add_texture(&texture, 19); /* rows of more triangles, those that get deeper to the right, too */
         compare_all("stretched", 16);
         add_texture(&texture, 17);

@@ -106,6 +106,39 @@ refused 'vertices.obj:1048577: more than 1048576 vertices' "$tmp/vertices.obj"
 awk 'BEGIN { print "newmtl a"; for (i = 0; i < 200000; i++) print "Kd 1 1 1" }' >"$tmp/big.mtl"
 drawn '' "$tmp/again.obj"
 
+# ---- Depth, strides, lengths that are announced ----------------------------------------------------------------------------------
+
+awk 'BEGIN { printf "{\"asset\":{\"version\":\"2.0\"},\"extras\":"; for (i = 0; i < 1000000; i++) printf "["; print "" }' >"$tmp/nested.gltf"
+refused 'nested.gltf:1:[0-9]*: nested too deeply' "$tmp/nested.gltf"
+# viewed NAME ACCESSOR VIEW: a triangle of that accessor, and 36 bytes in that view
+viewed() {
+    printf '{"asset":{"version":"2.0"},"nodes":[{"mesh":0}],"meshes":[%s],"accessors":[{},{},{"componentType":5126,"type":"VEC3",%s}],"bufferViews":[{"buffer":0,"byteLength":36%s}],"buffers":[{"byteLength":36,"uri":"data:;base64,%s"}]}' \
+        "$small" "$2" "$3" "$(repeat 48 A | tr -d ,)" >"$tmp/$1.gltf"
+}
+viewed stride '"bufferView":0,"count":3' ',"byteStride":4294967295'
+refused '/bufferViews/0/byteStride: an integer from 0 to 2147483647 is expected' "$tmp/stride.gltf"
+viewed elements '"bufferView":0,"count":178956970' ',"byteStride":12'
+refused '/accessors/2: 178956970 elements reach beyond' "$tmp/elements.gltf"
+viewed sparse '"count":1000000,"sparse":{"count":1000000,"indices":{"bufferView":0,"componentType":5125},"values":{"bufferView":0}}'
+refused '/accessors/2/sparse/indices: 1000000 elements reach beyond buffer view 0 of 36 bytes' "$tmp/sparse.gltf"
+gltf keys '{"mesh":0}' "$small" ',"animations":[{"samplers":[{"input":3,"output":0}],"channels":[{"sampler":0,"target":{"node":0,"path":"translation"}}]}]'
+sed 's/,"animations"/@&/; s/\]@/,{"componentType":5126,"count":1048576,"type":"SCALAR"}]/' "$tmp/keys.gltf" >"$tmp/gltf" && mv "$tmp/gltf" "$tmp/keys.gltf"
+refused '/animations/0/samplers/0/input: time 1 does not increase' "$tmp/keys.gltf"
+gltf joints "{\"mesh\":0,\"skin\":0},$(repeat 65000 '{}')" '{"primitives":[{"attributes":{"POSITION":2,"JOINTS_0":3,"WEIGHTS_0":4}}]}' ",\"skins\":[{\"joints\":[$(awk 'BEGIN { for (i = 1; i < 65000; i++) printf "%d,", i; print 65000 }')]}]"
+sed 's/,"skins"/@&/; s/\]@/,{"componentType":5123,"count":3,"type":"VEC4"},{"componentType":5126,"count":3,"type":"VEC4"}]/' "$tmp/joints.gltf" >"$tmp/gltf" && mv "$tmp/gltf" "$tmp/joints.gltf"
+drawn 'a skin of 65000 joints is ignored' "$tmp/joints.gltf"
+printf 'glTF\002\000\000\000\377\377\377\377\004\000\000\000JSON{}  ' >"$tmp/all.glb"
+refused 'the header announces 4294967295 bytes, the file has 24' "$tmp/all.glb"
+printf 'glTF\002\000\000\000\030\000\000\000\374\377\377\377JSON{}  ' >"$tmp/chunk.glb"
+refused 'byte 12: a chunk of 4294967292 bytes reaches beyond the end' "$tmp/chunk.glb"
+awk 'BEGIN { printf "v 0 0 0\nv 1 0 0\nv 0 1 0\nf"; for (i = 0; i < 1000000; i++) printf " %d", 1 + i % 3; print "" }' >"$tmp/face.obj"
+refused 'face.obj:4: a face of more than 4096 corners' "$tmp/face.obj"
+awk 'BEGIN { printf "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\nmtllib"; for (i = 0; i < 200000; i++) printf " m%d.mtl", i; print "" }' >"$tmp/libraries.obj"
+refused 'more than 4096 files' "$tmp/libraries.obj"
+printf 'mtllib circle.mtl\nmtllib circle.obj\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n' >"$tmp/circle.obj"
+printf 'mtllib circle.mtl\nmtllib circle.obj\nnewmtl a\n' >"$tmp/circle.mtl"
+drawn '' "$tmp/circle.obj"
+
 # ---- Pictures ------------------------------------------------------------------------------------------------------------------
 
 if ! ${CC:-gcc} -std=c11 -O2 -o "$tmp/plain_png" tests/tool/plain_png.c host/scene/image/deflate.c host/scene/image/zlib_tables.c \
@@ -154,6 +187,21 @@ pictures progressive 1 progressive.jpg
 refused 'takes more than 160 MiB of memory' "$tmp/progressive.gltf"
 pictures short 1 short.jpg # so few bytes cannot be so large a picture
 drawn "texture 'short.jpg': the file ends early: it is drawn without" "$tmp/short.gltf"
+# a progressive picture of 882 scans: of 63 coefficients 14 bits each, of which no block has any
+awk 'function octal(hex, i) { for (i = 1; i < length(hex); i += 2) printf "\\%o", 16 * index(digits, substr(hex, i, 1)) + index(digits, substr(hex, i + 1, 1)) }
+    BEGIN {
+        digits = "123456789ABCDEF"
+        octal("FFD8FFDB004300")
+        for (i = 0; i < 64; i++) octal("01")
+        octal("FFC2000B080800080001011100FFC40014000100000000000000000000000000000000FFC400141001000000000000000000000000000000E0FFDA000801010000000D")
+        for (i = 0; i < 8192; i++) octal("00") # 65536 blocks, and in each of the others three runs over all of them
+        for (k = 1; k < 64; k++)
+            for (bit = 13; bit >= 0; bit--) octal(sprintf("FFDA0008010100%02X%02X%X%X2AAA5554AAB7", k, k, bit < 13 ? bit + 1 : 0, bit))
+        octal("FFD9")
+    }' >"$tmp/octal"
+printf "$(cat "$tmp/octal")" >"$tmp/scans.jpg"
+pictures scans 1 scans.jpg
+drawn "texture 'scans.jpg': more than 64 scans: it is drawn without" "$tmp/scans.gltf"
 pictures one 1 damaged.jpg
 drawn "texture 'damaged.jpg': a marker is missing: it is drawn without" "$tmp/one.gltf"
 cp tests/data/corpus/jpeg/420-progressive.jpg "$tmp/whole.jpg"
