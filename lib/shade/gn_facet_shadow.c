@@ -151,15 +151,17 @@ GN_HOT static int texels_behind(const gn_light_view *view, const receiver_plane 
 {
     const int32_t reach_q16 = (view->filter_idx + 1) << 16, bits = GN_VIEW_BITS(view), n = last[0] - first[0] + 1;
     const int32_t most_q30 = r->hi[2] + r->margin_q30, from_q30 = r->p->at[2][0] + r->margin_q30;
-    int32_t along[PLANE_TEXELS];
+    if (most_q30 <= 0) return 1;
+    const uint32_t most = (uint32_t)most_q30 << 2;
     gn_texels row = gn_view_texels(view, first[0], first[1]);
-    for (int32_t i = 0; i < n; i++) along[i] = deepest_q30(r, 0, first[0] + i, reach_q16);
     for (int32_t v = first[1]; v <= last[1]; v++, row = gn_texels_at(row, bits, view->tile_texels)) {
         const int32_t down = from_q30 + deepest_q30(r, 1, v, reach_q16);
         for (int32_t i = n; i-- > 0;) {
-            const uint32_t texel = gn_texel_load(row, bits, (uint32_t)i);
-            if ((int32_t)(texel >> 2) >= most_q30) continue;
-            if ((int32_t)(texel >> 2) < down + along[i] && texel < gn_texel_far(bits)) return 0;
+            uint32_t texel = gn_texel_load(row, bits, (uint32_t)i);
+            if (texel >= most) continue;
+            GN_KEEP(texel); /* what follows is seldom asked */
+            if ((int32_t)(texel >> 2) < down + deepest_q30(r, 0, first[0] + i, reach_q16) && texel < gn_texel_far(bits))
+                return 0;
         }
     }
     return 1;
