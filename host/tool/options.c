@@ -25,6 +25,8 @@ const option options[] = {
     {"--view", BY_RENDER | BY_COMPARE, "NAME", "colour, shadow, depth, normal, atlas or cascade",
      "colour, shadow, depth, normal, atlas or cascade (colour)"},
     {"--light", BY_RENDER | BY_COMPARE, "K", "a light from 0 to 63", "the light of --view shadow and atlas (0)"},
+    {"--show", BY_RENDER, NULL, NULL,
+     "draw the picture on the terminal, if that shows 24-bit colours; -o may be left out"},
     {"--frame", BY_ALL & ~BY_COMPILE, "N", "a frame from 0 to 100000000", "animation frame (0)"},
     {"--frames", BY_RENDER | BY_COMPILE | BY_INFO, "FIRST-LAST", "FIRST-LAST, frames from 0 to 100000000",
      "these frames (compile: all of the animation; info: frame 0 alone); render: as an animated PNG"},
@@ -215,6 +217,7 @@ static void take_switch(tool_options *o, const char *name)
     if (strcmp(name, "--quick") == 0) o->quick = 1;
     if (strcmp(name, "--still") == 0) o->still = 1;
     if (strcmp(name, "--open") == 0) o->open = 1;
+    if (strcmp(name, "--show") == 0) o->show = 1;
     if (strcmp(name, "--outside") == 0) o->outside = 1;
 }
 

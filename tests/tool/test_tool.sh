@@ -835,6 +835,18 @@ for command in render compare info sweep advise compile asset bake; do
     done
 done
 bad 2 also help render bake
+
+# On a terminal: a character for two pixels, no more than fit; elsewhere it says why not.
+shown() { # shown COLUMNS ROWS SIZE
+    rm -f "$tmp/shown"
+    COLORTERM=truecolor script -qec "stty cols $1 rows $2; $tool render host/scenes/cube.gltf --size $3 --set background=1,0,0 --show" /dev/null </dev/null >"$tmp/shown" 2>&1
+    awk -v block="$(printf '\342\226\200')" '{ n = gsub(block, "") } n { rows++; all += n } END { print rows + 0 " " all + 0 }' "$tmp/shown"
+}
+[ "$(shown 80 24 16x8)" = "4 64" ] && pass || fail "--show: a small picture has $(shown 80 24 16x8) characters"
+head -n 1 "$tmp/shown" | grep -q "^$(printf '\033')\[38;2;255;0;0m" && grep -q '^16x8, .* triangles' "$tmp/shown" && pass || fail "--show: $(head -n 1 "$tmp/shown" | cut -c 1-60)"
+[ "$(shown 8 24 64x48)" = "3 24" ] && [ "$(shown 80 4 64x48)" = "3 24" ] && pass || fail "--show: a large picture has $(shown 80 4 64x48) characters"
+bad 1 COLORTERM render "$cube" --show
+bad 2 json render "$cube" --show --json
 bad 2 nothing nothing --help
 bad 2 alone --version now
 good --version

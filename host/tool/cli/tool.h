@@ -22,6 +22,7 @@ typedef struct {
     int width, height;
     int view;
     size_t light;
+    int show; /* render: on the terminal */
     int frame;
     int json;
     const char *sets[TOOL_SETS_MAX];

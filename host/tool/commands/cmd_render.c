@@ -7,6 +7,7 @@
 
 #include "../../scene/image/png.h"
 #include "../cli/remarks.h"
+#include "../cli/terminal.h"
 #include "../cli/tool.h"
 
 static int draw(engine_picture *p, const tool_options *o, const scene *s, const settings *set, char *error,
@@ -47,6 +48,10 @@ static void describe(const scene *s, char *out, size_t bytes)
 static void say_done(const tool_options *o, int w, int h, const char *what)
 {
     struct stat picture, line;
+    if (!o->out_path) {
+        printf("%dx%d, %s\n", w, h, what);
+        return;
+    }
     if (stat(o->out_path, &picture) != 0 || !S_ISREG(picture.st_mode)) return;
     if (fstat(1, &line) == 0 && line.st_dev == picture.st_dev && line.st_ino == picture.st_ino) return;
     printf("%s: %dx%d, %s\n", o->out_path, w, h, what);
@@ -99,23 +104,38 @@ static int render_frames(const tool_options *o)
     return status;
 }
 
-int tool_render(const tool_options *o)
+static int render_picture(const tool_options *o, int *w, int *h)
 {
     char error[TOOL_ERROR_BYTES] = "out of memory", what[200];
-    int w = o->width, h = o->height, status;
-    if (!o->out_path) {
-        tool_error("render: -o OUT.png is missing");
+    uint8_t *rgb = draw_frame(o, !o->json, w, h, what, sizeof what);
+    int status = !rgb ? TOOL_FAILED : TOOL_OK;
+    if (rgb && o->out_path && png_write_rgb8(o->out_path, *w, *h, rgb, error, sizeof error))
+        status = tool_fail(o->out_path, error);
+    if (!status && o->show) terminal_show(*w, *h, rgb);
+    free(rgb);
+    if (!status && !o->json) say_done(o, *w, *h, what);
+    return status;
+}
+
+/* Where the picture goes. */
+static const char *missing(const tool_options *o)
+{
+    if (o->show && (o->json || o->last_frame >= 0)) return "render: --show goes with neither --frames nor --json";
+    return o->out_path || o->show ? NULL : "render: -o OUT.png is missing, or --show";
+}
+
+int tool_render(const tool_options *o)
+{
+    int w = o->width, h = o->height;
+    if (missing(o)) {
+        tool_error("%s", missing(o));
         return TOOL_USAGE;
     }
-    if (o->last_frame >= 0) {
-        status = render_frames(o);
-    } else {
-        uint8_t *rgb = draw_frame(o, !o->json, &w, &h, what, sizeof what);
-        status = !rgb ? TOOL_FAILED : TOOL_OK;
-        if (rgb && png_write_rgb8(o->out_path, w, h, rgb, error, sizeof error)) status = tool_fail(o->out_path, error);
-        free(rgb);
-        if (!status && !o->json) say_done(o, w, h, what);
+    if (o->show && !terminal_can_show()) {
+        tool_error("--show: standard output is no terminal with 24-bit colours (COLORTERM=truecolor)");
+        return TOOL_FAILED;
     }
+    int status = o->last_frame >= 0 ? render_frames(o) : render_picture(o, &w, &h);
     if (!status && o->json) {
         printf("{\"out\": ");
         tool_json_string(o->out_path);
