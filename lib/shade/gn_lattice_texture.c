@@ -101,7 +101,7 @@ typedef struct {
     int32_t size_log2;
 } texture_place;
 
-/* 2^26 * 16, 2^24 * 64 */
+/* 2^27 * 15, 2^24 * 64 */
 GN_INLINE int32_t column_at(const gn_texture_column *c, const texture_place *at)
 {
     return c->from_q17 + (c->down_q17 * at->t >> at->size_log2) + (c->bent_q17 * at->bend >> (2 * at->size_log2 - 1));

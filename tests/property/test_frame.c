@@ -280,6 +280,22 @@ static void test_caster_moved_into_view(void)
     CHECK_EQ_INT(gn_get_stats(&one)->n_caster_triangles, 1);
 }
 
+/* Of a turned box three sides face the sun, and are drawn into its map; large and small, which are set up apart. */
+static void test_casters_that_face_the_light(void)
+{
+    gn_picture p = picture_of(8, 8, GN_FORMAT_RGB565);
+    for (int small = 0; small < 2; small++) {
+        demo_scene_make(&demo, 0);
+        demo.object[1].flags &= ~(uint32_t)GN_OBJECT_CASTS;
+        demo.object[2].flags &= ~(uint32_t)GN_OBJECT_CASTS;
+        demo.object[0].flags &= ~(uint32_t)GN_OBJECT_CASTS_TWO_SIDED;
+        for (int i = 0; small && i < 9; i++) demo.object[0].to_world.m_q30[i / 3][i % 3] /= 32;
+        CHECK(gn_init(&one, &p) == GN_OK && gn_begin(&one, &demo.scene) == GN_OK);
+        for (uint32_t i = 0; i < gn_shadow_tile_count(&one); i++) CHECK(gn_shadow_tile(&one, i) == GN_OK);
+        CHECK_EQ_INT(gn_get_stats(&one)->n_caster_triangles, 6);
+    }
+}
+
 /* Draws the shadows on the ground, which is flat, or counts as smooth, as its vertices' normals differ by very little.
  */
 static void ground_shadows(canvas *c, int smooth)
@@ -509,6 +525,7 @@ int main(void)
     test_baked_vertices();
     test_mask_of_mixed_lights();
     test_caster_moved_into_view();
+    test_casters_that_face_the_light();
     test_disk_offset_per_cascade();
     test_two_renderers();
     test_tile_order();

@@ -7,6 +7,7 @@
 #include "shade/gn_facet_screen.h"
 #include "shade/gn_facet_shadow.c"
 #include "shade/gn_lattice_draw.c"
+#include "shade/gn_lattice_texture.c"
 
 /* ---- Cells --------------------------------------------------------------------------------------------------------
  */
@@ -35,6 +36,18 @@ void prove_patch(void)
         at.depth_q30 = any_i32(-(1 << 29), 1 << 29), end.depth_q31 = any_i32(-(1 << 29), 1 << 29);
         step_row(&d, &at, &end, &from, &step);
     }
+}
+
+/* column_at: places in textures of up to 8192 texels, columns 1024 texels long at most, bends below 128 */
+void prove_texture_column(void)
+{
+    for (int32_t log2 = 1; log2 <= 4; log2++)
+        for (int32_t t = 0; t < 1 << log2; t++) {
+            const texture_place at = {t, t * (t - (1 << log2)), 0, 0, log2};
+            const gn_texture_column column = {any_i32(-(1 << 30), (1 << 30) + (1 << 27)), any_i32(-(1 << 27), 1 << 27),
+                                              any_i32(-(1 << 24), 1 << 24)};
+            sink = column_at(&column, &at);
+        }
 }
 
 /* ---- Small triangles ----------------------------------------------------------------------------------------------
