@@ -116,14 +116,11 @@ void gn_ortho_fit_view(gn_frame *frame, gn_light_view *view, const gn_light *lig
 #define RANGE_LOG2_MAX 16        /* so that a texel is a whole number of depth steps */
 #define BACK_Q16       (4 << 16) /* of the range, before and behind what is seen: coordinates' errors and biases */
 
-/* The ladder of texel sizes: m * 2^e, eight per octave, of 8 significant bits. */
-static const uint8_t ladder[8] = {128, 140, 152, 166, 181, 197, 215, 235};
-
 /* The box that a tight fit covers, from the camera, along the light's axes. */
 typedef struct {
-    int64_t lo_q16[3], hi_q16[3];
-    uint32_t side;      /* of the square whose texels there are */
-    int32_t margin_q16; /* around it, texels: the filter and the receiver's bias */
+    int64_t lo_q16[3], hi_q16[3], cast_lo_q16[2], cast_hi_q16[2];
+    uint32_t side;        /* of the square whose texels there are */
+    int64_t first_q16[2]; /* along u and v, where the tile begins at the latest, texels */
 } tight_box;
 
 /* Bounds of what is seen, clamped to the sphere, and at least an eighth of its diameter wide. */
@@ -142,6 +139,9 @@ static void begin_box(const gn_frame *frame, const gn_light_view *view, int32_t 
         if (lacks < 0) lacks = 0;
         box->lo_q16[k] = lo - lacks / 2;
         box->hi_q16[k] = hi + lacks - lacks / 2;
+        if (k == 2) break;
+        box->cast_lo_q16[k] = seen->cast_lo_q16[k] - lacks / 2;
+        box->cast_hi_q16[k] = seen->cast_hi_q16[k] + lacks - lacks / 2;
     }
     box->side = view->tile_texels;
 }
@@ -166,6 +166,16 @@ static int32_t margin_q16(const gn_frame *frame, gn_light_view *view, const gn_l
     return margin;
 }
 
+/* From where on a tile covers lo, texels: filter and bias reach beyond it, but not to where nothing casts. `sign`: -1
+ * where it begins, 1 where it ends. */
+static int64_t reach_q16(const gn_light_view *view, const gn_light *light, int64_t at_q16, int64_t cast_q16,
+                         int32_t margin_q16, int sign)
+{
+    int64_t at = texels_q16(view, at_q16) + sign * margin_q16,
+            cast = texels_q16(view, cast_q16) + sign * light->bias_caster_q16;
+    return (sign < 0 ? at > cast : at < cast) ? at : cast;
+}
+
 /* Sizes with the view's texel; whether they fit. The range keeps a 64th of itself free, for its origin's steps. */
 static int sizes_fit(const gn_frame *frame, gn_light_view *view, const gn_light *light, tight_box *box)
 {
@@ -176,12 +186,12 @@ static int sizes_fit(const gn_frame *frame, gn_light_view *view, const gn_light 
     while (range_log2 <= RANGE_LOG2_MAX && (int64_t)63 << (10 + range_log2) < deep) range_log2++;
     if (range_log2 > RANGE_LOG2_MAX) return 0;
     uint32_t half = 1U << (range_log2 - 1);
-    box->margin_q16 = margin_q16(frame, view, light, box->side > half ? box->side : half);
-    for (int k = 0; k < 2; k++)
-        rows[k] = ((texels_q16(view, box->hi_q16[k] - box->lo_q16[k]) + 2 * (int64_t)box->margin_q16 + 131072 - 1024 +
-                    0x7FFFF) >>
-                   19) *
-                  8;
+    int32_t margin = margin_q16(frame, view, light, box->side > half ? box->side : half);
+    for (int k = 0; k < 2; k++) {
+        box->first_q16[k] = reach_q16(view, light, box->lo_q16[k], box->cast_lo_q16[k], margin, -1);
+        int64_t wide = reach_q16(view, light, box->hi_q16[k], box->cast_hi_q16[k], margin, 1) - box->first_q16[k];
+        rows[k] = ((wide + 98304 - 1024 + 0x7FFFF) >> 19) * 8;
+    }
     if (rows[0] > 1024 || rows[1] > 1024 || rows[0] * rows[1] > (int64_t)box->side * box->side) return 0;
     view->tile_texels = (uint16_t)rows[0];
     view->tile_rows = (uint16_t)rows[1];
@@ -190,23 +200,31 @@ static int sizes_fit(const gn_frame *frame, gn_light_view *view, const gn_light 
     return 1;
 }
 
-/* The smallest texel of the ladder that fits. What is seen alone takes sqrt(e_u e_v) / side. */
+/* Texels of 8 significant bits, so many steps above one of 128 * 2^(exp + 24). */
+static int texel_fits(const gn_frame *frame, gn_light_view *view, const gn_light *light, tight_box *box, int32_t exp,
+                      int32_t steps)
+{
+    gn_bfloat texel = {(uint32_t)(32 + (steps & 31)) << 26, exp + (steps >> 5)};
+    view->fit.ortho.inv_texel = gn_bf_recip(texel);
+    if (GN_DISK_FILTER && view->filter == GN_FILTER_DISK)
+        view->filter_idx = (uint8_t)gn_clamp64((disk_radius_q16(frame, view->fit.ortho.inv_texel) + 65535) >> 16, 1,
+                                               GN_DISK_INDEX_MAX);
+    return sizes_fit(frame, view, light, box);
+}
+
+/* The smallest texel that fits: larger ones do, too. What is seen alone takes sqrt(e_u e_v) / side. */
 static void find_texel(const gn_frame *frame, gn_light_view *view, const gn_light *light, tight_box *box)
 {
     uint64_t area =
         (uint64_t)(box->hi_q16[0] - box->lo_q16[0]) * (uint64_t)(box->hi_q16[1] - box->lo_q16[1]); /* 2^62 */
     gn_bfloat least = gn_bf_mul(gn_bf_from_u64(gn_isqrt64(area) | 1U), gn_bf_recip(gn_bf_from_u64(box->side)));
-    int32_t rung = 0;
-    while (rung < 7 && (uint32_t)ladder[rung + 1] << 24 <= least.mant) rung++;
-    for (least.exp -= 16;; rung++) {
-        if (rung == 8) least.exp++, rung = 0;
-        least.mant = (uint32_t)ladder[rung] << 24;
-        view->fit.ortho.inv_texel = gn_bf_recip(least);
-        if (GN_DISK_FILTER && view->filter == GN_FILTER_DISK)
-            view->filter_idx = (uint8_t)gn_clamp64((disk_radius_q16(frame, view->fit.ortho.inv_texel) + 65535) >> 16, 1,
-                                                   GN_DISK_INDEX_MAX);
-        if (sizes_fit(frame, view, light, box)) return;
-    }
+    int32_t steps = (int32_t)(least.mant >> 26) - 33, by = 4;
+    for (least.exp -= 16; by; by >>= 1)
+        while (!texel_fits(frame, view, light, box, least.exp, steps + by)) {
+            steps += by;
+            if (by < 4) break; /* twice as many fitted */
+        }
+    texel_fits(frame, view, light, box, least.exp, steps + 1);
 }
 
 /* Whole texels, with a quarter to spare; the far end of the range in steps of its 64th. */
@@ -216,8 +234,7 @@ static void place_box(const gn_frame *frame, gn_light_view *view, const gn_light
     int64_t at[3];
     for (int k = 0; k < 3; k++) at[k] = gn_light_coord_q16(view, k, frame->cam.eye_q16);
     for (int k = 0; k < 2; k++)
-        origin[k] = (int32_t)gn_clamp64((at[k] + texels_q16(view, box->lo_q16[k]) - box->margin_q16 - 16384) >> 16,
-                                        -(1 << 30), 1 << 30);
+        origin[k] = (int32_t)gn_clamp64((at[k] + box->first_q16[k] - 16384) >> 16, -(1 << 30), 1 << 30);
     int64_t end = at[2] + texels_q16(view, box->hi_q16[2]) + margin_q16(frame, view, light, box->side) + BACK_Q16;
     end = -(-end >> (10 + range_log2)) * ((int64_t)1 << (range_log2 - 6));
     origin[2] = (int32_t)gn_clamp64(end, -(1 << 30), 1 << 30) - (1 << range_log2);
@@ -254,8 +271,9 @@ int gn_ortho_covers(const gn_frame *frame, gn_light_view *view, const gn_light *
     if (seen->turn != view->turn) return 0;
     for (int k = 0; k < 3; k++) {
         int64_t from = gn_light_coord_q16(view, k, frame->cam.eye_q16) - (int64_t)view->fit.ortho.origin[k] * 65536;
-        if (from + texels_q16(view, seen->lo_q16[k]) < margin) return 0;
-        if (from + texels_q16(view, seen->hi_q16[k]) + margin > size[k] * 65536) return 0;
+        int32_t cast_lo = k < 2 ? seen->cast_lo_q16[k] : -(1 << 30), cast_hi = k < 2 ? seen->cast_hi_q16[k] : 1 << 30;
+        if (from + reach_q16(view, light, seen->lo_q16[k], cast_lo, margin, -1) < 0) return 0;
+        if (from + reach_q16(view, light, seen->hi_q16[k], cast_hi, margin, 1) > size[k] * 65536) return 0;
     }
     return 1;
 }
