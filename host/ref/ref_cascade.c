@@ -171,9 +171,10 @@ static bool sizes_fit(ref_light_view *view, tight_box *box, const scene_light *l
     while (view->depth_range <= RANGE_MAX && view->depth_range * 63.0 / 64.0 < deep) view->depth_range *= 2.0;
     if (view->depth_range > RANGE_MAX) return false;
     const double margin = lateral_texels(view, light, options, fmax(box->side, view->depth_range / 2.0));
+    const double reach = light->bias_caster + (view->filter == SCENE_FILTER_HARD ? 0.0 : view->filter_index + 1.0);
     for (int k = 0; k < 2; k++) {
-        const double last = fmin(box->hi[k] / view->texel + margin, box->cast_hi[k] / view->texel + light->bias_caster);
-        box->first[k] = fmax(box->lo[k] / view->texel - margin, box->cast_lo[k] / view->texel - light->bias_caster);
+        const double last = fmin(box->hi[k] / view->texel + margin, box->cast_hi[k] / view->texel + reach);
+        box->first[k] = fmax(box->lo[k] / view->texel - margin, box->cast_lo[k] / view->texel - reach);
         size[k] = 8.0 * ceil((last - box->first[k] + 1.5 - 1.0 / 64.0) / 8.0);
     }
     if (size[0] > 1024.0 || size[1] > 1024.0 || size[0] * size[1] > (double)box->side * box->side) return false;

@@ -136,7 +136,7 @@ typedef struct {
     uint8_t stale; /* by its schedule it keeps the tile of an earlier frame, and the fit that goes with it */
 #if GN_TIGHT_FIT
     uint8_t turn;   /* of a tight fit: see gn_view_seen */
-    uint8_t tight;  /* beyond the tile nothing casts */
+    uint8_t tight;  /* beyond the tile, and within a filter's reach of its border, nothing casts */
     uint8_t unseen; /* no visible receiver looks into it: an empty tile of 8 x 8 texels that all such views share */
 #endif
     gn_depth_block *block;  /* (T / 8) * (T / 8) */

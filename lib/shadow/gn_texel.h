@@ -49,15 +49,12 @@ GN_HOT static inline int gn_border_lit(const gn_light_view *view)
     return GN_TIGHT(view) || (GN_MAIN_LIGHT && view->border_lit);
 }
 
-/* Whether all between two places lie beyond the tile of a tight fit, by more than filters reach: nothing casts there.
- */
+/* Whether all between two places lie beyond the tile of a tight fit: nothing casts there. */
 GN_HOT static inline int gn_beyond_tile(const gn_light_view *view, int32_t u_lo_q16, int32_t u_hi_q16, int32_t v_lo_q16,
                                         int32_t v_hi_q16)
 {
-    int32_t reach = view->filter_idx + 1;
     return GN_TIGHT(view) &&
-           (u_hi_q16 >> 16 < -reach || v_hi_q16 >> 16 < -reach || u_lo_q16 >> 16 >= view->tile_texels + reach ||
-            v_lo_q16 >> 16 >= GN_TILE_ROWS(view) + reach);
+           ((u_hi_q16 | v_hi_q16) < 0 || u_lo_q16 >> 16 >= view->tile_texels || v_lo_q16 >> 16 >= GN_TILE_ROWS(view));
 }
 
 #endif
