@@ -62,9 +62,9 @@
       "620 bytes each, 84 with persp_step 1")                                                                          \
     X(max_objects, MAX_OBJECTS, 1, 65535, "objects in a scene", "36 bytes each, 24 without spot and point lights")     \
     X(max_shadow_tiles, MAX_SHADOW_TILES, 1, 16, "tiles of the directional atlas: lights times cascades",              \
-      "216 bytes each, 16 less without incremental, 8 less without auto_bias")                                         \
+      "232 bytes each, 16 less without incremental, 8 less without auto_bias")                                         \
     X(max_other_tiles, MAX_OTHER_TILES, 1, 16, "tiles of the local-light atlas: 1 per spot, 6 per point light",        \
-      "216 bytes each, 16 less without incremental, 8 less without auto_bias")                                         \
+      "232 bytes each, 16 less without incremental, 8 less without auto_bias")                                         \
     X(atlas_texels, ATLAS_TEXELS, 64, 1048576,                                                                         \
       "texels reserved for the tiles of the directional atlas, a multiple of 64; by default the whole atlas",          \
       "depth_bits / 8 bytes each: tiles fill an atlas only if there are 1, 4 or 16 of them, or with sizes by "         \
@@ -142,7 +142,7 @@
     X(tile_importance, TILE_IMPORTANCE, 0, 1, "tile sizes by importance", "flash")                                     \
     X(tight_fit, TIGHT_FIT, 0, 1,                                                                                      \
       "shadow tiles that cover what is visible, and are as large as that is worth on the screen",                      \
-      "flash; 48 bytes per tile, 24 per object")                                                                       \
+      "flash; 64 bytes per tile, 24 per object")                                                                       \
     X(object_boxes, OBJECT_BOXES, 0, 1, "casters whose box lies outside a shadow tile are skipped",                    \
       "flash, 24 bytes per object; the same picture with and without")                                                 \
     X(orthographic, ORTHOGRAPHIC, 0, 1, "orthographic cameras",                                                        \

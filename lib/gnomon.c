@@ -87,6 +87,7 @@
 #include "shadow/gn_light_views.c"
 #include "shadow/gn_lookup.c"
 #include "shadow/gn_ortho.c"
+#include "shadow/gn_ortho_fit.c"
 #include "shadow/gn_tiles.c"
 #if GN_AUTO_BIAS
 #include "light/gn_auto_bias.c"

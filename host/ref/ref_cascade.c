@@ -111,9 +111,10 @@ static void fit_grid(ref_light_view *view, double near_offset, bool unsnapped)
 #define BACK      4.0 /* texels of the range before and behind what is seen */
 
 typedef struct {
-    double lo[3], hi[3]; /* from the camera, along the light's axes */
-    double margin;       /* texels around it */
-    int side;            /* of the square whose texels there are */
+    double lo[3], hi[3];           /* from the camera, along the light's axes */
+    double cast_lo[2], cast_hi[2]; /* the same of casters */
+    double first[2];               /* texels from the camera: where the tile begins at the latest */
+    int side;                      /* of the square whose texels there are */
 } tight_box;
 
 static tight_box make_box(const ref_light_view *view, const ref_seen *seen, vec3 camera, int side)
@@ -126,6 +127,9 @@ static tight_box make_box(const ref_light_view *view, const ref_seen *seen, vec3
         const double lacks = k < 2 ? fmax(0.0, r / 4.0 - (hi - lo)) : 0.0;
         box.lo[k] = lo - lacks / 2.0;
         box.hi[k] = hi + lacks / 2.0;
+        if (k == 2) break;
+        box.cast_lo[k] = seen->cast_lo[k] - lacks / 2.0;
+        box.cast_hi[k] = seen->cast_hi[k] + lacks / 2.0;
     }
     return box;
 }
@@ -137,12 +141,19 @@ static double lateral_texels(ref_light_view *view, const scene_light *light, con
     return (view->filter_index + 1) * (1.0 + ref_lateral_margin(options, view, light));
 }
 
-/* The ladder of texel sizes. */
-static double ladder(int rung)
+/* Texel sizes: m * 2^e, m = 32 .. 63. */
+static double texel_of(int step)
 {
-    static const double mantissa[8] = {128, 140, 152, 166, 181, 197, 215, 235};
-    const int octave = (int)floor(rung / 8.0);
-    return ldexp(mantissa[rung - 8 * octave], octave);
+    const int octave = (int)floor(step / 32.0);
+    return ldexp(32 + (step - 32 * octave), octave);
+}
+
+/* The largest of them that is not above `size`. */
+static int step_of(double size)
+{
+    int exponent;
+    const double m = floor(frexp(size, &exponent) * 64.0);
+    return 32 * (exponent - 6) + (int)m - 32;
 }
 
 static double pull_of(const ref_light_view *view, const scene_light *light)
@@ -159,9 +170,13 @@ static bool sizes_fit(ref_light_view *view, tight_box *box, const scene_light *l
     view->depth_range = RANGE_MIN;
     while (view->depth_range <= RANGE_MAX && view->depth_range * 63.0 / 64.0 < deep) view->depth_range *= 2.0;
     if (view->depth_range > RANGE_MAX) return false;
-    box->margin = lateral_texels(view, light, options, fmax(box->side, view->depth_range / 2.0));
-    for (int k = 0; k < 2; k++)
-        size[k] = 8.0 * ceil(((box->hi[k] - box->lo[k]) / view->texel + 2.0 * box->margin + 2.0 - 1.0 / 64.0) / 8.0);
+    const double margin = lateral_texels(view, light, options, fmax(box->side, view->depth_range / 2.0));
+    const double reach = light->bias_caster + (view->filter == SCENE_FILTER_HARD ? 0.0 : view->filter_index + 1.0);
+    for (int k = 0; k < 2; k++) {
+        const double last = fmin(box->hi[k] / view->texel + margin, box->cast_hi[k] / view->texel + reach);
+        box->first[k] = fmax(box->lo[k] / view->texel - margin, box->cast_lo[k] / view->texel - reach);
+        size[k] = 8.0 * ceil((last - box->first[k] + 1.5 - 1.0 / 64.0) / 8.0);
+    }
     if (size[0] > 1024.0 || size[1] > 1024.0 || size[0] * size[1] > (double)box->side * box->side) return false;
     view->tile_texels = (int)size[0];
     view->tile_rows = (int)size[1];
@@ -178,7 +193,7 @@ static void place_box(ref_light_view *view, const tight_box *box, const scene_li
 {
     double at[3];
     for (int k = 0; k < 3; k++) at[k] = vec3_dot(camera, vec3_load(view->axis[k]));
-    for (int k = 0; k < 2; k++) view->origin[k] = floor((at[k] + box->lo[k]) / view->texel - box->margin - 0.25);
+    for (int k = 0; k < 2; k++) view->origin[k] = floor(at[k] / view->texel + box->first[k] - 0.25);
     ref_light_view square = *view;
     const double far = (at[2] + box->hi[2]) / view->texel + lateral_texels(&square, light, options, box->side) + BACK;
     const double step = view->depth_range / 64.0;
@@ -199,9 +214,9 @@ static bool fit_tight(ref_light_view *view, const ref_seen *seen, const scene_li
     tight_box box = make_box(view, seen, camera, side);
     /* what is seen, alone, takes at least this texel */
     const double smallest = sqrt((box.hi[0] - box.lo[0]) * (box.hi[1] - box.lo[1])) / side;
-    int rung = (int)floor(8.0 * log2(smallest / 128.0)) - 2;
+    int step = step_of(smallest);
     do {
-        view->texel = ladder(rung++);
+        view->texel = texel_of(step++);
         view->filter_index = disk_index(view, width);
     } while (!sizes_fit(view, &box, light, options));
     view->disk_radius = fmin(width / view->texel, view->filter_index);

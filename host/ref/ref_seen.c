@@ -237,21 +237,20 @@ static bool may_shadow(const ref_instance *instance, const ref_light_view axes[T
     return true;
 }
 
-/* Bounds at least so wide, and widened to a grid of the world. */
-static void widen_to_grid(double *lo, double *hi, double least)
+/* Bounds of casters, of which so much may cover what is seen, widened to that and to a grid of the world. */
+static void widen_to_grid(double *lo, double *hi, double wide, double least)
 {
-    const double lacks = fmax(0.0, least - (*hi - *lo));
-    *lo -= lacks / 2.0;
-    *hi += lacks / 2.0;
-    const double step = exp2(floor(log2((*hi - *lo) * (65.0 / 64.0))) - 5.0);
-    *lo = floor(*lo / step - 1.0 / 64.0) * step;
-    *hi = ceil(*hi / step + 1.0 / 64.0) * step;
+    const double lacks = fmax(0.0, least - wide);
+    const double step = exp2(floor(log2((wide + lacks) * (65.0 / 64.0))) - 5.0);
+    *lo = floor((*lo - lacks / 2.0) / step - 1.0 / 64.0) * step;
+    *hi = ceil((*hi + lacks / 2.0) / step + 1.0 / 64.0) * step;
 }
 
-/* Leaves of rectangles what casters may shadow. */
-static void crop(const ref_frame *frame, const reach *near, const ref_light_view axes[TURNS], ref_seen seen[TURNS])
+/* Bounds of all casters that may shadow what is seen; they reach it. False: there are none. */
+static bool find_casters(const ref_frame *frame, const reach *near, const ref_light_view axes[TURNS],
+                         ref_seen seen[TURNS])
 {
-    ref_seen all[TURNS] = {{.any = false}};
+    bool any = false;
     for (size_t o = 0; o < frame->s->n_objects; o++) {
         if (frame->s->objects[o].caster == SCENE_CASTER_OFF || !may_shadow(&frame->instances[o], axes, seen) ||
             shadows_nothing(&frame->instances[o], near, axes[0].axis[2]))
@@ -259,19 +258,28 @@ static void crop(const ref_frame *frame, const reach *near, const ref_light_view
         for (int turn = 0; turn < TURNS; turn++) {
             const ref_seen b = box_bounds(&frame->instances[o], &axes[turn]);
             for (int k = 0; k < 2; k++) {
-                const double first = seen[turn].lo[k], last = seen[turn].hi[k];
-                const double lo = fmax(first, fmin(b.lo[k], last)), hi = fmax(first, fmin(b.hi[k], last));
-                all[turn].lo[k] = all[turn].any ? fmin(all[turn].lo[k], lo) : lo;
-                all[turn].hi[k] = all[turn].any ? fmax(all[turn].hi[k], hi) : hi;
+                const double lo = fmin(b.lo[k], seen[turn].hi[k]), hi = fmax(b.hi[k], seen[turn].lo[k]);
+                seen[turn].cast_lo[k] = any ? fmin(seen[turn].cast_lo[k], lo) : lo;
+                seen[turn].cast_hi[k] = any ? fmax(seen[turn].cast_hi[k], hi) : hi;
             }
-            all[turn].any = true;
         }
+        any = true;
     }
+    return any;
+}
+
+/* Leaves of rectangles what casters may shadow. */
+static void crop(const ref_frame *frame, const reach *near, const ref_light_view axes[TURNS], ref_seen seen[TURNS])
+{
+    const bool any = find_casters(frame, near, axes, seen);
     for (int turn = 0; turn < TURNS; turn++)
-        for (int k = 0; all[turn].any && k < 2; k++) {
-            widen_to_grid(&all[turn].lo[k], &all[turn].hi[k], (seen[turn].hi[k] - seen[turn].lo[k]) / 8.0);
-            seen[turn].lo[k] = fmax(seen[turn].lo[k], all[turn].lo[k]);
-            seen[turn].hi[k] = fmin(seen[turn].hi[k], all[turn].hi[k]);
+        for (int k = 0; k < 2; k++) {
+            double *lo = &seen[turn].lo[k], *hi = &seen[turn].hi[k];
+            double *cast_lo = &seen[turn].cast_lo[k], *cast_hi = &seen[turn].cast_hi[k];
+            if (any) widen_to_grid(cast_lo, cast_hi, fmin(*cast_hi, *hi) - fmax(*cast_lo, *lo), (*hi - *lo) / 8.0);
+            else *cast_lo = -HUGE_VAL, *cast_hi = HUGE_VAL;
+            *lo = fmax(*lo, *cast_lo);
+            *hi = fmin(*hi, *cast_hi);
         }
 }
 
@@ -319,6 +327,9 @@ static void see_directional(const ref_frame *frame, ref_seen *seen, const scene_
         const double eye = vec3_dot(frame->camera.position, vec3_load(axes[turn].axis[k]));
         seen->lo[k] -= eye;
         seen->hi[k] -= eye;
+        if (k == 2) break;
+        seen->cast_lo[k] -= eye;
+        seen->cast_hi[k] -= eye;
     }
 }
 

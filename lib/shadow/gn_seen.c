@@ -250,6 +250,10 @@ static void see_directional(gn_seen_job *job, gn_view_seen *seen)
                    (int64_t)job->depth_q16[0] + job->depth_q16[1]);
     gn_seen_crop(job);
     gn_seen_pick_turn(job, seen);
+    for (uint32_t k = 0; k < 2; k++) {
+        seen->cast_lo_q16[k] = job->cast_lo[2 * seen->turn + k];
+        seen->cast_hi_q16[k] = job->cast_hi[2 * seen->turn + k];
+    }
 }
 
 /* ---- Views of spot and point lights ------------------------------------------------------------------------------ */

@@ -97,11 +97,6 @@ void gn_seen_pick_turn(const gn_seen_job *job, gn_view_seen *seen)
 
 /* ---- Casters ----------------------------------------------------------------------------------------------------- */
 
-/* Bounds of casters along u and v of each turn. */
-typedef struct {
-    int32_t lo[2 * GN_TURNS], hi[2 * GN_TURNS];
-} caster_bounds;
-
 void gn_seen_note(gn_seen_job *job)
 {
     for (int k = 0; k < 3; k++) {
@@ -133,8 +128,8 @@ static int is_near(const gn_seen_job *job, int32_t lo, int32_t hi, int d)
     return lo <= seen_hi + beyond && hi >= seen_lo - beyond;
 }
 
-/* Adds the box of an object whose shadow may fall on what is seen. */
-static void add_caster(gn_seen_job *job, uint32_t object_idx, caster_bounds *all)
+/* Adds the box of an object whose shadow may fall on what is seen. Both bounds reach what is seen. */
+static void add_caster(gn_seen_job *job, uint32_t object_idx)
 {
     int32_t lo[GN_SEEN_DIRECTIONS], hi[GN_SEEN_DIRECTIONS];
     gn_seen_from(job, object_idx);
@@ -149,43 +144,41 @@ static void add_caster(gn_seen_job *job, uint32_t object_idx, caster_bounds *all
     for (int d = 2; d < 2 * GN_TURNS; d++)
         if (!is_near(job, lo[d], hi[d], d)) return;
     for (int d = 0; d < 2 * GN_TURNS; d++) {
-        all->lo[d] = gn_min32(all->lo[d], gn_max32(job->along_lo[d], gn_min32(lo[d], job->along_hi[d])));
-        all->hi[d] = gn_max32(all->hi[d], gn_max32(job->along_lo[d], gn_min32(hi[d], job->along_hi[d])));
+        job->cast_lo[d] = gn_min32(job->cast_lo[d], gn_min32(lo[d], job->along_hi[d]));
+        job->cast_hi[d] = gn_max32(job->cast_hi[d], gn_max32(hi[d], job->along_lo[d]));
     }
 }
 
-/* Bounds at least so wide, on a grid of the world of 1/16 to 1/32 of their width, so that they change rarely: in steps
- * of a power of two, with a 64th of it to spare. */
-static void widen_to_grid(int32_t *lo, int32_t *hi, int32_t least_q16, int32_t eye_q16)
+/* Casters' bounds on a grid of the world, so that they change rarely: in steps of a power of two, 1/16 to 1/32 of what
+ * they cover of what is seen, with a 64th of a step to spare. They cover an eighth of that at least. */
+static void widen_to_grid(gn_seen_job *job, int d, int32_t eye_q16)
 {
-    int32_t lacks = (int32_t)gn_clamp64(least_q16 - ((int64_t)*hi - *lo), 0, least_q16);
-    *lo -= lacks >> 1; /* of up to 2^28 */
-    *hi += lacks >> 1;
-    int64_t wide = (int64_t)*hi - *lo;
+    int32_t *lo = &job->cast_lo[d], *hi = &job->cast_hi[d], first = job->along_lo[d], last = job->along_hi[d];
+    int64_t wide = (int64_t)gn_min32(*hi, last) - gn_max32(*lo, first), least = ((int64_t)last - first) >> 3;
+    int32_t lacks = (int32_t)gn_clamp64(least - wide, 0, least);
+    wide += lacks;
     int32_t step_log2 = gn_max32(63 - gn_clz64((uint64_t)(wide + (wide >> 6)) | 1U) - 5, 0);
-    int64_t spare = ((int64_t)1 << step_log2) >> 6;
-    int64_t first = ((int64_t)eye_q16 + *lo - spare) >> step_log2,
-            last = -(-((int64_t)eye_q16 + *hi + spare) >> step_log2);
-    *lo = gn_seen_limited(first * ((int64_t)1 << step_log2) - eye_q16);
-    *hi = gn_seen_limited(last * ((int64_t)1 << step_log2) - eye_q16);
+    int64_t spare = ((int64_t)1 << step_log2) >> 6, half = lacks >> 1;
+    int64_t from = ((int64_t)eye_q16 + *lo - half - spare) >> step_log2,
+            to = -(-((int64_t)eye_q16 + *hi + half + spare) >> step_log2);
+    *lo = gn_seen_limited(from * ((int64_t)1 << step_log2) - eye_q16);
+    *hi = gn_seen_limited(to * ((int64_t)1 << step_log2) - eye_q16);
 }
 
 void gn_seen_crop(gn_seen_job *job)
 {
     const gn_frame *frame = job->frame;
-    caster_bounds all;
     int32_t eye[GN_SEEN_DIRECTIONS], at[3];
-    for (int d = 0; d < 2 * GN_TURNS; d++) all.lo[d] = INT32_MAX, all.hi[d] = INT32_MIN;
+    for (int d = 0; d < 2 * GN_TURNS; d++) job->cast_lo[d] = INT32_MAX, job->cast_hi[d] = INT32_MIN;
     for (uint32_t o = 0; o < frame->scene->n_objects; o++)
-        if (frame->scene->objects[o].flags & GN_OBJECT_CASTS) add_caster(job, o, &all);
+        if (frame->scene->objects[o].flags & GN_OBJECT_CASTS) add_caster(job, o);
     for (int k = 0; k < 3; k++) at[k] = (int32_t)gn_dot_q30(job->axis_q30[k], frame->cam.eye_q16); /* sqrt(3) * 2^30 */
     gn_seen_directions(at, eye);
     for (int d = 0; d < 2 * GN_TURNS; d++) {
-        if (all.lo[d] > all.hi[d]) return;
-        int32_t least_q16 = (int32_t)(((int64_t)job->along_hi[d] - job->along_lo[d]) >> 3);
-        widen_to_grid(&all.lo[d], &all.hi[d], least_q16, eye[d]);
-        job->along_lo[d] = gn_max32(job->along_lo[d], all.lo[d]);
-        job->along_hi[d] = gn_min32(job->along_hi[d], all.hi[d]);
+        if (job->cast_lo[d] > job->cast_hi[d]) job->cast_lo[d] = -(1 << 30), job->cast_hi[d] = 1 << 30; /* none: all */
+        else widen_to_grid(job, d, eye[d]);
+        job->along_lo[d] = gn_max32(job->along_lo[d], job->cast_lo[d]);
+        job->along_hi[d] = gn_min32(job->along_hi[d], job->cast_hi[d]);
     }
 }
 

@@ -26,8 +26,9 @@ typedef struct {
     uint64_t worth_q16;           /* pixels that its tile is worth */
     int32_t lo_q16[3], hi_q16[3]; /* along the view's axes, from the camera; lo > hi: nothing. Spot and point lights:
                                      whether anything is seen, and lo[2] its nearest distance into the view */
-    uint16_t side;                /* of its tile, by worth; 0: none */
-    uint8_t turn;                 /* of a directional view's axes about the light */
+    int32_t cast_lo_q16[2], cast_hi_q16[2]; /* directional: along u and v, what casters may cover */
+    uint16_t side;                          /* of its tile, by worth; 0: none */
+    uint8_t turn;                           /* of a directional view's axes about the light */
 } gn_view_seen;
 
 /* A directional view's axes u and v may be turned by a multiple of 1 / 32: in GN_TURNS ways. */
@@ -49,6 +50,7 @@ typedef struct {
     int32_t box[8][6];
     int directional;
     int32_t along_lo[GN_SEEN_DIRECTIONS], along_hi[GN_SEEN_DIRECTIONS]; /* u and v of each turn, and w */
+    int32_t cast_lo[2 * GN_TURNS], cast_hi[2 * GN_TURNS];               /* of casters, u and v of each turn */
     int32_t below[3], above[3]; /* along the world's axes, bounds of seen objects less 1/16 of each */
 #if GN_PUNCTUAL_LIGHTS
     int32_t light_q16[3]; /* its position, along its axes */

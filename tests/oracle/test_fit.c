@@ -138,7 +138,36 @@ static bool covered(const fixture *f, const ref_picture *p, size_t l, int i, int
     return covered_by(&v[f->s.lights[l].kind == SCENE_LIGHT_POINT ? ref_point_face(from) : 0], point);
 }
 
-/* Beyond a tile there is no shadow, as a map of the whole scene says. */
+/* Whether a map of the whole scene has nothing before the point where a view is looked up for it, or an edge within a
+ * texel. */
+static bool lit_where_looked_up(const fixture *f, const ref_light_view *v, const ref_light_view *whole, size_t l,
+                                const double point[3], const double normal[3])
+{
+    const double offset = sqrt(2.0) * (v->filter_index + 1) * f->lights[l].bias_normal * v->texel;
+    double at[3], moved[3];
+    for (int k = 0; k < 3; k++) moved[k] = point[k] + offset * normal[k];
+    for (int k = 0; k < 3; k++) at[k] = dot(moved, whole->axis[k]) / whole->texel - whole->origin[k];
+    for (int i = 0; i < 4; i++)
+        if (ref_attenuation(whole, SCENE_FILTER_HARD, at[0] + (i & 1 ? 1 : -1), at[1] + (i & 2 ? 1 : -1), at[2]) > 0.5)
+            return true;
+    return false;
+}
+
+/* Beyond a tile there is no shadow: of a point, or of where its view is looked up for it. */
+static bool is_lost(const fixture *f, const ref_picture *p, const ref_picture *fine, size_t l, int i, int j)
+{
+    const size_t pixel = (size_t)(j * WIDTH + i);
+    double point[3];
+    if (!(p->shadow[l][pixel] - fine->shadow[l][pixel] > 0.5)) return false;
+    if (p->grant[l].atlas != REF_DIRECTIONAL_ATLAS) return true;
+    world_at(point, f, p, i, j);
+    const int c = p->cascade[pixel], next = next_cascade(f, p, l, c, point);
+    for (int n = c; n >= 0; n = n == c ? next : -1)
+        if (!lit_where_looked_up(f, &p->view[l][n], &fine->view[l][n], l, point, &p->normal[3 * pixel])) return true;
+    return false;
+}
+
+/* As a map of the whole scene says. */
 static void check_coverage(const fixture *f, const ref_picture *p, const ref_picture *fine)
 {
     long lost = 0;
@@ -148,7 +177,7 @@ static void check_coverage(const fixture *f, const ref_picture *p, const ref_pic
                 const size_t pixel = (size_t)(j * WIDTH + i);
                 if (p->triangle[pixel] < 0 || covered(f, p, l, i, j)) continue;
                 n_beyond++;
-                lost += p->shadow[l][pixel] - fine->shadow[l][pixel] > 0.5;
+                lost += is_lost(f, p, fine, l, i, j);
             }
     CHECK_EQ_INT(lost, 0);
 }

@@ -38,7 +38,7 @@ static void put_views(layout *l, const settings *s)
     long view =
         180 + (s->feature.depth_blocks ? 4 : 0) + (s->feature.auto_bias ? 8 : 0) + (s->feature.tight_fit ? 8 : 0);
     put(l, views, (view + 7) / 8 * 8, 8);
-    if (s->feature.tight_fit) put(l, views, 40, 8); /* seen */
+    if (s->feature.tight_fit) put(l, views, 56, 8); /* seen */
 }
 
 /* gn_frame from its memory of tiles on */
@@ -152,7 +152,7 @@ static void put_work(layout *out, const settings *s)
     if (s->quality.transparent_layers) put(&all, 4, 4, 4);                        /* mixture */
     if (s->quality.persp_step > 1) put(&all, 1, lattice_bytes(s), 8);
     pad(&all, all.align);
-    const long casting = casting_bytes(s), clipping = 264, seen = s->feature.punctual_lights ? 848 : 828;
+    const long casting = casting_bytes(s), clipping = 264, seen = s->feature.punctual_lights ? 1000 : 980;
     long largest = casting > clipping ? casting : clipping;
     if (s->feature.shadows && s->feature.tight_fit && seen > largest) largest = seen;
     put(out, 1, all.size > largest ? all.size : largest, 8);
