@@ -240,8 +240,8 @@ passed=$((passed + $(grep -c '^ok$' "$tmp/results")))
 failed=$((failed + $(grep -v -c '^ok$' "$tmp/results")))
 grep -v '^ok$' "$tmp/results"
 [ "$(echo "$emulated" | grep -c .)" -ge 9 ] && pass || fail "the emulated boards are $emulated"
-[ "$(echo "$flashed" | grep -c .)" -ge 2 ] && pass || fail "the boards with an image to flash are $flashed"
-[ "$(grep -c '^ok$' "$tmp/results")" -ge $((${THOROUGH:+15} + 69)) ] && pass || fail "jobs are missing"
+[ "$(echo "$flashed" | grep -c .)" -ge 4 ] && pass || fail "the boards with an image to flash are $flashed"
+[ "$(grep -c '^ok$' "$tmp/results")" -ge $((${THOROUGH:+15} + 73)) ] && pass || fail "jobs are missing"
 
 echo "$passed passed, $failed failed"
 [ "$failed" = 0 ]
