@@ -282,12 +282,11 @@ GN_HOT static void draw_lit_span(const facet *f, const facet_look *look, const g
 GN_HOT static void draw_runs(const facet *f, const facet_look *look)
 {
     gn_shading *s = f->s;
-    const gn_lattice *l = &s->lattice;
     const gn_slope *slope = look->colour_q24;
-    const gn_run_span *span = l->span;
+    const gn_run_span *span = s->lattice.span;
     const int32_t step[3] = {slope[0].dx, slope[1].dx, slope[2].dx};
     int32_t at[3];
-    for (const gn_run_span *end = span + l->n_spans; span < end; span++) {
+    for (const gn_run_span *end = span + s->lattice.n_spans; span < end; span++) {
         const int32_t x = span->x, y = span->y, right = x - f->screen.x0, down = y - f->screen.y0;
         at[0] = f->base_q24[0] + gn_facet_at(&slope[0], right, down);
         at[1] = f->base_q24[1] + gn_facet_at(&slope[1], right, down);
