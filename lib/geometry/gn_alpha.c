@@ -40,9 +40,6 @@ GN_HOT uint32_t gn_alpha_keeps(gn_alpha_cut *cut, int32_t x, uint32_t asked)
     }
     if (cut->textured) return kept;
 #endif
-    for (int32_t i = 0; asked >> i; i++) {
-        kept |= (uint32_t)gn_alpha_passes(&test, i, 65535) << i;
-        if (i == 31) break;
-    }
+    for (int32_t i = 0; i < 32; i++) kept |= (uint32_t)gn_alpha_passes(&test, i, 65535) << i;
     return kept & asked;
 }

@@ -33,6 +33,7 @@ typedef struct {
     uint32_t turn_q28[3];     /* as they differ by so much, squared: vertices 0 and 1, 0 and 2, 1 and 2 */
     int32_t base_q24[3];      /* ambient, and what it emits */
     int32_t colour_q24[3][3]; /* light that pixels do not ask for: by channel, at the vertices */
+    int32_t tint_q16[3][3];   /* colours of the vertices, likewise */
     int32_t n_lights;
     pixel_light light[PIXEL_LIGHTS];
 #if GN_TEXTURES
@@ -282,12 +283,11 @@ GN_HOT static void draw_lit_span(const facet *f, const facet_look *look, const g
 GN_HOT static void draw_runs(const facet *f, const facet_look *look)
 {
     gn_shading *s = f->s;
-    const gn_lattice *l = &s->lattice;
     const gn_slope *slope = look->colour_q24;
-    const gn_run_span *span = l->span;
+    const gn_run_span *span = s->lattice.span;
     const int32_t step[3] = {slope[0].dx, slope[1].dx, slope[2].dx};
     int32_t at[3];
-    for (const gn_run_span *end = span + l->n_spans; span < end; span++) {
+    for (const gn_run_span *end = span + s->lattice.n_spans; span < end; span++) {
         const int32_t x = span->x, y = span->y, right = x - f->screen.x0, down = y - f->screen.y0;
         at[0] = f->base_q24[0] + gn_facet_at(&slope[0], right, down);
         at[1] = f->base_q24[1] + gn_facet_at(&slope[1], right, down);
@@ -307,35 +307,17 @@ GN_HOT static void draw_spans(const facet *f, const facet_look *look)
 }
 
 #if GN_VERTEX_COLOURS
-GN_HOT static inline int32_t spread(int32_t a, int32_t b, int32_t c)
-{
-    return gn_max32(gn_max32(a, b), c) - gn_min32(gn_min32(a, b), c);
-}
-
-/* Whether colours at the vertices, times the light there, are linear enough: in between the product is off by at most a
- * quarter of what both change by. NUMERICS 4.17 */
-GN_HOT static int tints_hold(const facet *f)
-{
-    const gn_surface *s = &f->s->surface;
-    for (int c = 0; c < 3; c++) {
-        const int32_t *at = f->colour_q24[c], base = f->base_q24[c], light = spread(at[0], at[1], at[2]),
-                      tint[3] = {tint_q16(s, c, 0), tint_q16(s, c, 1), tint_q16(s, c, 2)};
-        int32_t least = 1 << 22; /* 1/4 */
-        for (int k = 0; k < 3; k++) least = gn_min32(least, gn_facet_tinted(base + at[k], tint[k]));
-        if (gn_facet_tinted(light, spread(tint[0], tint[1], tint[2])) >> 2 > gn_max32(least >> 5, 1 << 13)) return 0;
-    }
-    return 1;
-}
-
-/* Times the vertices' colours. Returns 0 if pixels are to be multiplied. */
+/* Times the vertices' colours, where light does not vary. Returns 0 if pixels are to be multiplied. */
 GN_HOT static int tint_vertices(facet *f)
 {
     const gn_surface *s = &f->s->surface;
     if (!GN_COLOURED(s)) return 1;
-    if (f->n_lights || f->turns || (GN_SMOOTH(s) && !tints_hold(f))) return 0;
+    for (int c = 0; c < 3; c++)
+        for (int k = 0; k < 3; k++) f->tint_q16[c][k] = tint_q16(s, c, k);
+    if (f->n_lights || GN_SMOOTH(s)) return 0;
     for (int c = 0; c < 3; c++) {
         for (int k = 0; k < 3; k++)
-            f->colour_q24[c][k] = gn_facet_tinted(f->base_q24[c] + f->colour_q24[c][k], tint_q16(s, c, k));
+            f->colour_q24[c][k] = gn_facet_tinted(f->base_q24[c] + f->colour_q24[c][k], f->tint_q16[c][k]);
         f->base_q24[c] = 0;
     }
     return 1;
@@ -343,11 +325,7 @@ GN_HOT static int tint_vertices(facet *f)
 
 GN_HOT static void use_tints(facet *f, facet_look *look)
 {
-    const gn_surface *s = &f->s->surface;
-    for (int c = 0; look->tinted && c < 3; c++) {
-        const int32_t at[3] = {tint_q16(s, c, 0), tint_q16(s, c, 1), tint_q16(s, c, 2)};
-        gn_facet_slope(&f->screen, &look->tint_q16[c], at);
-    }
+    for (int c = 0; look->tinted && c < 3; c++) gn_facet_slope(&f->screen, &look->tint_q16[c], f->tint_q16[c]);
 }
 #else
 GN_HOT static int tint_vertices(facet *f)
