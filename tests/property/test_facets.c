@@ -215,6 +215,10 @@ int main(void)
         demo.light[0].colour_uq16[2] = GN_UQ16(1.5);
         compare_all("violet", 16);
         demo.light[0] = sun;
+        const int16_t *normals = demo.ball.nrm_q15;
+        demo.ball.nrm_q15 = NULL;
+        compare_all("faceted", 16);
+        demo.ball.nrm_q15 = normals;
         add_texture(&texture, 19); /* rows of more triangles, those that get deeper to the right, too */
         compare_all("stretched", 16);
         add_texture(&texture, 17);

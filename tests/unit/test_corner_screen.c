@@ -1,0 +1,77 @@
+/* Places in perspective views by linear forms: any forms and scales, against the quotients in double. */
+#include <math.h>
+
+#include "check.h"
+#include "exact.h"
+#include "knobs.h"
+#include "rng.h"
+#include "shade/gn_corner.h"
+
+#if GN_INTERPOLATES && GN_SHADOWS && GN_PUNCTUAL_LIGHTS
+static rng random_state = {31};
+static gn_frame frame;
+static gn_lattice lattice;
+static gn_surface surface;
+
+static int32_t any(int32_t bits)
+{
+    return (int32_t)(rng_u32(&random_state) >> (33 - bits)) * (rng_below(&random_state, 2) ? 1 : -1);
+}
+
+/* Refused: depths below 2^22, or as large as a rounding makes them, and what lies beyond 63 degrees. Not seen: nearer
+ * than the near plane, which `near` / 2^up of the depth is. */
+static void compare(int32_t u, int32_t v, int32_t z, int32_t near, int32_t up, tally *refused, tally *seen, tally *at)
+{
+    gn_view_forms *forms = &lattice.forms[0];
+    gn_light_view *view = &frame.view[0];
+    gn_corner_light place = {0};
+    forms->view = view;
+    forms->u = (gn_slope){u, 0, 0}, forms->v = (gn_slope){v, 0, 0}, forms->z = (gn_slope){z, 0, 0};
+    forms->near = (gn_slope){near, 0, 0};
+    forms->near_up = up;
+    view->tile_log2 = (uint8_t)rng_range(&random_state, 4, 10);
+    const int found = gn_corner_place_flat(&lattice, &frame, &surface, 0, view, 7, 9, &place);
+    const double share = near < 0 ? 0 : ldexp((double)near / z, -up), wide = fmax(fabs((double)u), fabs((double)v)) / z;
+    const int inside = z >= 1 << 22 && z < 1 << 30;
+    if (fabs(share - 1) < 1e-6) return;
+    if (!inside || share > 1) {
+        HOLDS(inside ? seen : refused, inside ? found && !place.seen : !found, "z %d, share %g", (int)z, share);
+        return;
+    }
+    if (fabs(wide - 2) < 1e-6) return;
+    HOLDS(refused, found == (wide < 2), "u %d, v %d, z %d", (int)u, (int)v, (int)z);
+    if (!found) return;
+    /* a share's last bit is lost before it is scaled */
+    const double texels = ldexp(1, 16 + view->tile_log2);
+    HOLDS(seen, place.seen, "share %g", share);
+    HOLDS(at,
+          fabs(place.u_q16 - (double)u / z * texels) < 2 && fabs(place.v_q16 - (double)v / z * texels) < 2 &&
+              fabs(place.depth_q30 - ldexp(1 - share, 30)) < 8 + ldexp(1, 30 - ilogb(z) - up),
+          "u %d, v %d, z %d, near %d, up %d: %d %d %d", (int)u, (int)v, (int)z, (int)near, (int)up, (int)place.u_q16,
+          (int)place.v_q16, (int)place.depth_q30);
+}
+
+static void test_places(void)
+{
+    tally refused = {0}, seen = {0}, at = {0};
+    if (!TAKES_KNOB(&frame, newton_steps, 2)) return;
+    for (int i = 0; i < 400000; i++) {
+        const int32_t z = any(31), bits = rng_range(&random_state, 8, 31);
+        compare(any(bits), any(bits), i % 8 ? z : z >> rng_range(&random_state, 0, 12), any(31),
+                rng_range(&random_state, i % 3 ? -2 : -20, i % 3 ? 8 : 40), &refused, &seen, &at);
+    }
+    compare(0, 0, INT32_MAX, 1, 0, &refused, &seen, &at);
+    compare(0, 0, 1 << 30, 1, 0, &refused, &seen, &at);
+    CHECK_TALLY(refused, "what forms do not tell");
+    CHECK_TALLY(seen, "what is seen");
+    CHECK_TALLY(at, "where it is seen");
+}
+#endif
+
+int main(void)
+{
+#if GN_INTERPOLATES && GN_SHADOWS && GN_PUNCTUAL_LIGHTS
+    test_places();
+#endif
+    return check_report();
+}
