@@ -28,53 +28,9 @@ typedef struct {
 #endif
 } drawing;
 
-/* ---- Two colours ------------------------------------------------------------------------------------------------ */
-
-#if GN_SHADOWS
-GN_HOT static int is_flat(const gn_patch *p)
-{
-    return !(p->dx | p->dy | p->dxy);
-}
-
-/* Whether one shadow falls on a cell of one colour. */
-GN_HOT static int has_two_colours(const drawing *d)
-{
-    const gn_lattice_look *look = &d->s->lattice.look;
-    if (look->n_edges != 1 + (look->edge[0].bent >> 2) || d->s->surface.textured ||
-        d->s->frame->picture.format == GN_FORMAT_RAW32)
-        return 0;
-    for (int c = 0; c < 3; c++)
-        if (!is_flat(&d->base_q24[c]) || !is_flat(&look->edge[0].more_q24[c])) return 0;
-    return 1;
-}
-
-/* Pixels of a row between two rows of attenuations, `weight` of 2^log2 from the upper to the lower. */
-GN_HOT static void store_levels(const drawing *d, int32_t y, uint32_t bits, const uint32_t *upper,
-                                const uint32_t *lower, int32_t weight, int32_t log2)
-{
-    gn_shading *s = d->s;
-    int32_t x = d->x + d->first, n = 1 << log2;
-    int quick = s->frame->picture.format == GN_FORMAT_RGB565;
-    uint16_t *out = quick ? s->rows.pixels->rgb565 + (y - s->rows.y0) * s->rows.width + x - s->rows.x0 : NULL;
-    for (int32_t i = 0; bits >> (i << log2); i++) {
-        uint32_t part = bits >> (i << log2) & ((1U << n) - 1);
-        if (!part) continue;
-        int32_t at = (int32_t)upper[i] + ((((int32_t)lower[i] - (int32_t)upper[i]) * weight) >> log2), step = 0;
-        if (log2) {
-            int32_t to = (int32_t)upper[i + 1] + ((((int32_t)lower[i + 1] - (int32_t)upper[i + 1]) * weight) >> log2);
-            step = (to - at) >> log2;
-        }
-        for (int32_t k = i << log2; part; part >>= 1, k++, at += step) {
-            if (!(part & 1U)) continue;
-            uint32_t packed = gn_levels_pixel(s, (uint32_t)gn_max32(at, 0));
-            if (quick) out[k] = (uint16_t)packed;
-            else gn_pixel_store(s->frame, &s->rows, x + k, y, packed);
-        }
-    }
-}
-
 /* ---- Rows of nodes ----------------------------------------------------------------------------------------------- */
 
+#if GN_SHADOWS
 /* One exact lookup, at a depth that is limited to the view's range. */
 GN_HOT static uint32_t lookup(const drawing *d, const gn_light_view *view, const int32_t slope_q28[2],
                               const gn_receiver_step *at, int32_t x, int32_t y)
@@ -258,13 +214,6 @@ GN_HOT static GN_NOINLINE int find_attenuations(const drawing *d, const gn_latti
     return look_up_row(d, edge, below, &at, &step, 0, d->n, out);
 }
 
-/* The same, all of them set. */
-GN_HOT static void set_attenuations(const drawing *d, const gn_lattice_edge *edge, int32_t below, uint32_t *out)
-{
-    int said = find_attenuations(d, edge, below, out);
-    if (said != GN_WINDOW_MIXED) set_alike(out, out + d->n, said);
-}
-
 /* Adds the light of an edge to a row of nodes, where it is not in shadow. */
 GN_HOT static GN_NOINLINE void add_edge_light(const drawing *d, const gn_lattice_edge *edge, int32_t below,
                                               int32_t (*node)[3])
@@ -347,45 +296,6 @@ GN_HOT static void find_nodes(const drawing *d, int32_t below, int32_t (*node)[3
 }
 
 /* ---- Cells ------------------------------------------------------------------------------------------------------- */
-
-#if GN_SHADOWS
-GN_HOT static GN_NOINLINE void draw_two_colours(const drawing *d)
-{
-    gn_lattice *l = &d->s->lattice;
-    const gn_lattice_edge *edge = &l->look.edge[0];
-    int32_t log2 = l->look.spacing_log2, known = -1, now = 0;
-    int32_t dark[3], more[3];
-    for (int c = 0; c < 3; c++) {
-        dark[c] = d->base_q24[c].at;
-        more[c] = edge->more_q24[c].at;
-    }
-    gn_levels_use(l, dark, more);
-    for (int32_t below = 0; below < 1 << d->size_log2; below += 1 << log2) {
-        if (!gn_lattice_columns(l, d->x, d->y + below, 1 << log2, d->size_log2)) continue;
-        if (known != below) set_attenuations(d, edge, below, l->row.attenuation[now]);
-        if (log2) set_attenuations(d, edge, below + (1 << log2), l->row.attenuation[!now]);
-        for (int32_t t = 0; t < 1 << log2; t++) {
-            int32_t y = d->y + below + t;
-            uint32_t bits = gn_lattice_bits(l, d->x, y, d->size_log2) >> d->first;
-            if (bits) store_levels(d, y, bits, l->row.attenuation[now], l->row.attenuation[log2 ? !now : now], t, log2);
-        }
-        if (!log2) continue;
-        known = below + (1 << log2);
-        now = !now;
-    }
-}
-#else
-GN_HOT static int has_two_colours(const drawing *d)
-{
-    (void)d;
-    return 0;
-}
-
-GN_HOT static void draw_two_colours(const drawing *d)
-{
-    (void)d;
-}
-#endif
 
 #if GN_TEXTURES
 /* Whether the nodes at hand lie in 2^-18 .. 1. */
@@ -492,10 +402,6 @@ GN_HOT void gn_lattice_draw(gn_shading *s, int32_t x, int32_t y, int32_t size_lo
     uint32_t any = gn_lattice_columns(l, x, y, size, size_log2);
     d.first = (31 - gn_clz32(any & (0U - any))) & -(1 << spacing_log2);
     d.n = ((31 - gn_clz32(any) - d.first) >> spacing_log2) + 1 + (spacing_log2 > 0);
-    if (has_two_colours(&d)) {
-        draw_two_colours(&d);
-        return;
-    }
 #if GN_TEXTURES
     if (s->surface.textured) {
         for (int32_t next = 0; gn_lattice_textures_begin(s, x, y, size_log2, corner, next, &d.textures); next++)
