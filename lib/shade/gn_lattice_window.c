@@ -163,25 +163,15 @@ GN_HOT static void light_up(gn_window *window)
     window->any = window->all = window->doubts = 0;
 }
 
-/* An upper and a lower corner of the part. */
-GN_HOT static int see_both(gn_lattice *l, const gn_frame *frame, const gn_surface *s, uint32_t slot, uint32_t view_idx,
-                           int32_t x, int32_t y_end, seen_box *box)
-{
-    return see(l, frame, s, slot, view_idx, x, l->y, box) && see(l, frame, s, slot, view_idx, x, y_end, box);
-}
-
-static const seen_box nothing_seen = {{INT32_MAX, INT32_MAX}, {INT32_MIN, INT32_MIN}, {0, 0, 0, 0}};
-
-/* Makes it for columns x .. x_end - 1 of cells; for pixels alone, if `rows`. left: what its left corners see, NULL: not
- * all of them do. Returns 0 if that is too much. */
+/* Makes it for columns x .. x_end - 1 of cells; for pixels alone, if `rows`. Returns 0 if that is too much. */
 GN_HOT static int make_window(gn_lattice *l, const gn_frame *frame, const gn_surface *s, uint32_t slot,
-                              uint32_t view_idx, const seen_box *left, int32_t x, int32_t x_end, int32_t y_end,
-                              int rows, gn_window *window)
+                              uint32_t view_idx, int32_t x, int32_t x_end, int32_t y_end, int rows, gn_window *window)
 {
-    seen_box box = left ? *left : nothing_seen;
-    int32_t first[2], n[2];
-    if (!left || !see_both(l, frame, s, slot, view_idx, x_end, y_end, &box)) {
-        box = nothing_seen;
+    seen_box box = {{INT32_MAX, INT32_MAX}, {INT32_MIN, INT32_MIN}, {0, 0, 0, 0}};
+    int32_t first[2], n[2], seen = 0;
+    while (seen < 4 && see(l, frame, s, slot, view_idx, seen & 1 ? x_end : x, seen & 2 ? y_end : l->y, &box)) seen++;
+    if (seen < 4) {
+        for (int i = 0; i < 2; i++) box.lo[i] = INT32_MAX, box.hi[i] = INT32_MIN;
         if (!rows || !see_rows(l, frame, s, slot, view_idx, x, x_end, &box)) return 0;
     }
     if (gn_beyond_tile(window->view, box.lo[0], box.hi[0], box.lo[1], box.hi[1])) {
@@ -209,11 +199,8 @@ GN_HOT gn_window *gn_lattice_window(gn_lattice *l, const gn_frame *frame, const 
     window->w = 0;
     int32_t rows = (gn_min32(l->n_rows, l->y_end - l->y) + size - 1) >> log2;
     int32_t columns = (gn_min32(GN_PART_WIDTH - (x - l->x), l->x_end - x) + size - 1) >> log2;
-    const int32_t few = at ? 2 : 0; /* for one or two cells their own corners tell as much */
-    seen_box left = nothing_seen;
-    int seen = columns * rows > few && see_both(l, frame, s, slot, view_idx, x, l->y + rows * size, &left);
-    while (columns * rows > few && !make_window(l, frame, s, slot, view_idx, seen ? &left : NULL, x, x + columns * size,
-                                                l->y + rows * size, !at, window))
+    while (columns * rows > (at ? 2 : 0) && /* for one or two cells their own corners tell as much */
+           !make_window(l, frame, s, slot, view_idx, x, x + columns * size, l->y + rows * size, !at, window))
         columns = columns > 1 ? (columns + 1) >> 1 : 0;
     window->until_x = x + columns * size;
     return window;
