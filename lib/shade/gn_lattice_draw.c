@@ -2,6 +2,7 @@
 #include "gn_internal.h"
 
 #include "base/gn_count.h"
+#include "base/gn_hint.h"
 #include "base/gn_q.h"
 #include "shade/gn_exact.h"
 #include "shade/gn_lattice.h"
@@ -27,53 +28,9 @@ typedef struct {
 #endif
 } drawing;
 
-/* ---- Two colours ------------------------------------------------------------------------------------------------ */
-
-#if GN_SHADOWS
-GN_HOT static int is_flat(const gn_patch *p)
-{
-    return !(p->dx | p->dy | p->dxy);
-}
-
-/* Whether one shadow falls on a cell of one colour. */
-GN_HOT static int has_two_colours(const drawing *d)
-{
-    const gn_lattice_look *look = &d->s->lattice.look;
-    if (look->n_edges != 1 + (look->edge[0].bent >> 2) || d->s->surface.textured ||
-        d->s->frame->picture.format == GN_FORMAT_RAW32)
-        return 0;
-    for (int c = 0; c < 3; c++)
-        if (!is_flat(&d->base_q24[c]) || !is_flat(&look->edge[0].more_q24[c])) return 0;
-    return 1;
-}
-
-/* Pixels of a row between two rows of attenuations, `weight` of 2^log2 from the upper to the lower. */
-GN_HOT static void store_levels(const drawing *d, int32_t y, uint32_t bits, const uint32_t *upper,
-                                const uint32_t *lower, int32_t weight, int32_t log2)
-{
-    gn_shading *s = d->s;
-    int32_t x = d->x + d->first, n = 1 << log2;
-    int quick = s->frame->picture.format == GN_FORMAT_RGB565;
-    uint16_t *out = quick ? s->rows.pixels->rgb565 + (y - s->rows.y0) * s->rows.width + x - s->rows.x0 : NULL;
-    for (int32_t i = 0; bits >> (i << log2); i++) {
-        uint32_t part = bits >> (i << log2) & ((1U << n) - 1);
-        if (!part) continue;
-        int32_t at = (int32_t)upper[i] + ((((int32_t)lower[i] - (int32_t)upper[i]) * weight) >> log2), step = 0;
-        if (log2) {
-            int32_t to = (int32_t)upper[i + 1] + ((((int32_t)lower[i + 1] - (int32_t)upper[i + 1]) * weight) >> log2);
-            step = (to - at) >> log2;
-        }
-        for (int32_t k = i << log2; part; part >>= 1, k++, at += step) {
-            if (!(part & 1U)) continue;
-            uint32_t packed = gn_levels_pixel(s, (uint32_t)gn_max32(at, 0));
-            if (quick) out[k] = (uint16_t)packed;
-            else gn_pixel_store(s->frame, &s->rows, x + k, y, packed);
-        }
-    }
-}
-
 /* ---- Rows of nodes ----------------------------------------------------------------------------------------------- */
 
+#if GN_SHADOWS
 /* One exact lookup, at a depth that is limited to the view's range. */
 GN_HOT static uint32_t lookup(const drawing *d, const gn_light_view *view, const int32_t slope_q28[2],
                               const gn_receiver_step *at, int32_t x, int32_t y)
@@ -186,18 +143,17 @@ GN_HOT static void scale_step(gn_receiver_step *step, int32_t spacing_log2)
     step->depth_q31 *= 1 << spacing_log2;
 }
 
-/* Attenuations of nodes from .. end - 1 of such a row. */
-GN_HOT static void look_up_row(const drawing *d, const gn_lattice_edge *edge, int32_t below,
-                               const gn_receiver_step *row, const gn_receiver_step *step, int32_t from, int32_t end,
-                               uint32_t *out)
+/* Attenuations of nodes from .. end - 1 of such a row. Returns GN_WINDOW_LIT or _DARK if all of them are, and sets
+ * none; else _MIXED. */
+GN_HOT static int look_up_row(const drawing *d, const gn_lattice_edge *edge, int32_t below, const gn_receiver_step *row,
+                              const gn_receiver_step *step, int32_t from, int32_t end, uint32_t *out)
 {
     gn_receiver_step at = {row->u_q16 + from * step->u_q16, row->v_q16 + from * step->v_q16,
                            row->depth_q31 + from * step->depth_q31};
     GN_COUNT(edge_lookups, end - from);
     if (edge->window && edge->window->view == edge->view) {
         int said = gn_window_row(d->s->frame, edge->window, &at, step, end - from, 1, out + from);
-        for (int32_t i = from; said < GN_WINDOW_MIXED && i < end; i++) out[i] = said == GN_WINDOW_LIT ? 65536 : 0;
-        if (said != GN_WINDOW_MISSED) return;
+        if (said != GN_WINDOW_MISSED) return said;
     }
     for (int32_t i = from; i < end; i++) {
         out[i] = lookup(d, edge->view, edge->slope_q28, &at,
@@ -206,6 +162,13 @@ GN_HOT static void look_up_row(const drawing *d, const gn_lattice_edge *edge, in
         at.v_q16 += step->v_q16;
         at.depth_q31 = (int32_t)((uint32_t)at.depth_q31 + (uint32_t)step->depth_q31); /* not used beyond the cell */
     }
+    return GN_WINDOW_MIXED;
+}
+
+/* Attenuations where all are alike. */
+GN_HOT static void set_alike(uint32_t *out, const uint32_t *end, int said)
+{
+    while (out < end) *out++ = said == GN_WINDOW_LIT ? 65536 : 0;
 }
 
 #if GN_PUNCTUAL_LIGHTS || GN_MANY_CASCADES
@@ -222,40 +185,43 @@ GN_HOT static GN_NOINLINE void look_up_two(const drawing *d, const gn_lattice_ed
     for (int32_t from = 0, end; from < d->n; from = end) { /* |first + i across| < 2^29: a corner's is below 2^28 */
         int k = first + from * across < 0;
         for (end = from + 1; end < d->n && (first + end * across < 0) == k;) end++;
-        look_up_row(d, edge + k, below, &at[k], &step[k], from, end, out);
+        int said = look_up_row(d, edge + k, below, &at[k], &step[k], from, end, out);
+        if (said != GN_WINDOW_MIXED) set_alike(out + from, out + end, said);
     }
 }
 #endif
 
-/* Attenuations along a row of nodes, `below` pixels under the cell's first row. */
-GN_HOT static GN_NOINLINE void find_attenuations(const drawing *d, const gn_lattice_edge *edge, int32_t below,
-                                                 uint32_t *out)
+/* Attenuations along a row of nodes, `below` pixels under the cell's first row. Returns what look_up_row() does. */
+GN_HOT static GN_NOINLINE int find_attenuations(const drawing *d, const gn_lattice_edge *edge, int32_t below,
+                                                uint32_t *out)
 {
     gn_receiver_step at, step;
 #if GN_PUNCTUAL_LIGHTS
     if (edge->bent == GN_PLACES_LONE) {
         look_up_alone(d, edge, below, out);
-        return;
+        return GN_WINDOW_MIXED;
     }
 #endif
 #if GN_PUNCTUAL_LIGHTS || GN_MANY_CASCADES
     if (edge->bent & GN_PLACES_OF_TWO) {
         look_up_two(d, edge, below, out);
-        return;
+        return GN_WINDOW_MIXED;
     }
 #endif
     find_row(d, edge, below, &at, &step);
     if (edge->bent && !place_flat_row(d, edge, below, &at, &step)) place_row(d, edge, below, &at, &step);
     scale_step(&step, d->s->lattice.look.spacing_log2);
-    look_up_row(d, edge, below, &at, &step, 0, d->n, out);
+    return look_up_row(d, edge, below, &at, &step, 0, d->n, out);
 }
 
-/* Adds the light of an edge to a row of nodes. */
+/* Adds the light of an edge to a row of nodes, where it is not in shadow. */
 GN_HOT static GN_NOINLINE void add_edge_light(const drawing *d, const gn_lattice_edge *edge, int32_t below,
                                               int32_t (*node)[3])
 {
     const uint32_t *share = d->s->lattice.row.attenuation[0], *end = share + d->n;
-    int32_t twice[3], step[3]; /* |more| <= 2^28, one step beyond the cell below 2^30 */
+    /* light and highlight, 2^27 each where gn_corner_times() limits them: -2^27 .. 2^28 at the corners; doubled, one
+     * node beyond the cell, below 2^30.4 */
+    int32_t twice[3], step[3];
     for (int c = 0; c < 3; c++) {
         int32_t across = 2 * (edge->more_q24[c].dx + below * edge->more_q24[c].dxy);
         twice[c] = 2 * (edge->more_q24[c].at + below * edge->more_q24[c].dy) + d->first * across;
@@ -275,78 +241,61 @@ GN_HOT static GN_NOINLINE void add_edge_light(const drawing *d, const gn_lattice
         }
     }
 }
-#else
-GN_HOT static void add_edge_light(const drawing *d, const gn_lattice_edge *edge, int32_t below, int32_t (*node)[3])
-{
-    (void)d, (void)edge, (void)below, (void)node;
-}
 #endif
 
-/* Colours of a row of nodes. */
+/* Colours of a row of nodes: of the first, and steps between them. */
+typedef struct {
+    int32_t from[3], step[3];
+} node_row;
+
+GN_INLINE void add_patches(const drawing *d, const gn_patch colour_q24[3], int32_t below, node_row *row)
+{
+    for (int c = 0; c < 3; c++) {
+        const gn_patch *p = &colour_q24[c];
+        row->from[c] += gn_patch_at(p, d->first, below);
+        row->step[c] += (p->dx + below * p->dxy) * (1 << d->s->lattice.look.spacing_log2);
+    }
+}
+
+GN_HOT static void put_row(const node_row *row, int32_t (*node)[3], int32_t (*const end)[3])
+{
+    int32_t r = row->from[0], g = row->from[1], b = row->from[2];
+    for (; node < end; node++, r += row->step[0], g += row->step[1], b += row->step[2]) {
+        (*node)[0] = r;
+        (*node)[1] = g;
+        (*node)[2] = b;
+    }
+}
+
+/* Colours of a row of nodes. Lights before the first with an edge in it are in shadow all along it, or nowhere: those
+ * take no loop of their own. */
 GN_HOT static void find_nodes(const drawing *d, int32_t below, int32_t (*node)[3])
 {
-    const gn_lattice_look *look = &d->s->lattice.look;
-    int32_t from[3], step[3];
-    for (int c = 0; c < 3; c++) {
-        const gn_patch *base = &d->base_q24[c];
-        from[c] = gn_patch_at(base, d->first, below);
-        step[c] = (base->dx + below * base->dxy) * (1 << look->spacing_log2);
-    }
-    int32_t r = from[0], g = from[1], b = from[2];
-    for (int32_t(*at)[3] = node, (*end)[3] = node + d->n; at < end; at++, r += step[0], g += step[1], b += step[2]) {
-        (*at)[0] = r;
-        (*at)[1] = g;
-        (*at)[2] = b;
-    }
-    for (int32_t k = 0; k < look->n_edges; k++) {
+    node_row row = {{0, 0, 0}, {0, 0, 0}};
+    int is_put = 0;
+    add_patches(d, d->base_q24, below, &row);
 #if GN_SHADOWS
-        find_attenuations(d, &look->edge[k], below, d->s->lattice.row.attenuation[0]);
-#endif
-        add_edge_light(d, &look->edge[k], below, node);
-        k += look->edge[k].bent >> 2; /* which is the next one, too */
+    const gn_lattice_look *look = &d->s->lattice.look;
+    uint32_t *share = d->s->lattice.row.attenuation[0];
+    for (int32_t k = 0; k < look->n_edges; k++) {
+        const gn_lattice_edge *edge = &look->edge[k];
+        int said = find_attenuations(d, edge, below, share);
+        k += edge->bent >> 2; /* which is the next one, too */
+        if (said == GN_WINDOW_DARK) continue;
+        if (said == GN_WINDOW_LIT && !is_put) {
+            add_patches(d, edge->more_q24, below, &row);
+            continue;
+        }
+        if (said == GN_WINDOW_LIT) set_alike(share, share + d->n, said);
+        if (!is_put) put_row(&row, node, node + d->n);
+        is_put = 1;
+        add_edge_light(d, edge, below, node);
     }
+#endif
+    if (!is_put) put_row(&row, node, node + d->n);
 }
 
 /* ---- Cells ------------------------------------------------------------------------------------------------------- */
-
-#if GN_SHADOWS
-GN_HOT static GN_NOINLINE void draw_two_colours(const drawing *d)
-{
-    gn_lattice *l = &d->s->lattice;
-    const gn_lattice_edge *edge = &l->look.edge[0];
-    int32_t log2 = l->look.spacing_log2, known = -1, now = 0;
-    int32_t dark[3], more[3];
-    for (int c = 0; c < 3; c++) {
-        dark[c] = d->base_q24[c].at;
-        more[c] = edge->more_q24[c].at;
-    }
-    gn_levels_use(l, dark, more);
-    for (int32_t below = 0; below < 1 << d->size_log2; below += 1 << log2) {
-        if (!gn_lattice_columns(l, d->x, d->y + below, 1 << log2, d->size_log2)) continue;
-        if (known != below) find_attenuations(d, edge, below, l->row.attenuation[now]);
-        if (log2) find_attenuations(d, edge, below + (1 << log2), l->row.attenuation[!now]);
-        for (int32_t t = 0; t < 1 << log2; t++) {
-            int32_t y = d->y + below + t;
-            uint32_t bits = gn_lattice_bits(l, d->x, y, d->size_log2) >> d->first;
-            if (bits) store_levels(d, y, bits, l->row.attenuation[now], l->row.attenuation[log2 ? !now : now], t, log2);
-        }
-        if (!log2) continue;
-        known = below + (1 << log2);
-        now = !now;
-    }
-}
-#else
-GN_HOT static int has_two_colours(const drawing *d)
-{
-    (void)d;
-    return 0;
-}
-
-GN_HOT static void draw_two_colours(const drawing *d)
-{
-    (void)d;
-}
-#endif
 
 #if GN_TEXTURES
 /* Whether the nodes at hand lie in 2^-18 .. 1. */
@@ -453,10 +402,6 @@ GN_HOT void gn_lattice_draw(gn_shading *s, int32_t x, int32_t y, int32_t size_lo
     uint32_t any = gn_lattice_columns(l, x, y, size, size_log2);
     d.first = (31 - gn_clz32(any & (0U - any))) & -(1 << spacing_log2);
     d.n = ((31 - gn_clz32(any) - d.first) >> spacing_log2) + 1 + (spacing_log2 > 0);
-    if (has_two_colours(&d)) {
-        draw_two_colours(&d);
-        return;
-    }
 #if GN_TEXTURES
     if (s->surface.textured) {
         for (int32_t next = 0; gn_lattice_textures_begin(s, x, y, size_log2, corner, next, &d.textures); next++)

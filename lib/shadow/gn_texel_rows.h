@@ -37,15 +37,4 @@ GN_INLINE uint32_t gn_texels_before(const uint16_t *texel, int32_t n, int32_t de
     return near;
 }
 
-/* Texels of 16 bits before a level of depth, n > 0: bit i for texel i. */
-GN_INLINE uint32_t gn_texels_below(const uint16_t *texel, int32_t n, uint32_t level)
-{
-    uint32_t below = 0;
-    for (const uint16_t *at = texel + n; at != texel;) {
-        below = gn_borrow(below, *--at, level);
-        GN_KEEP(at); /* one pointer */
-    }
-    return below;
-}
-
 #endif

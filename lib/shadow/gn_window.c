@@ -251,67 +251,13 @@ GN_HOT static uint32_t compare_doubts(const gn_window *window, int32_t j, uint32
     return dark;
 }
 
-enum { SETTLED_ROWS = 10 };
-
 /* Rows of a window that receivers read, at their own depths. */
 typedef struct {
     const gn_window *window;
     const uint32_t *dark, *doubt; /* from row v0 of the window on */
     int32_t v0;
-    uint32_t doubts;                   /* 0: none is left */
-    uint32_t settled[2][SETTLED_ROWS]; /* dark, doubt */
+    uint32_t doubts; /* of their texels */
 } window_rows;
-
-/* What settle() finds of rows of 16 bits inside the tile: the texels of `range` are compared, n from texel s on. */
-GN_HOT static GN_NOINLINE void settle_16(window_rows *rows, int32_t h, int32_t s, int32_t n, uint32_t mask,
-                                         const uint32_t least[2])
-{
-    const gn_window *window = rows->window;
-    const gn_light_view *view = window->view;
-    const uint16_t *texel = gn_view_texels(view, window->u0 + s, window->v0 + rows->v0).d16;
-    const uint32_t kept = ~((UINT32_MAX >> (32 - n)) << s), near = (least[0] + 0xFFFFU) >> 16,
-                   far = (least[1] + 0xFFFFU) >> 16;
-    for (int32_t j = 0; j < h; j++, texel += view->tile_texels) {
-        uint32_t known = rows->dark[j] & ~(rows->doubt[j] & mask) & kept, dark = gn_texels_below(texel, n, far),
-                 both = 0;
-        if (dark && near != far) both = dark ^ gn_texels_below(texel, n, near);
-        rows->settled[0][j] = known | dark << s;
-        rows->settled[1][j] = both << s;
-    }
-}
-
-/* Columns that lookups of texels in doubt read, too. */
-GN_HOT static uint32_t columns_of(uint32_t doubts, int32_t reach, uint32_t mask)
-{
-    uint32_t all = doubts;
-    for (int32_t i = 1; i <= reach; i++) all |= doubts << i | doubts >> i;
-    return all & mask;
-}
-
-/* Compares the texels in doubt, and those that are looked up with them, with the least and the greatest depth of
- * receivers: what both agree on is settled. */
-GN_HOT static GN_NOINLINE int settle(const gn_frame *frame, window_rows *rows, int32_t h, uint32_t mask,
-                                     const int32_t depth_q30[2])
-{
-    const gn_window *window = rows->window;
-    const uint32_t least[2] = {least_depth(frame, window->view, gn_min32(depth_q30[0], depth_q30[1])),
-                               least_depth(frame, window->view, gn_max32(depth_q30[0], depth_q30[1]))};
-    uint32_t asked = columns_of(rows->doubts, 2 * window->view->filter_idx + 1, mask);
-    int32_t s = 31 - gn_clz32(asked & (0U - asked)), n = 32 - gn_clz32(asked) - s;
-    if (window->plain) settle_16(rows, h, s, n, mask, least);
-    for (int32_t j = 0; j < h && !window->plain; j++) {
-        uint32_t dark[2] = {0, 0}, doubt = rows->doubt[j] & mask;
-        if (doubt) {
-            dark[0] = compare_doubts(window, rows->v0 + j, doubt, least[1]);
-            dark[1] = least[0] == least[1] ? dark[0] : compare_doubts(window, rows->v0 + j, dark[0], least[0]);
-        }
-        rows->settled[0][j] = (rows->dark[j] & ~doubt) | dark[0];
-        rows->settled[1][j] = dark[0] ^ dark[1];
-    }
-    rows->dark = rows->settled[0];
-    rows->doubt = rows->settled[1];
-    return ask_rows(rows->dark, rows->doubt, h, mask, &rows->doubts);
-}
 
 /* Which of n x n texels from texel s of row j on keep a receiver dark, a byte per row. Returns the OR of all rows, and
  * in the upper half their AND. */
@@ -417,11 +363,11 @@ GN_HOT static GN_NOINLINE uint32_t by_weights(const gn_frame *frame, const windo
 }
 
 /* The rows that receivers read, and what they say of all of them. */
-GN_HOT static int find_rows(const gn_frame *frame, const gn_window *window, const gn_receiver_step *from,
-                            const gn_receiver_step *step, int32_t n, int placed, window_rows *rows)
+GN_HOT static int find_rows(const gn_window *window, const gn_receiver_step *from, const gn_receiver_step *step,
+                            int32_t n, window_rows *rows)
 {
     const gn_light_view *view = window->view;
-    int32_t end[2] = {from->u_q16 + (n - 1) * step->u_q16, from->v_q16 + (n - 1) * step->v_q16}, u0, w, h, depth[2];
+    int32_t end[2] = {from->u_q16 + (n - 1) * step->u_q16, from->v_q16 + (n - 1) * step->v_q16}, u0, w, h;
     gn_window_reads(view, gn_min32(from->u_q16, end[0]), gn_max32(from->u_q16, end[0]) + 1024, &u0, &w);
     gn_window_reads(view, gn_min32(from->v_q16, end[1]), gn_max32(from->v_q16, end[1]) + 1024, &rows->v0, &h);
     if (!gn_window_covers(window, u0, rows->v0, w, h)) return GN_WINDOW_MISSED;
@@ -430,12 +376,7 @@ GN_HOT static int find_rows(const gn_frame *frame, const gn_window *window, cons
     rows->v0 -= window->v0;
     rows->dark = &window->dark[rows->v0];
     rows->doubt = &window->doubt[rows->v0];
-    int said = ask_rows(rows->dark, rows->doubt, h, mask, &rows->doubts);
-    if (said != GN_WINDOW_MIXED || !rows->doubts || h > SETTLED_ROWS) return said;
-    depth[0] = placed ? from->depth_q31 : gn_window_depth(window, from->u_q16, from->v_q16);
-    depth[1] = placed ? (int32_t)((uint32_t)depth[0] + (uint32_t)(n - 1) * (uint32_t)step->depth_q31)
-                      : gn_window_depth(window, end[0], end[1]);
-    return settle(frame, rows, h, mask, depth);
+    return ask_rows(rows->dark, rows->doubt, h, mask, &rows->doubts);
 }
 
 GN_HOT int gn_window_row(const gn_frame *frame, const gn_window *window, const gn_receiver_step *from,
@@ -443,7 +384,7 @@ GN_HOT int gn_window_row(const gn_frame *frame, const gn_window *window, const g
 {
     window_rows rows;
     gn_receiver_step across = *step;
-    int said = find_rows(frame, window, from, step, n, placed, &rows);
+    int said = find_rows(window, from, step, n, &rows);
     if (said != GN_WINDOW_MIXED) return said;
     const gn_light_view *view = window->view;
     int32_t shift = view->filter == GN_FILTER_HARD ? 0 : (view->filter_idx + 1) * 65536 - 32768;

@@ -212,34 +212,47 @@ static void check_patch(const gn_surface *s, const plane *p, const gn_lattice *l
 
 static long n_bent_rows, n_bent_columns, n_straight;
 
+/* A cell of a surface, and what its pointers point at. */
+typedef struct {
+    gn_shading shading;
+    gn_corner corner[4], *corners[4];
+    gn_lattice_cell cell;
+} cell_case;
+
+/* Returns NULL if a corner is not seen. */
+static cell_case *cell_at(const gn_lattice *from, const gn_surface *s, int x, int y, int size_log2)
+{
+    static cell_case c;
+    static gn_sample sample;
+    c.shading.frame = &renderer.frame;
+    c.shading.surface = *s;
+    c.shading.lattice = *from;
+    gn_lattice *l = &c.shading.lattice;
+    for (int i = 0; i < 4; i++) {
+        c.corners[i] = &c.corner[i];
+        gn_corner_find(l, &renderer.frame, s, x + ((i & 1) << size_log2), y + ((i >> 1) << size_log2), &sample,
+                       c.corners[i]);
+        if (c.corner[i].state != GN_CORNER_KNOWN) return NULL;
+    }
+    c.cell = (gn_lattice_cell){.lattice = l,
+                               .frame = &renderer.frame,
+                               .s = &c.shading.surface,
+                               .corner = c.corners,
+                               .size_log2 = size_log2,
+                               .out = &l->look};
+    return &c;
+}
+
 static void check_cell(const gn_lattice *from, const gn_surface *s, const plane *p, int x, int y, int size_log2)
 {
-    static gn_shading shading;
-    static gn_sample sample;
-    static gn_corner corner[4];
-    gn_corner *corners[4];
+    cell_case *c = cell_at(from, s, x, y, size_log2);
     gn_texture_patch patch;
-    shading.frame = &renderer.frame;
-    shading.surface = *s;
-    shading.lattice = *from;
-    gn_lattice *l = &shading.lattice;
-    for (int i = 0; i < 4; i++) {
-        corners[i] = &corner[i];
-        gn_corner_find(l, shading.frame, s, x + ((i & 1) << size_log2), y + ((i >> 1) << size_log2), &sample,
-                       corners[i]);
-        if (corner[i].state != GN_CORNER_KNOWN) return;
-    }
-    gn_lattice_cell cell = {.lattice = l,
-                            .frame = shading.frame,
-                            .s = &shading.surface,
-                            .corner = corners,
-                            .size_log2 = size_log2,
-                            .out = &l->look};
-    if (!gn_cell_find_bend(&cell) || !gn_cell_textures_hold(&cell)) return;
+    if (!c || !gn_cell_find_bend(&c->cell) || !gn_cell_textures_hold(&c->cell)) return;
+    const gn_lattice *l = &c->shading.lattice;
     n_bent_rows += l->look.texture_bends & 1;
     n_bent_columns += l->look.texture_bends >> 1 & 1;
     n_straight += !l->look.texture_bends;
-    gn_lattice_texture_begin(&shading, &texture, x, y, size_log2, corners, &patch);
+    gn_lattice_texture_begin(&c->shading, &texture, x, y, size_log2, c->corners, &patch);
     check_patch(s, p, l, &patch, x, y, 1 << size_log2);
 }
 
@@ -548,41 +561,22 @@ static void check_light_inside(gn_lattice_cell *cell, uint32_t slot, double boun
 
 static void check_light(const gn_lattice *from, const gn_surface *s, int x, int y, int size_log2)
 {
-    static gn_shading shading;
-    static gn_sample sample;
-    static gn_corner corner[4];
-    gn_corner *corners[4];
-    shading.frame = &renderer.frame;
-    shading.surface = *s;
-    shading.lattice = *from;
-    gn_lattice *l = &shading.lattice;
-    for (int i = 0; i < 4; i++) {
-        corners[i] = &corner[i];
-        gn_corner_find(l, shading.frame, s, x + ((i & 1) << size_log2), y + ((i >> 1) << size_log2), &sample,
-                       corners[i]);
-        if (corner[i].state != GN_CORNER_KNOWN) return;
-    }
-    gn_lattice_cell cell = {.lattice = l,
-                            .frame = shading.frame,
-                            .s = &shading.surface,
-                            .corner = corners,
-                            .size_log2 = size_log2,
-                            .out = &l->look};
-    if (size_log2 <= gn_cell_finest_log2(cell.frame) || !gn_cell_find_bend(&cell)) return;
+    cell_case *c = cell_at(from, s, x, y, size_log2);
+    if (!c || size_log2 <= gn_cell_finest_log2(&renderer.frame) || !gn_cell_find_bend(&c->cell)) return;
     for (uint32_t slot = 0; slot < s->n_lights; slot++) {
         int32_t least = INT32_MAX, most = 0;
         int fully = s->light[slot].state->kind != GN_LIGHT_DIRECTIONAL;
         for (int i = 0; i < 4; i++) {
-            const gn_corner_light *at = &corner[i].light[slot];
+            const gn_corner_light *at = &c->corner[i].light[slot];
             fully &= at->arrives == GN_CORNER_FULLY && at->irradiance_q24 > 0 && at->irradiance_q24 < 7 << 24;
             if (at->irradiance_q24 < least) least = at->irradiance_q24;
             if (at->irradiance_q24 > most) most = at->irradiance_q24;
         }
         uint32_t kink;
         if (!fully) continue;
-        const double bound = gn_cell_unevenness_q24(&cell, slot, least, most, &kink);
+        const double bound = gn_cell_unevenness_q24(&c->cell, slot, least, most, &kink);
         n_split += bound >= 3.99 * most;
-        if (bound < 3.99 * most) check_light_inside(&cell, slot, bound); /* else the cell is split in any case */
+        if (bound < 3.99 * most) check_light_inside(&c->cell, slot, bound); /* else the cell is split in any case */
     }
 }
 

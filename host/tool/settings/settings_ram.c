@@ -111,7 +111,7 @@ static long lattice_bytes(const settings *s)
     put(&all, 1, 200, 4);                                                      /* face_q30 to bits */
     put(&all, 12 + 1, corner_bytes(s), 4);                                     /* corners, corner */
     put(&all, 1, 192, 4);                                                      /* corner_key to split */
-    if (s->feature.shadows) put(&all, 2, 344, 4);                              /* window */
+    if (s->feature.shadows) put(&all, 4, 344, 4);                              /* window */
     put(&all, 1, 572, 4);                                                      /* look */
     if (has_levels(s)) put(&all, 1, 4, 4);                                     /* of that: level and level_ends */
     put(&all, 1, 616, 8);                                                      /* by */
