@@ -191,11 +191,19 @@ GN_HOT static GN_NOINLINE void look_up_two(const drawing *d, const gn_lattice_ed
 }
 #endif
 
-/* Attenuations along a row of nodes, `below` pixels under the cell's first row. Returns what look_up_row() does. */
-GN_HOT static GN_NOINLINE int find_attenuations(const drawing *d, const gn_lattice_edge *edge, int32_t below,
-                                                uint32_t *out)
+/* Attenuations along a row of nodes that one view sees. Returns what look_up_row() does. */
+GN_HOT static GN_NOINLINE int look_up_one(const drawing *d, const gn_lattice_edge *edge, int32_t below, uint32_t *out)
 {
     gn_receiver_step at, step;
+    find_row(d, edge, below, &at, &step);
+    if (edge->bent && !place_flat_row(d, edge, below, &at, &step)) place_row(d, edge, below, &at, &step);
+    scale_step(&step, d->s->lattice.look.spacing_log2);
+    return look_up_row(d, edge, below, &at, &step, 0, d->n, out);
+}
+
+/* The same of any row of nodes, `below` pixels under the cell's first row. */
+GN_HOT static int find_attenuations(const drawing *d, const gn_lattice_edge *edge, int32_t below, uint32_t *out)
+{
 #if GN_PUNCTUAL_LIGHTS
     if (edge->bent == GN_PLACES_LONE) {
         look_up_alone(d, edge, below, out);
@@ -208,10 +216,7 @@ GN_HOT static GN_NOINLINE int find_attenuations(const drawing *d, const gn_latti
         return GN_WINDOW_MIXED;
     }
 #endif
-    find_row(d, edge, below, &at, &step);
-    if (edge->bent && !place_flat_row(d, edge, below, &at, &step)) place_row(d, edge, below, &at, &step);
-    scale_step(&step, d->s->lattice.look.spacing_log2);
-    return look_up_row(d, edge, below, &at, &step, 0, d->n, out);
+    return look_up_one(d, edge, below, out);
 }
 
 /* Adds the light of an edge to a row of nodes, where it is not in shadow. */
