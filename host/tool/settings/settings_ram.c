@@ -58,7 +58,7 @@ static long cut_bytes(const settings *s)
 {
     if (!s->feature.caster_alpha) return 0;
     if (!s->feature.textures) return 24;
-    return 216;
+    return 224;
 }
 
 /* gn_casting of lib/geometry/gn_geometry_types.h */
