@@ -175,7 +175,7 @@ static bool sizes_fit(ref_light_view *view, tight_box *box, const scene_light *l
     for (int k = 0; k < 2; k++) {
         const double last = fmin(box->hi[k] / view->texel + margin, box->cast_hi[k] / view->texel + reach);
         box->first[k] = fmax(box->lo[k] / view->texel - margin, box->cast_lo[k] / view->texel - reach);
-        size[k] = 8.0 * ceil((last - box->first[k] + 1.5 - 1.0 / 64.0) / 8.0);
+        size[k] = 8.0 * ceil((fmax(0.0, last - box->first[k]) + 1.5 - 1.0 / 64.0) / 8.0);
     }
     if (size[0] > 1024.0 || size[1] > 1024.0 || size[0] * size[1] > (double)box->side * box->side) return false;
     view->tile_texels = (int)size[0];

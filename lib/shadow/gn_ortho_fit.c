@@ -187,6 +187,7 @@ static int sizes_fit(const gn_frame *frame, gn_light_view *view, const gn_light 
     for (int k = 0; k < 2; k++) {
         box->first_q16[k] = reach_q16(view, light, box->lo_q16[k], box->cast_lo_q16[k], margin, -1);
         int64_t wide = reach_q16(view, light, box->hi_q16[k], box->cast_hi_q16[k], margin, 1) - box->first_q16[k];
+        if (wide < 0) wide = 0; /* nothing there is seen and can be darkened */
         rows[k] = ((wide + 98304 - 1024 + 0x7FFFF) >> 19) * 8;
     }
     if (rows[0] > 1024 || rows[1] > 1024 || rows[0] * rows[1] > (int64_t)box->side * box->side) return 0;
