@@ -79,7 +79,7 @@ static const exception beyond[] = {{"fence", "lights=point", SETTINGS_FAST, 0, 0
                                    {"desk", "lights=directional", SETTINGS_BALANCED, 0, 0, 0.011},
                                    {"room", "lights=point", SETTINGS_BALANCED, 0, 0, 0.0115},
                                    {"fence", "", SETTINGS_BALANCED, 0, 0, 0.0115}, /* two of the views from around */
-                                   {"avenue", "", SETTINGS_BALANCED, 0, 0, 0.01},  /* its own camera needs 0.0056 */
+                                   {"avenue", "", SETTINGS_BALANCED, 0, 0, 0.006}, /* its own camera */
                                    {"Cube", "", SETTINGS_FAST, 0.953, 34.5, 0},    /* its shadows agree */
                                    {"Cube", "", SETTINGS_BALANCED, 0.983, 41.5, 0},
                                    {"suzanne", "", SETTINGS_BALANCED, 0.987, 0, 0}};
@@ -95,7 +95,7 @@ static floors floors_for(const floors *f, const char *path, const char *lights, 
             continue;
         if (e->within1 > 0) out.within1 = e->within1;
         if (e->psnr_db > 0) out.psnr_db = e->psnr_db, out.median_psnr_db = fmin(out.median_psnr_db, e->psnr_db + 1.5);
-        if (e->shadow_mismatch > 0) out.shadow_mismatch = e->shadow_mismatch;
+        out.shadow_mismatch = fmax(out.shadow_mismatch, e->shadow_mismatch);
     }
     return out;
 }
