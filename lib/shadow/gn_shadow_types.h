@@ -149,7 +149,7 @@ typedef struct {
 
 #if GN_INTERPOLATES
 /* Texels of a tile that keep a plane in the dark: gn_window.h. */
-enum { GN_WINDOW_TEXELS = 32, GN_WINDOWS = 4 };
+enum { GN_WINDOW_TEXELS = 32, GN_WINDOWS = GN_VIEWS_MAX >= 4 ? 4 : GN_VIEWS_MAX >= 2 ? 2 : 1 };
 enum { GN_WINDOW_LIT, GN_WINDOW_DARK, GN_WINDOW_MIXED, GN_WINDOW_MISSED };
 
 typedef struct {

@@ -30,11 +30,17 @@ static long put_atlas(layout *l, const settings *s, long side, long texels, long
     return bytes;
 }
 
+/* GN_VIEWS_MAX */
+static long n_views(const settings *s)
+{
+    int other = s->feature.punctual_lights || s->feature.main_light;
+    return s->capacity.max_shadow_tiles + (other ? s->capacity.max_other_tiles : 0);
+}
+
 /* Cascades and views of gn_frame */
 static void put_views(layout *l, const settings *s)
 {
-    int other = s->feature.punctual_lights || s->feature.main_light;
-    long views = s->capacity.max_shadow_tiles + (other ? s->capacity.max_other_tiles : 0);
+    const long views = n_views(s);
     long view =
         180 + (s->feature.depth_blocks ? 4 : 0) + (s->feature.auto_bias ? 8 : 0) + (s->feature.tight_fit ? 8 : 0);
     put(l, views, (view + 7) / 8 * 8, 8);
@@ -44,8 +50,8 @@ static void put_views(layout *l, const settings *s)
 /* gn_frame from its memory of tiles on */
 static void put_shadows(layout *l, const settings *s, settings_ram_parts *r)
 {
-    int other = s->feature.punctual_lights || s->feature.main_light;
-    long views = s->capacity.max_shadow_tiles + (other ? s->capacity.max_other_tiles : 0);
+    const int other = s->feature.punctual_lights || s->feature.main_light;
+    const long views = n_views(s);
     if (s->feature.incremental) put(l, 2 * views + 1, 8, 8); /* memory, layout */
     r->atlas = put_atlas(l, s, s->quality.atlas_size, s->capacity.atlas_texels, s->quality.depth_bits);
     if (other)
@@ -104,19 +110,19 @@ static int has_levels(const settings *s)
 static long lattice_bytes(const settings *s)
 {
     layout all = {0, 4};
-    put(&all, 1, 252, 4);                                                      /* span to plane */
-    if (s->feature.shadows) put(&all, 10, 4, 4);                               /* matrix */
-    if (s->feature.shadows && s->feature.punctual_lights) put(&all, 8, 56, 4); /* forms */
-    put(&all, s->capacity.surface_lights, 12, 4);                              /* light */
-    put(&all, 1, 200, 4);                                                      /* face_q30 to bits */
-    put(&all, 12 + 1, corner_bytes(s), 4);                                     /* corners, corner */
-    put(&all, 1, 192, 4);                                                      /* corner_key to split */
-    if (s->feature.shadows) put(&all, 4, 344, 4);                              /* window */
-    put(&all, 1, 572, 4);                                                      /* look */
-    if (has_levels(s)) put(&all, 1, 4, 4);                                     /* of that: level and level_ends */
-    put(&all, 1, 616, 8);                                                      /* by */
-    put(&all, 1, 136, 4);                                                      /* attenuation */
-    if (has_glow(s)) put(&all, 16, 8, 4);                                      /* glow */
+    put(&all, 1, 252, 4);                                                                     /* span to plane */
+    if (s->feature.shadows) put(&all, 10, 4, 4);                                              /* matrix */
+    if (s->feature.shadows && s->feature.punctual_lights) put(&all, 8, 56, 4);                /* forms */
+    put(&all, s->capacity.surface_lights, 12, 4);                                             /* light */
+    put(&all, 1, 200, 4);                                                                     /* face_q30 to bits */
+    put(&all, 12 + 1, corner_bytes(s), 4);                                                    /* corners, corner */
+    put(&all, 1, 192, 4);                                                                     /* corner_key to split */
+    if (s->feature.shadows) put(&all, n_views(s) >= 4 ? 4 : n_views(s) >= 2 ? 2 : 1, 344, 4); /* windows */
+    put(&all, 1, 572, 4);                                                                     /* look */
+    if (has_levels(s)) put(&all, 1, 4, 4); /* of that: level and level_ends */
+    put(&all, 1, 616, 8);                  /* by */
+    put(&all, 1, 136, 4);                  /* attenuation */
+    if (has_glow(s)) put(&all, 16, 8, 4);  /* glow */
     pad(&all, 8);
     return all.size;
 }
