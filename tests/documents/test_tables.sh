@@ -35,6 +35,10 @@ for picture in "$tmp"/edges/pictures/edge-*.png; do
     cmp -s "$picture" "docs/pictures/${picture##*/}" && pass || fail "docs/pictures/${picture##*/} is not what docs/edges.sh draws"
 done
 
+# no table holds what a failing test printed
+grep -n ': failed: ' README.md docs/*.md docs/data/*.md >"$tmp/failed"
+none "a test failed while it printed a table" "$tmp/failed"
+
 # every table is one that a script writes, and every marker is closed
 for file in README.md docs/*.md docs/data/*.md; do
     sed -n 's/^<!-- generated: \(.*\) -->$/\1/p' "$file" | while read -r name; do

@@ -140,6 +140,7 @@ static void test_random_scenes(long n_scenes)
     CHECK_EQ_INT(r.wrong, 0);
     /* enough of them are drawn with shadows, though few where capacities are short or positions compact, and many kinds
      * of refusal occur */
+    /* of compact arithmetic, which refuses most features, a 19th to a 24th */
     CHECK(r.drawn > n_scenes / (GN_MAX_OBJECTS < RANDOM_OBJECTS ? 300 : GN_COMPACT ? 50 : GN_RUNTIME_KNOBS ? 8 : 20));
     CHECK(r.after_refused > n_scenes / 100);
     int kinds = 0;
