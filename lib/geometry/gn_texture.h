@@ -128,12 +128,14 @@ GN_HOT static inline uint32_t gn_texture_to_uq16(uint32_t v)
     return v + (v >> 15);
 }
 
+#if GN_CASTER_ALPHA || GN_VISIBLE_ALPHA
 /* Whether the row's pixel i, whose alpha is 0..65535, is kept. */
 GN_HOT static GN_SHARED int gn_alpha_passes(const gn_alpha_test *test, int32_t i, uint32_t alpha)
 {
     if (!test->dithers) return alpha >= test->least;
     return gn_mul_uq16(test->whole_uq16, gn_texture_to_uq16(alpha)) >= gn_noise_uq16(test->x + i, test->y);
 }
+#endif
 
 /* A texel's colour in linear light, 65535: 1. */
 void gn_texture_texel(const gn_texture *texture, uint32_t x, uint32_t y, uint16_t rgb[3]);
