@@ -97,7 +97,7 @@ awk 'BEGIN { print "mtllib materials.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3" }'
 refused 'materials.mtl:4096: more than 4096 materials' "$tmp/library.obj"
 awk 'BEGIN { print "v 0 0 0\nv 1 0 0\nv 0 1 0"; for (i = 0; i < 50000; i++) print "usemtl m" i "\nf 1 2 3" }' >"$tmp/uses.obj"
 refused 'uses.obj:8194: more than 4096 materials' "$tmp/uses.obj"
-awk 'BEGIN { print "v 0 0 0\nv 1 0 0\nv 0 1 0"; for (i = 0; i < 400000; i++) print "usemtl m" i % 4000 "\nf 1 2 3" }' >"$tmp/turns.obj"
+awk 'BEGIN { print "v 0 0 0\nv 1 0 0\nv 0 1 0"; for (i = 0; i < 100000; i++) print "usemtl m" i % 4000 "\nf 1 2 3" }' >"$tmp/turns.obj"
 refused 'more visible triangles' "$tmp/turns.obj"
 awk 'BEGIN { for (i = 0; i < 1100000; i++) print "v 0 0 0" }' >"$tmp/vertices.obj"
 refused 'vertices.obj:1048577: more than 1048576 vertices' "$tmp/vertices.obj"

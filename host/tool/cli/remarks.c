@@ -6,7 +6,7 @@
 
 #include "tool.h"
 
-enum { NAMES_BYTES = 200, NOTE_BYTES = 300 };
+enum { NAMES_BYTES = 200, NOTE_BYTES = 300, MAX_COMPARED = 1024 };
 
 static const double degrees_per_turn = 360;
 
@@ -76,17 +76,20 @@ static bool is_masked(const scene_light *l)
     return l->mode == SCENE_MIXED && l->mask_channel >= 0;
 }
 
-static int note_shared_channels(scene *s, size_t first, char *error, size_t bytes)
+/* Of a light and the first that it meets: a file of ten thousand has ten thousand remarks, not their square. */
+static int note_shared_channel(scene *s, size_t first, char *error, size_t bytes)
 {
     char note[NOTE_BYTES];
     const scene_light *a = &s->lights[first];
-    for (size_t i = first + 1; i < s->n_lights; i++) {
+    if (!is_masked(a)) return 0;
+    const size_t end = s->n_lights - first < MAX_COMPARED ? s->n_lights : first + MAX_COMPARED;
+    for (size_t i = first + 1; i < end; i++) {
         const scene_light *b = &s->lights[i];
-        if (!is_masked(a) || !is_masked(b) || a->mask_channel != b->mask_channel || !ranges_overlap(a, b)) continue;
+        if (!is_masked(b) || a->mask_channel != b->mask_channel || !ranges_overlap(a, b)) continue;
         snprintf(note, sizeof note,
                  "mixed lights %zu '%.64s' and %zu '%.64s' share mask channel %d, and their ranges overlap", first,
                  a->name, i, b->name, a->mask_channel);
-        if (scene_add_note(s, note, error, bytes)) return -1;
+        return scene_add_note(s, note, error, bytes);
     }
     return 0;
 }
@@ -110,6 +113,6 @@ static int note_useless_baked(scene *s, size_t light, char *error, size_t bytes)
 int remarks_on_lights(scene *s, char *error, size_t error_bytes)
 {
     for (size_t i = 0; i < s->n_lights; i++)
-        if (note_shared_channels(s, i, error, error_bytes) || note_useless_baked(s, i, error, error_bytes)) return -1;
+        if (note_shared_channel(s, i, error, error_bytes) || note_useless_baked(s, i, error, error_bytes)) return -1;
     return 0;
 }
