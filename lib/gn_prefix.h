@@ -36,6 +36,7 @@
 #define gn_bias_auto_ortho GN_PREFIXED_(GN_PREFIX, gn_bias_auto_ortho)
 #define gn_bias_auto_persp GN_PREFIXED_(GN_PREFIX, gn_bias_auto_persp)
 #define gn_bias_auto_place_q16 GN_PREFIXED_(GN_PREFIX, gn_bias_auto_place_q16)
+#define gn_bias_auto_plane GN_PREFIXED_(GN_PREFIX, gn_bias_auto_plane)
 #define gn_bias_auto_reach_q16 GN_PREFIXED_(GN_PREFIX, gn_bias_auto_reach_q16)
 #define gn_bias_auto_view GN_PREFIXED_(GN_PREFIX, gn_bias_auto_view)
 #define gn_bias_directional GN_PREFIXED_(GN_PREFIX, gn_bias_directional)

@@ -32,6 +32,8 @@ int32_t gn_bias_auto_reach_q16(const gn_frame *frame, const gn_light_view *view)
 /* Offset of a curved surface's receivers along their normals, texels, Q16. */
 int32_t gn_bias_auto_curved_q16(const gn_light_view *view);
 
+#define GN_AUTO_UNITS 8 /* roundings of a point and of its triangle's corners, Q16 */
+
 /* Position error of a spot or point light's receiver, world units, Q16. */
 int64_t gn_bias_auto_place_q16(const gn_light_view *view, int32_t depth_q16);
 
@@ -41,6 +43,19 @@ void gn_bias_auto_face(const gn_light_view *view, gn_auto_bias form, const int32
 
 /* The receiver's offset, in texels along the view's axes, Q16. */
 void gn_bias_auto_ortho(const gn_light_view *view, gn_auto_bias form, const int32_t face[3], int32_t out_q16[3]);
+
+/* What a plane needs in a spot or point light's view. */
+typedef struct {
+    gn_auto_bias form;
+    int32_t reach_q16, step_q32; /* how far taps are, texels; how far depths are off, as a share of the range */
+    int64_t share_q30;           /* normal: of its light-plane distance, a point moves along the plane's normal; else -1 */
+    int64_t less_q32;            /* what is subtracted from its depth */
+} gn_auto_plane;
+
+/* Of a plane through `from_q16`, a point minus the light; form, reach and step are set. Where the normal form would
+ * move a point by more than twice its depth, form becomes the depth form. */
+void gn_bias_auto_plane(const gn_light_view *view, const int32_t face_q30[3], const int32_t from_q16[3],
+                        gn_auto_plane *plane);
 
 /* A point of a spot or point light's view, `from_q16` the light and seen at view depth `depth_q16`: moves it, and
  * returns how much to subtract from the moved point's depth in the map, Q32. Where the normal form would move the point

@@ -4,6 +4,7 @@
 #include "base/gn_hint.h"
 #include "base/gn_math.h"
 #include "base/gn_q.h"
+#include "light/gn_bias.h"
 #include "shade/gn_corner.h"
 
 #if GN_INTERPOLATES && GN_SHADOWS && GN_PUNCTUAL_LIGHTS
@@ -73,35 +74,54 @@ GN_HOT static int find_form(const gn_frame *frame, const gn_screen_plane *p, con
     return eye >> 27 == *eye_q16;
 }
 
+/* How bias moves points of a surface along a normal: by a share of their distance along the view's axis, by a share of
+ * view depth and by a length, Q16. */
+typedef struct {
+    const int32_t *n_q30;
+    int32_t share_q31, depth_share_q40, length_q16;
+} point_mover;
+
+/* What the last two do to a form, of which `by_q27` is a row before the first. */
+GN_HOT static void add_lengths(const gn_light_view *view, const point_mover *move, int32_t ray_shift, int i,
+                               const int32_t by_q27[2], wide_slope *out, int32_t *eye_q16)
+{
+    int32_t along_q27 = (int32_t)((gn_dot_q30(move->n_q30, view->axis_q30[i]) * by_q27[0] +
+                                   gn_dot_q30(move->n_q30, view->axis_q30[2]) * by_q27[1]) >> 30);
+    out->at += (int64_t)along_q27 * move->depth_share_q40 >> (61 - ray_shift);
+    *eye_q16 += (int32_t)((int64_t)along_q27 * move->length_q16 >> 27);
+}
+
 /* As shares of view depth, coordinates in the view are linear on the screen: of the ray's direction, and of 1 / depth,
- * which the plane's w is. Bias moves a point along the normal by a share k of its distance along the view's axis, which
- * leaves them linear. */
+ * which the plane's w is. Bias leaves them linear. */
 GN_HOT static GN_NOINLINE int make_forms(gn_view_forms *out, const gn_screen_plane *plane, const gn_frame *frame,
-                                         const gn_surface *s)
+                                         const gn_surface *s, const point_mover *move)
 {
     const gn_light_view *view = out->view;
     const gn_persp_fit *fit = &view->fit.persp;
-    const int32_t log2 = view->tile_log2, down = 56 - frame->light[view->light_idx].ray_shift - plane->z_shift;
+    const int32_t log2 = view->tile_log2, ray_shift = frame->light[view->light_idx].ray_shift;
+    const int32_t down = 56 - ray_shift - plane->z_shift;
     const uint32_t inverse = gn_recip_norm(s->depth_scale.mant, 2);
     gn_slope *form[3] = {&out->u, &out->v, &out->z};
     int32_t shift[3], most = 0, moved_q30[3], eye_q16;
     if (log2 > 12 || fit->focal2_q16 >> (19 + log2)) return 0; /* so that f is below 4 */
     for (int i = 0; i < 3; i++)
         moved_q30[i] =
-            4 * gn_mul_high(fit->lift_q31 >> 1, (int32_t)(gn_dot64(s->normal_q30[0], view->axis_q30[i]) >> 30));
+            4 * gn_mul_high(move->share_q31 >> 1, (int32_t)(gn_dot64(move->n_q30, view->axis_q30[i]) >> 30));
     const int32_t depth_q27 = ((1 << 30) + moved_q30[2]) >> 3;
     const int32_t f_q27 = (int32_t)(log2 < 10 ? fit->focal2_q16 << (10 - log2) : fit->focal2_q16 >> (log2 - 10));
     wide_slope wide;
     for (int i = 0; i < 3; i++) {
-        int32_t by_q27[2] = {0, depth_q27};
+        int32_t by_q27[2] = {0, depth_q27}, unmoved_q27[2] = {0, 1 << 27};
         if (i < 2) { /* the tile's middle, too */
-            by_q27[0] = f_q27;
+            by_q27[0] = unmoved_q27[0] = f_q27;
+            unmoved_q27[1] = view->tile_texels << (26 - log2);
             by_q27[1] =
                 4 * gn_mul_high(moved_q30[i], f_q27) + (int32_t)((int64_t)depth_q27 * view->tile_texels >> (log2 + 1));
         }
-        if (!find_form(frame, plane, view, i, by_q27, &wide, &eye_q16) ||
-            !add_over_depth(&plane->w, eye_q16, inverse, down, &wide))
-            return 0;
+        if (!find_form(frame, plane, view, i, by_q27, &wide, &eye_q16)) return 0;
+        if (GN_AUTO_BIAS && move->length_q16)
+            add_lengths(view, move, ray_shift, i, unmoved_q27, &wide, &eye_q16);
+        if (!add_over_depth(&plane->w, eye_q16, inverse, down, &wide)) return 0;
         shift[i] = narrow(plane, &wide, form[i]);
         most = gn_max32(most, shift[i]);
     }
@@ -113,15 +133,54 @@ GN_HOT static GN_NOINLINE int make_forms(gn_view_forms *out, const gn_screen_pla
     return 1;
 }
 
-/* Those of the view, if need be new ones. */
+/* Automatic bias of the plane through pixel (x, y), with room for what forms are off. Returns 0 if forms are not to be
+ * told so. */
+GN_HOT static GN_NOINLINE int move_by_auto_bias(const gn_lattice *l, const gn_frame *frame, const gn_surface *s,
+                                                uint32_t slot, int32_t x, int32_t y, gn_view_forms *out,
+                                                point_mover *move)
+{
+    const gn_light_view *view = out->view;
+    const int32_t most_px = l->plane.w_px + l->plane.h_px + 1;
+    gn_auto_plane plane = {(gn_auto_bias)s->light[slot].state->auto_bias, 0, 0, 0, 0};
+    gn_corner c;
+    int32_t from[3];
+    if (view->filter == GN_FILTER_DISK || !gn_corner_locate(l, frame, s, slot, x, y, &c)) return 0;
+    gn_corner_from(&c, s->light[slot].state, from);
+    plane.reach_q16 = view->offset_q16 + (most_px * view->tile_texels >> 9) + 1;
+    plane.step_q32 = view->auto_step + 48 * most_px; /* 3 / 2 of 2^32 / 2^27 */
+    gn_bias_auto_plane(view, s->face_q30, from, &plane);
+    if (plane.share_q30 >> 29 > 0) return 0; /* a half or more */
+    out->in_tile = plane.form == GN_AUTO_BIAS_NORMAL;
+    out->z_least = 1 << 27;
+    out->less_q30 = (int32_t)((gn_clamp64(plane.less_q32, 0, (int64_t)1 << 32) + 3) >> 2);
+    move->n_q30 = s->face_q30;
+    move->share_q31 = plane.share_q30 < 0 ? 0 : (int32_t)plane.share_q30 * 2;
+    move->depth_share_q40 = view->auto_place;
+    move->length_q16 = GN_AUTO_UNITS + 3;
+    return 1;
+}
+
+GN_HOT static GN_NOINLINE int begin_forms(const gn_lattice *l, const gn_frame *frame, const gn_surface *s,
+                                          uint32_t slot, int32_t x, int32_t y, gn_view_forms *out)
+{
+    const gn_light_view *view = out->view;
+    point_mover move = {s->normal_q30[0], view->fit.persp.lift_q31, 0, 0};
+    out->less_q30 = out->in_tile = 0;
+    out->z_least = 1 << 22;
+    if (GN_AUTO_BIAS && s->light[slot].state->auto_bias) {
+        if (!move_by_auto_bias(l, frame, s, slot, x, y, out, &move)) return 0;
+    } else if (!l->light[slot].lifts || move.share_q31 == INT32_MAX) return 0;
+    return make_forms(out, &l->plane, frame, s, &move);
+}
+
+/* Those of the view, if need be new ones, by what a pixel says. */
 GN_HOT static inline const gn_view_forms *forms_of(gn_lattice *l, const gn_frame *frame, const gn_surface *s,
-                                                   uint32_t slot, const gn_light_view *view)
+                                                   uint32_t slot, const gn_light_view *view, int32_t x, int32_t y)
 {
     gn_view_forms *forms = &l->forms[(uint32_t)(view - frame->view) & (GN_VIEW_FORMS - 1)];
     if (forms->view == view) return forms;
     forms->view = view;
-    if (!l->light[slot].lifts || view->fit.persp.lift_q31 == INT32_MAX || !make_forms(forms, &l->plane, frame, s))
-        forms->near_up = INT32_MAX;
+    if (!begin_forms(l, frame, s, slot, x, y, forms)) forms->near_up = INT32_MAX;
     return forms;
 }
 
@@ -133,12 +192,12 @@ GN_HOT static inline int32_t value_at(const gn_slope *s, int32_t dx, int32_t dy)
 GN_HOT int gn_corner_place_flat(gn_lattice *l, const gn_frame *frame, const gn_surface *s, uint32_t slot,
                                 const gn_light_view *view, int32_t x, int32_t y, gn_corner_light *at)
 {
-    const gn_view_forms *forms = forms_of(l, frame, s, slot, view);
+    const gn_view_forms *forms = forms_of(l, frame, s, slot, view, x, y);
     int32_t dx = x - l->plane.x, dy = y - l->plane.y;
     if (forms->near_up == INT32_MAX) return 0;
     int32_t u = value_at(&forms->u, dx, dy), v = value_at(&forms->v, dx, dy), z = value_at(&forms->z, dx, dy);
     /* what roundings of slopes do not matter to, nor carry to 2^30 */
-    if ((uint32_t)z - (1U << 22) >= (1U << 30) - (1U << 22)) return 0;
+    if ((uint32_t)(z - forms->z_least) >= (uint32_t)((1 << 30) - forms->z_least)) return 0;
     int32_t clz = gn_clz32((uint32_t)z), down = 12 - view->tile_log2, near = value_at(&forms->near, dx, dy);
     uint32_t recip = gn_recip_norm((uint32_t)z << clz, GN_K(frame, newton_steps)); /* 2^63 / (z 2^clz) */
     uint32_t share = near < 0 ? 0 : gn_umul_high((uint32_t)near, recip);
@@ -157,6 +216,11 @@ GN_HOT int gn_corner_place_flat(gn_lattice *l, const gn_frame *frame, const gn_s
     at->u_q16 = gn_mul_high(u * (1 << (clz - 2)), half) >> down;
     at->v_q16 = gn_mul_high(v * (1 << (clz - 2)), half) >> down;
     at->depth_q30 = (int32_t)((1U << 30) - 1 - share);
+#if GN_AUTO_BIAS
+    const uint32_t end = (uint32_t)view->tile_texels << 16;
+    at->depth_q30 = gn_max32(at->depth_q30 - forms->less_q30, 0);
+    if (forms->in_tile && ((uint32_t)at->u_q16 > end || (uint32_t)at->v_q16 > end)) return 0; /* a spot's rim */
+#endif
     return 1;
 }
 

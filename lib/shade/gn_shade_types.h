@@ -329,6 +329,9 @@ typedef struct {
 typedef struct {
     const gn_light_view *view; /* NULL: none */
     int32_t near_up;           /* near is 2^near_up times too large; INT32_MAX: there are none */
+    int32_t z_least;           /* below it roundings matter */
+    int32_t less_q30;          /* automatic bias: what is taken off depths, */
+    int32_t in_tile;           /* and whether forms hold within the tile alone */
     gn_slope u, v, z, near;
 } gn_view_forms;
 
