@@ -48,8 +48,8 @@ void gn_bias_auto_ortho(const gn_light_view *view, gn_auto_bias form, const int3
 typedef struct {
     gn_auto_bias form;
     int32_t reach_q16, step_q32; /* how far taps are, texels; how far depths are off, as a share of the range */
-    int64_t share_q30;           /* normal: of its light-plane distance, a point moves along the plane's normal; else -1 */
-    int64_t less_q32;            /* what is subtracted from its depth */
+    int64_t share_q30; /* normal: of its light-plane distance, a point moves along the plane's normal; else -1 */
+    int64_t less_q32;  /* what is subtracted from its depth */
 } gn_auto_plane;
 
 /* Of a plane through `from_q16`, a point minus the light; form, reach and step are set. Where the normal form would

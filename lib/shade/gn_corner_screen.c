@@ -86,7 +86,8 @@ GN_HOT static void add_lengths(const gn_light_view *view, const point_mover *mov
                                const int32_t by_q27[2], wide_slope *out, int32_t *eye_q16)
 {
     int32_t along_q27 = (int32_t)((gn_dot_q30(move->n_q30, view->axis_q30[i]) * by_q27[0] +
-                                   gn_dot_q30(move->n_q30, view->axis_q30[2]) * by_q27[1]) >> 30);
+                                   gn_dot_q30(move->n_q30, view->axis_q30[2]) * by_q27[1]) >>
+                                  30);
     out->at += (int64_t)along_q27 * move->depth_share_q40 >> (61 - ray_shift);
     *eye_q16 += (int32_t)((int64_t)along_q27 * move->length_q16 >> 27);
 }
@@ -105,8 +106,7 @@ GN_HOT static GN_NOINLINE int make_forms(gn_view_forms *out, const gn_screen_pla
     int32_t shift[3], most = 0, moved_q30[3], eye_q16;
     if (log2 > 12 || fit->focal2_q16 >> (19 + log2)) return 0; /* so that f is below 4 */
     for (int i = 0; i < 3; i++)
-        moved_q30[i] =
-            4 * gn_mul_high(move->share_q31 >> 1, (int32_t)(gn_dot64(move->n_q30, view->axis_q30[i]) >> 30));
+        moved_q30[i] = 4 * gn_mul_high(move->share_q31 >> 1, (int32_t)(gn_dot64(move->n_q30, view->axis_q30[i]) >> 30));
     const int32_t depth_q27 = ((1 << 30) + moved_q30[2]) >> 3;
     const int32_t f_q27 = (int32_t)(log2 < 10 ? fit->focal2_q16 << (10 - log2) : fit->focal2_q16 >> (log2 - 10));
     wide_slope wide;
@@ -119,8 +119,7 @@ GN_HOT static GN_NOINLINE int make_forms(gn_view_forms *out, const gn_screen_pla
                 4 * gn_mul_high(moved_q30[i], f_q27) + (int32_t)((int64_t)depth_q27 * view->tile_texels >> (log2 + 1));
         }
         if (!find_form(frame, plane, view, i, by_q27, &wide, &eye_q16)) return 0;
-        if (GN_AUTO_BIAS && move->length_q16)
-            add_lengths(view, move, ray_shift, i, unmoved_q27, &wide, &eye_q16);
+        if (GN_AUTO_BIAS && move->length_q16) add_lengths(view, move, ray_shift, i, unmoved_q27, &wide, &eye_q16);
         if (!add_over_depth(&plane->w, eye_q16, inverse, down, &wide)) return 0;
         shift[i] = narrow(plane, &wide, form[i]);
         most = gn_max32(most, shift[i]);

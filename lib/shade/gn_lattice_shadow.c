@@ -166,7 +166,7 @@ GN_HOT static int places_hold(const gn_lattice_cell *cell, places *p)
             bend[i] += gn_quotient_q30(more[i], rest | 1U) >> 14;
         }
     }
-    int32_t least_log2 = 16 - gn_cell_place_log2(cell->frame) + (p->view->perspective ? 1 : 0);
+    int32_t least_log2 = 16 - gn_cell_place_log2(cell->frame);
     p->bent = GN_PLACES_BILINEAR;
     if (gn_cell_bends_by_less(u, bend, least_log2) && gn_cell_bends_by_less(v, bend, least_log2)) return HOLD;
     p->bent = GN_PLACES_BY_ROW;
@@ -360,12 +360,26 @@ GN_HOT static GN_NOINLINE int add_two(const gn_lattice_cell *cell, uint32_t slot
 }
 #endif
 
+/* Whether the first cascade alone, or the second, has a corner, and both have another. */
+GN_HOT static inline int begins_or_ends(const uint32_t share_uq16[4])
+{
+    int alone = 0, both = 0;
+    for (int i = 0; i < 4; i++) {
+        const int ends = share_uq16[i] - 1 >= 65535; /* 0 or 1 */
+        alone |= ends;
+        both |= !ends;
+    }
+    return alone && both;
+}
+
 /* Adds an edge in two cascades that blend. Returns 0 if there is no room, or it is to be split. */
 GN_HOT static GN_NOINLINE int add_blend(const gn_lattice_cell *cell, uint32_t slot, const gn_contribution *light,
                                         uint32_t views, places *p)
 {
     uint32_t first = (uint32_t)first_bit(views), second = (uint32_t)first_bit(views & (views - 1)), share[4];
     if (views & ~(1U << first | 1U << second)) return 0;
+    blend_shares(cell, slot, first, share);
+    if (cell->size_log2 > gn_cell_finest_log2(cell->frame) && begins_or_ends(share)) return 0;
     for (int k = 0; k < 2; k++) {
         int32_t slope[2];
         uint32_t view_idx = k ? second : first;
@@ -373,9 +387,9 @@ GN_HOT static GN_NOINLINE int add_blend(const gn_lattice_cell *cell, uint32_t sl
         gn_shadow_slopes(cell->frame, cell->s, p->view, NULL, slope);
         if (verdict(cell, slot, view_idx, p, slope) == GN_CELL_SPLIT) return 0;
         if (places_hold(cell, p) == BEND && cell->size_log2 > 1) return 0;
-        blend_shares(cell, slot, first, share);
-        for (int i = 0; i < 4; i++) share[i] = gn_mul_uq16(light->more_uq16[i], k ? 65536 - share[i] : share[i]);
-        if (!add_edge(cell, slot, p, slope, light, share)) return 0;
+        uint32_t part[4];
+        for (int i = 0; i < 4; i++) part[i] = gn_mul_uq16(light->more_uq16[i], k ? 65536 - share[i] : share[i]);
+        if (!add_edge(cell, slot, p, slope, light, part)) return 0;
     }
     return 1;
 }

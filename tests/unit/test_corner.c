@@ -1,6 +1,7 @@
 /* Corners of cells (gn_corner), each number against the formula it stands for, in double, from the same quantised
  * inputs: random triangles and a directional, a spot and a point light. Bounds: NUMERICS 4.12, term by term below.
  * "--table": the largest error seen, per stage. */
+#include "../lib/light/gn_bias.h"
 #include "../lib/shade/gn_corner.h"
 #include "../lib/shade/gn_lattice_cell.h"
 #include "../lib/shade/gn_lattice_texture.h"
@@ -86,7 +87,7 @@ static void aim(gn_light *lamp, gn_light_kind kind)
     lamp->inner_turn = (uint16_t)(lamp->outer_turn * uniform(0, 0.9));
     lamp->shadow_strength_uq16 = 65536;
     lamp->bias_normal_q16 = (int32_t)(uniform(0, 3) * 65536);
-    lamp->auto_bias = GN_AUTO_BIAS_OFF;
+    lamp->auto_bias = one_in(2) ? GN_AUTO_BIAS_OFF : one_in(2) ? GN_AUTO_BIAS_NORMAL : GN_AUTO_BIAS_DEPTH;
     lamp->mask_channel = -1;
 }
 
@@ -499,6 +500,53 @@ static void check_persp(gn_lattice *l, const gn_surface *s, gn_corner *c, uint32
            share * (divide + off / in[2] * 1.01 + (z_form_off + near_form_off) * 1.01) + 2 * LSB30, LSB30);
 }
 
+/* The least depth, 1 - near / z, of the surface's plane within `reach` texels of a place, both ways. */
+static double least_depth(const gn_light_view *view, const double m[3], double h, double u, double v, double reach)
+{
+    const double texel = 2 / (view->fit.persp.focal2_q16 * LSB16), near = view->fit.persp.near_q16 * LSB16;
+    double least = INFINITY;
+    for (int k = 0; k < 4; k++) {
+        const double x = (u + (k & 1 ? reach : -reach) - view->tile_texels / 2.0) * texel;
+        const double y = (v + (k & 2 ? reach : -reach) - view->tile_texels / 2.0) * texel;
+        least = fmin(least, 1 - near * (m[0] * x + m[1] * y + m[2]) / h);
+    }
+    return least;
+}
+
+static tally lit_by_bias, bias_of_need;
+
+/* Automatic bias by forms: with what stored depths are off to spare, every tap finds the plane lit; and a point is
+ * nearer than that by no more than what taps, a texel's 64th farther away, and a 2^-18 of the range ask for. [B6] */
+static void check_auto(gn_lattice *l, const gn_surface *s, const gn_corner *c, uint32_t slot)
+{
+    const gn_frame *frame = &renderer.frame;
+    const gn_light_state *from = s->light[slot].state;
+    gn_corner_light at = c->light[slot];
+    if (s->smooth || !from->auto_bias || at.arrives <= 0 || at.view == GN_VIEW_NONE) return;
+    const gn_light_view *view = &frame->view[from->view_idx + at.view];
+    if (!gn_corner_place_flat(l, frame, s, slot, view, c->x, c->y, &at) || !at.seen || !at.depth_q30) return;
+    int32_t from_q16[3];
+    double p[3], n[3], m[3], axis[3];
+    gn_corner_from(c, from, from_q16);
+    axis_of(s->face_q30, n);
+    for (int i = 0; i < 3; i++) {
+        axis_of(view->axis_q30[i], axis);
+        m[i] = dot(n, axis);
+        p[i] = from_q16[i] * LSB16;
+    }
+    const double h = dot(n, p), reach = view->offset_q16 * LSB16, step = ldexp(view->auto_step, -32);
+    const double u = at.u_q16 * LSB16, v = at.v_q16 * LSB16, depth = at.depth_q30 * LSB30;
+    const double near = view->fit.persp.near_q16 * LSB16, z = near / (1 - depth);
+    const double place = c->z_q16 * LSB16 * ldexp(view->auto_place, -40) + (GN_AUTO_UNITS + 4) * LSB16;
+    const double larger = fmax(1, dot(p, axis) / z); /* the normal form takes the unmoved distance, (4.11) */
+    if (fabs(h) < 0.5) return;                       /* as exact as here */
+    const double least = least_depth(view, m, h, u, v, reach);
+    const double least_needed = least_depth(view, m, h, u, v, (reach + 1.0 / 64) * larger);
+    HOLDS(&lit_by_bias, depth + step <= least, "depth %g, step %g, of %g", depth, step, least);
+    HOLDS(&bias_of_need, depth + step * larger + ldexp(1, -18) + near * place / (z * fabs(h)) >= least_needed,
+          "depth %g, step %g, of %g", depth, step, least_needed);
+}
+
 /* ---- Cascades ---------------------------------------------------------------------------------------------------- */
 
 static long n_certain, n_uncertain;
@@ -623,6 +671,7 @@ static void check_corner(gn_lattice *l, const gn_surface *s, const plane *p, con
         check_from(&k, from->state, &corner);
         check_irradiance(s, from, &corner, at);
         check_persp(l, s, &corner, slot);
+        check_auto(l, s, &corner, slot);
     }
     if (s->n_lights) check_part(l, s, r, &k, x, y);
 }
@@ -684,5 +733,8 @@ int main(int argc, char **argv)
     CHECK(n_planes > 2 * n_no_plane);
     CHECK(n_flat > 1000 && n_flat > 2 * n_not_flat);
     CHECK(n_certain > 1000 && n_uncertain > 100);
+    CHECK(lit_by_bias.n > 1000);
+    CHECK_TALLY(lit_by_bias, "planes that automatic bias leaves lit");
+    CHECK_TALLY(bias_of_need, "automatic bias, no more than needed");
     return table ? (check_n_failed ? 1 : 0) : check_report();
 }

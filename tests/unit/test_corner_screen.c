@@ -29,24 +29,31 @@ static void compare(int32_t u, int32_t v, int32_t z, int32_t near, int32_t up, t
     forms->u = (gn_slope){u, 0, 0}, forms->v = (gn_slope){v, 0, 0}, forms->z = (gn_slope){z, 0, 0};
     forms->near = (gn_slope){near, 0, 0};
     forms->near_up = up;
+    forms->z_least = rng_below(&random_state, 2) ? 1 << 22 : 1 << 27;
+    forms->less_q30 = GN_AUTO_BIAS && rng_below(&random_state, 2) ? any(31) & INT32_MAX : 0;
+    forms->in_tile = GN_AUTO_BIAS && rng_below(&random_state, 4) == 0;
     view->tile_log2 = (uint8_t)rng_range(&random_state, 4, 10);
+    view->tile_texels = (uint16_t)rng_range(&random_state, 8, 1 << view->tile_log2);
     const int found = gn_corner_place_flat(&lattice, &frame, &surface, 0, view, 7, 9, &place);
     const double share = near < 0 ? 0 : ldexp((double)near / z, -up), wide = fmax(fabs((double)u), fabs((double)v)) / z;
-    const int inside = z >= 1 << 22 && z < 1 << 30;
+    const int inside = z >= forms->z_least && z < 1 << 30;
     if (fabs(share - 1) < 1e-6) return;
     if (!inside || share > 1) {
         HOLDS(inside ? seen : refused, inside ? found && !place.seen : !found, "z %d, share %g", (int)z, share);
         return;
     }
-    if (fabs(wide - 2) < 1e-6) return;
-    HOLDS(refused, found == (wide < 2), "u %d, v %d, z %d", (int)u, (int)v, (int)z);
-    if (!found) return;
     /* a share's last bit is lost before it is scaled */
-    const double texels = ldexp(1, 16 + view->tile_log2);
+    const double texels = ldexp(1, 16 + view->tile_log2), end = view->tile_texels * 65536.0;
+    const double lo = fmin(u, v) * texels / z, hi = fmax(u, v) * texels / z;
+    if (fabs(wide - 2) < 1e-6 || (forms->in_tile && (fabs(lo) < 2 || fabs(hi - end) < 2))) return;
+    HOLDS(refused, found == (wide < 2 && (!forms->in_tile || (lo >= 0 && hi <= end))), "u %d, v %d, z %d", (int)u,
+          (int)v, (int)z);
+    if (!found) return;
     HOLDS(seen, place.seen, "share %g", share);
     HOLDS(at,
           fabs(place.u_q16 - (double)u / z * texels) < 2 && fabs(place.v_q16 - (double)v / z * texels) < 2 &&
-              fabs(place.depth_q30 - ldexp(1 - share, 30)) < 8 + ldexp(1, 30 - ilogb(z) - up),
+              fabs(place.depth_q30 - fmax(0, ldexp(1 - share, 30) - forms->less_q30)) <
+                  8 + ldexp(1, 30 - ilogb(z) - up),
           "u %d, v %d, z %d, near %d, up %d: %d %d %d", (int)u, (int)v, (int)z, (int)near, (int)up, (int)place.u_q16,
           (int)place.v_q16, (int)place.depth_q30);
 }

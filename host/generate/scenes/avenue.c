@@ -161,11 +161,9 @@ static void add_sun(gltf_document *d)
     static const mesh_point x_axis = {1, 0, 0}, y_axis = {0, 1, 0};
     const double yaw_deg = -68, elevation_deg = 30;
     gltf_rotation q = gltf_multiply(gltf_turn(y_axis, yaw_deg), gltf_turn(x_axis, -elevation_deg));
-    size_t light =
-        gltf_add_light(d, &(gltf_light_text){.name = "sun",
-                                             .rgb = {1, 0.9, 0.74},
-                                             .intensity = 3.2,
-                                             .knobs = "\"bias_normal\": 0.2, \"bias_slope\": 1, \"bias_constant\": 1"});
+    size_t light = gltf_add_light(
+        d, &(gltf_light_text){
+               .name = "sun", .rgb = {1, 0.9, 0.74}, .intensity = 3.2, .knobs = "\"auto_bias\": \"depth\""});
     gltf_add_node(d, "sun",
                   "\"rotation\": [%.6g, %.6g, %.6g, %.6g], \"extensions\": {\"KHR_lights_punctual\": {\"light\": %zu}}",
                   q.x, q.y, q.z, q.w, light);

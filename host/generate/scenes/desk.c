@@ -223,7 +223,7 @@ static void add_lamp(gltf_document *d)
                                                           .range = 3,
                                                           .inner_deg = 30,
                                                           .outer_deg = 52,
-                                                          .knobs = "\"near\": 0.06, \"bias_normal\": 0.4"});
+                                                          .knobs = "\"near\": 0.06, \"auto_bias\": \"depth\""});
     size_t head_mesh =
         gltf_add_mesh(d, "head", (gltf_surface[]){{&shade, enamel}, {&lining, glow}, {&bulb, filament}}, 3);
     gltf_rotation tilt = gltf_turn(z_axis, head_tilt_deg), yaw = gltf_turn(y_axis, arm_yaw_deg);

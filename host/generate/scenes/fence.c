@@ -351,7 +351,7 @@ int fence_write(FILE *file)
     add_lantern_and_tree(&d);
     gltf_add_light_node(
         &d, (mesh_point){0, 0, 0}, gltf_look((mesh_point){0.62, -0.66, 0.5}),
-        &(gltf_light_text){.name = "sun", .rgb = {1, 0.95, 0.86}, .intensity = 3, .knobs = "\"bias_normal\": 0.6"});
+        &(gltf_light_text){.name = "sun", .rgb = {1, 0.95, 0.86}, .intensity = 3, .knobs = "\"auto_bias\": \"depth\""});
     gltf_add_camera(&d, &(gltf_camera){.fov_deg = 38,
                                        .near_distance = 2.5,
                                        .far_distance = 30,

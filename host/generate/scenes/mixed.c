@@ -250,11 +250,12 @@ static void add_glows(gltf_document *d)
 static void add_lights(gltf_document *d)
 {
     static const gltf_rotation upright = {0, 0, 0, 1};
-    gltf_add_light_node(d, (mesh_point){0, 0, 0}, gltf_look(mesh_scale(to_moon, -1)),
-                        &(gltf_light_text){.name = "moon",
-                                           .rgb = {0.62, 0.76, 1},
-                                           .intensity = 2.2,
-                                           .knobs = "\"mode\": \"mixed\", \"mask_channel\": 0, \"bias_normal\": 0.6"});
+    gltf_add_light_node(
+        d, (mesh_point){0, 0, 0}, gltf_look(mesh_scale(to_moon, -1)),
+        &(gltf_light_text){.name = "moon",
+                           .rgb = {0.62, 0.76, 1},
+                           .intensity = 2.2,
+                           .knobs = "\"mode\": \"mixed\", \"mask_channel\": 0, \"auto_bias\": \"depth\""});
     gltf_add_light_node(
         d, spot_at, gltf_look(mesh_sub(spot_aim, spot_at)),
         &(gltf_light_text){.name = "yard lamp",
@@ -264,7 +265,8 @@ static void add_lights(gltf_document *d)
                            .range = 5,
                            .inner_deg = 26,
                            .outer_deg = 44,
-                           .knobs = "\"mode\": \"mixed\", \"mask_channel\": 1, \"near\": 0.12, \"bias_normal\": 0.5"});
+                           .knobs =
+                               "\"mode\": \"mixed\", \"mask_channel\": 1, \"near\": 0.12, \"auto_bias\": \"depth\""});
     gltf_add_light_node(
         d, lantern_at, upright,
         &(gltf_light_text){.name = "lantern",
@@ -272,7 +274,8 @@ static void add_lights(gltf_document *d)
                            .rgb = {1, 0.58, 0.24},
                            .intensity = 3.4,
                            .range = 2.6,
-                           .knobs = "\"mode\": \"mixed\", \"mask_channel\": 2, \"near\": 0.12, \"bias_normal\": 0.5"});
+                           .knobs =
+                               "\"mode\": \"mixed\", \"mask_channel\": 2, \"near\": 0.12, \"auto_bias\": \"depth\""});
     gltf_add_light_node(d, (mesh_point){2.95, 0.9, cottage_z1 + 0.35}, upright,
                         &(gltf_light_text){.name = "window glow",
                                            .kind = GLTF_POINT,

@@ -337,10 +337,8 @@ static void add_sun(gltf_document *d)
     gltf_rotation keys[N_KEYS];
     for (int i = 0; i < N_KEYS; i++) keys[i] = gltf_turn(y_axis, 15.0 * (12 - SUNDIAL_FIRST_HOUR - i));
     size_t light = gltf_add_light(
-        d, &(gltf_light_text){.name = "sun",
-                              .rgb = {1, 0.95, 0.86},
-                              .intensity = 2.9,
-                              .knobs = "\"bias_normal\": 0.3, \"bias_slope\": 1, \"bias_constant\": 0.5"});
+        d, &(gltf_light_text){
+               .name = "sun", .rgb = {1, 0.95, 0.86}, .intensity = 2.9, .knobs = "\"auto_bias\": \"depth\""});
     gltf_rotation tilt = gltf_turn(x_axis, -SUNDIAL_DECLINATION_DEG),
                   mount = gltf_turn(x_axis, SUNDIAL_LATITUDE_DEG - 90);
     size_t sun = gltf_add_node(
