@@ -104,7 +104,8 @@ ifneq ($(SCENE),)
 $(FW_OBJ): $(FW_SCENE_DIR)/scene.c
 $(FW_SCENE_DIR)/scene.c: $(SCENE) $(BUILD)/gnomon $(FW_SCENE_DIR)/scene.flags
 	@mkdir -p $(@D)
-	@$(BUILD)/gnomon compile $(SCENE) -o $(@D) $(FW_SCENE_BOARD) $(if $(PRESET),--set preset=$(PRESET)) $(SCENE_FLAGS)
+	@$(BUILD)/gnomon compile $(SCENE) -o $(@D) $(FW_SCENE_BOARD) $(if $(PRESET),--set preset=$(PRESET)) $(SCENE_FLAGS) || \
+	  { echo 'options for gnomon compile: make ... SCENE_FLAGS="--set KEY=VALUE"' >&2; exit 1; }
 $(FW_SCENE_OBJ): $(FW_SCENE_DIR)/scene.c $(FW_OBJ_DIR)/compile.flags
 	@$(FW_CC) $(FW_CFLAGS) -MMD -MP -c -o $@ $<
 endif

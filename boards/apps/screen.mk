@@ -4,8 +4,7 @@ $(error $(BOARD) has no display (SCREEN_SIZE in board.mk))
 endif
 SCREEN_ZOOM ?= 16
 SCENE ?= host/scenes/sundial.gltf
-SCENE_FLAGS ?= --size $(SCREEN_SIZE) $(SCREEN_SETTINGS) --simplify safe
-override SCENE_FLAGS += $(if $(TURN),--open)
+override SCENE_FLAGS := --size $(SCREEN_SIZE) $(SCREEN_SETTINGS) --simplify safe $(if $(TURN),--open) $(SCENE_FLAGS)
 APP_FLAGS := -DSCREEN_WIDTH=$(word 1,$(subst x, ,$(SCREEN_SIZE))) -DSCREEN_HEIGHT=$(word 2,$(subst x, ,$(SCREEN_SIZE))) \
   -DGN_FORMAT_SCREEN=GN_FORMAT_$(SCREEN_FORMAT) -DSCREEN_ZOOM=$(SCREEN_ZOOM)
 

@@ -37,7 +37,7 @@ typedef struct {
     uint32_t command_port, command_pin; /* the data/command line */
 } stm32f4_spi;
 
-/* Switches it on, mode 0, 8 bits; its pins are the board's. The bus refers to *spi. */
+/* Switches it on, mode 0, 8 bits; its own pins are the board's. The bus refers to *spi. */
 panel_bus stm32f4_spi_open(const stm32f4_spi *spi);
 
 #endif

@@ -92,6 +92,7 @@ static void delay_us(void *user, uint32_t us)
 
 panel_bus stm32f4_spi_open(const stm32f4_spi *spi)
 {
+    stm32f4_make_output(spi->command_port, spi->command_pin, 0);
     REGISTER(RCC_AHB1ENR) |= DMA2_ON;
     REGISTER(RCC_APB2ENR) |= spi->enable;
     (void)REGISTER(RCC_APB2ENR); /* until the clocks run */

@@ -45,6 +45,11 @@ done
 build/gnomon render "$tmp/roof.obj" -o "$tmp/roof.png" --set output=rgb565 --set atlas_size=256 >"$tmp/log" 2>&1
 cmp -s "$tmp/show1.png" "$tmp/roof.png" && pass || fail "a model of one's own: the display shows another picture than the tool"
 [ -s "$tmp/show2.png" ] && ! cmp -s "$tmp/show2.png" "$tmp/show1.png" && pass || fail "a model of one's own does not turn"
+# options are added to those of the display; what does not fit says how to give them
+pico firmware APP=show SCENE="$tmp/roof.obj" IMAGE=test-options SCENE_FLAGS="--set atlas_size=64" && head -n 1 build/firmware/pico/test-options.obj/scene/scene.h | grep -q -e '--set atlas_size=256 --set texture_size=256 --set atlas_size=64' &&
+    grep -q 'SCENE_WIDTH *320' build/firmware/pico/test-options.obj/scene/scene.h && pass || fail "options for show: $(tail -n 1 "$tmp/log")"
+pico firmware APP=show SCENE="$tmp/roof.obj" IMAGE=test-options SCENE_FLAGS="--set atlas_size=1024" && fail "1024x1024 texels fit the Pico" || pass
+grep -q 'does not fit pico: .* nearest that does: --set ' "$tmp/log" && grep -q 'make ... SCENE_FLAGS=' "$tmp/log" && pass || fail "what does not fit: $(tail -n 1 "$tmp/log")"
 
 # The core's own counter says what the emulator counts, but for the set-up before the picture.
 pico emulate APP=bench SCENE=docs/scenes/near.gltf IMAGE=test-bench SCENE_FLAGS="--size 64x64 --set preset=tiny --set output=rgb565" && pass || fail "bench: $(tail -n 1 "$tmp/log")"

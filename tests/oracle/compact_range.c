@@ -296,10 +296,9 @@ static int32_t any(void)
     return (int32_t)(rnd() >> rnd() % 32) * (rnd() % 2 ? 1 : -1);
 }
 
-static void spoil(void)
+static void spoil_object(uint32_t what, gn_object *o)
 {
-    gn_object *o = &object[rnd() % 2];
-    switch (rnd() % 20) {
+    switch (what) {
     case 0:
         pos[rnd() % 27] = any();
         break;
@@ -321,9 +320,15 @@ static void spoil(void)
     case 6:
         o->flags = rnd();
         break;
-    case 7:
+    default:
         o->albedo_uq16[rnd() % 3] = (uint32_t)any();
         break;
+    }
+}
+
+static void spoil_sun(uint32_t what)
+{
+    switch (what) {
     case 8:
         sun.direction[rnd() % 3] = any();
         break;
@@ -337,10 +342,16 @@ static void spoil(void)
         sun.bias_normal_q16 = any();
         sun.bias_slope_q16 = any();
         break;
-    case 12:
+    default:
         sun.bias_constant_q16 = any();
         sun.auto_bias = GN_AUTO_BIAS_NORMAL;
         break;
+    }
+}
+
+static void spoil_scene(uint32_t what)
+{
+    switch (what) {
     case 13:
         scene.camera.to_world.m_q30[rnd() % 3][rnd() % 3] = any();
         break;
@@ -364,6 +375,15 @@ static void spoil(void)
         scene.ambient_uq16[rnd() % 3] = scene.background_uq20[rnd() % 3] = (uint32_t)any();
         break;
     }
+}
+
+static void spoil(void)
+{
+    gn_object *o = &object[rnd() % 2];
+    const uint32_t what = rnd() % 20;
+    if (what < 8) spoil_object(what, o);
+    else if (what < 13) spoil_sun(what);
+    else spoil_scene(what);
 }
 
 static void campaign(long n)

@@ -146,7 +146,7 @@ static const char *change(uint32_t n, int *free_of_charge)
     }
 }
 
-static const char *change_settings(uint32_t n, int *free_of_charge)
+static const char *change_biases(uint32_t n, int *free_of_charge)
 {
     *free_of_charge = 0;
     switch (n) {
@@ -166,45 +166,63 @@ static const char *change_settings(uint32_t n, int *free_of_charge)
     case 4:
         ls.light[2].bias_normal_q16 = GN_Q16(2);
         return "normal bias: wider faces";
-    case 5:
+    default:
+        return NULL;
+    }
+}
+
+static const char *change_filters(uint32_t n, int *free_of_charge)
+{
+    *free_of_charge = 0;
+    switch (n) {
+    case 0:
         ls.scene.shadow.filter = GN_FILTER_7X7;
         return "a wider filter";
-    case 6:
+    case 1:
         ls.scene.shadow.other_filter = GN_FILTER_DISK;
         return "the disk";
-    case 7:
+    case 2:
         ls.scene.shadow.penumbra_uq16 = 4 << 16;
         return "its radius";
-    case 8:
+    case 3:
         ls.scene.shadow.kernel = GN_KERNEL_LINEAR;
         *free_of_charge = 1;
         return "kernel: not of the tile";
-    case 9:
+    default:
+        return NULL;
+    }
+}
+
+static const char *change_lights(uint32_t n, int *free_of_charge)
+{
+    *free_of_charge = 0;
+    switch (n) {
+    case 0:
         ls_add_light(&ls, GN_LIGHT_POINT)->position_q16[0] = GN_Q16(2);
         return "another light: smaller tiles";
-    case 10:
+    case 1:
         ls.scene.n_lights--;
         return "and back";
-    case 11:
+    case 2:
         ls.scene.shadow.tile_sizes = GN_TILES_IMPORTANCE;
         return "sizes by importance";
-    case 12:
+    case 3:
         ls_add_light(&ls, GN_LIGHT_DIRECTIONAL)->direction[0] = GN_Q16(-0.6);
         ls.scene.shadow.main_light = 1;
         return "a main light";
-    case 13:
+    case 4:
         ls.scene.shadow.main_light = 0;
         return "none";
-    case 14:
+    case 5:
         ls.scene.shadow.n_cascades = 2;
         return "fewer cascades";
-    case 15:
+    case 6:
         ls.scene.shadow.cascade_ratio_uq16[0] = 100;
         return "the first cascade is empty";
-    case 16:
+    case 7:
         ls.light[0].near_offset_q16 = GN_Q16(30);
         return "near offset";
-    case 17:
+    case 8:
         ls.scene.shadow.caster_culling = 1;
         ls.scene.shadow.cascade_ratio_uq16[0] = GN_UQ16(0.3);
         return "caster culling";
@@ -213,9 +231,8 @@ static const char *change_settings(uint32_t n, int *free_of_charge)
     }
 }
 
-static const char *change_objects(uint32_t n, int *free_of_charge)
+static const char *change_casters(uint32_t n, int *free_of_charge)
 {
-    static light_scene other; /* for its ball: a mesh at another place */
     *free_of_charge = 0;
     switch (n) {
     case 0:
@@ -235,43 +252,62 @@ static const char *change_objects(uint32_t n, int *free_of_charge)
     case 4:
         ls.object[1].flags |= GN_OBJECT_CASTS_TWO_SIDED;
         return "two-sided as a caster";
-    case 5:
+    default:
+        return NULL;
+    }
+}
+
+static const char *change_surfaces(uint32_t n, int *free_of_charge)
+{
+    *free_of_charge = 0;
+    switch (n) {
+    case 0:
         ls.object[3].alpha_cutoff_uq16 = 3000;
         return "cutoff of the card: all of it";
-    case 6:
+    case 1:
         ls.object[3].caster_alpha = GN_ALPHA_DITHER;
         return "dithered caster";
-    case 7:
+    case 2:
         ls.object[3].alpha_uq16 = 40000;
         return "its alpha";
-    case 8:
+    case 3:
         ls.holes.flags = GN_TEXTURE_BILINEAR;
         return "its texture's filter";
-    case 9:
+    case 4:
         ls.object[3].texture = NULL;
         return "no texture";
-    case 10:
+    case 5:
         ls.object[3].visible_alpha = GN_ALPHA_OPAQUE;
         *free_of_charge = 1;
         return "visible alpha: not of the tile";
-    case 11:
+    case 6:
         ls.object[0].albedo_uq16[1] = 20000;
         *free_of_charge = 1;
         return "a colour: not of the tile";
-    case 12:
+    default:
+        return NULL;
+    }
+}
+
+static const char *change_meshes(uint32_t n, int *free_of_charge)
+{
+    static light_scene other; /* for its ball: a mesh at another place */
+    *free_of_charge = 0;
+    switch (n) {
+    case 0:
         ls_begin(&other);
         ls.object[1].mesh = &other.demo.ball;
         return "another mesh";
-    case 13:
+    case 1:
         SET_KNOB(&kept.frame, shadow_subpixel_bits, 12);
         return "finer casters";
-    case 14:
+    case 2:
         SET_KNOB(&kept.frame, depth_bits, 32);
         return "deeper texels";
-    case 15:
+    case 3:
         SET_KNOB(&kept.frame, other_atlas_size, 64);
         return "a smaller atlas";
-    case 16:
+    case 4:
         SET_KNOB(&kept.frame, other_atlas_size, 128);
         return "and back";
     default:
@@ -300,8 +336,12 @@ static void test_script(void)
     init(&kept, 128);
     memset(&total, 0, sizeof total);
     play(change);
-    play(change_settings);
-    play(change_objects);
+    play(change_biases);
+    play(change_filters);
+    play(change_lights);
+    play(change_casters);
+    play(change_surfaces);
+    play(change_meshes);
     printf("script: %lu frames; texels drawn per frame %lu instead of %lu, tiles %.1f instead of %.1f\n", total.frames,
            total.kept_texels / total.frames, total.fresh_texels / total.frames,
            (double)total.kept_tiles / (double)total.frames, (double)total.fresh_tiles / (double)total.frames);

@@ -147,6 +147,20 @@ nearest sundial-groups host/scenes/sundial.gltf --board microbit --size 160x120 
 echo "$near" | grep -q -e '--set triangle_groups=256' && ! echo "$near" | grep -q -e '--size' && pass || fail "16 KB for the sundial: '$near'"
 nearest sundial-compact host/scenes/sundial.gltf --flash 20000 --size 160x120 --frames 72-74
 echo "$near" | grep -q -e '--set compact=1$' && pass || fail "20000 bytes of flash for the sundial: '$near'"
+# compact arithmetic where general arithmetic does not fit and it draws the same filter and surfaces; not where it was set otherwise, nor for a
+# program that moves the scene
+flat="--size 96x64 --set filter=hard --set cascades=1"
+same compact-flat "$tmp/grid.gltf" 0 "" $flat --set compact=1
+"$tool" compile "$tmp/grid.gltf" -o "$tmp/chosen" --flash 20000 $flat --json >"$tmp/out" 2>"$tmp/err" && grep -q '"compact": 1}' "$tmp/out" && pass || fail "compact arithmetic is not chosen: $(cat "$tmp/err")"
+[ "$(grep -c '^gnomon: compact arithmetic is chosen: [0-9]* bytes of RAM and [0-9]* of flash; general arithmetic takes .*--set compact=0 keeps it general$' "$tmp/err")" = 1 ] && pass || fail "compact arithmetic: $(cat "$tmp/err")"
+cmp -s "$tmp/chosen/scene.c" "$tmp/compact-flat/scene.c" && grep -q '^#define GN_COMPACT  *1 /\* chosen' "$tmp/chosen/gn_scene_config.h" &&
+    [ "$(diff "$tmp/chosen/gn_scene_config.h" "$tmp/compact-flat/gn_scene_config.h" | grep -c '^<')" = 1 ] && pass || fail "compact arithmetic: the chosen scene is not the requested one"
+"$tool" info "$tmp/grid.gltf" --flash 20000 $flat | grep -q '^  fits that: .*; compact arithmetic is chosen: ' && pass || fail "info does not choose compact arithmetic"
+for general in "--flash 200000" "--flash 20000 --set compact=0" "--flash 20000 --set filter=3x3" "--flash 20000 --simplify safe" "--flash 20000 --set output=rgb888"; do
+    "$tool" compile "$tmp/grid.gltf" -o "$tmp/general" $flat $general >"$tmp/out" 2>&1
+    grep -q 'is chosen' "$tmp/out" && fail "compact arithmetic is chosen with $general" || pass
+done
+"$tool" compile docs/scenes/slopes.gltf -o "$tmp/no" --flash 20000 $flat >"$tmp/out" 2>&1 && fail "normals are lost unasked" || pass
 nearest cube-textures host/scenes/cube.gltf --flash 38000 --size 64x64 --frames 0-0 --set persp_step=1 --set fit=stable --set tiles=equal
 echo "$near" | grep -q -e '--set texture_size=32$' && pass || fail "38000 bytes of flash for the cube: '$near'"
 nearest edge-flash docs/scenes/edge.gltf --flash 30000 --size 64x48

@@ -396,67 +396,68 @@ static bool refused(const char *why)
 }
 
 /* A byte so far behind a marker, of a file that is well otherwise. */
+static const struct {
+    int marker;
+    size_t offset;
+    uint8_t value;
+    const char *why;
+} header_cases[] = {
+    {0xC0, 1, 0xC3, "lossless coding is not read"},
+    {0xC0, 1, 0xC5, "hierarchical coding is not read"},
+    {0xC0, 1, 0xC7, "hierarchical coding is not read"},
+    {0xC0, 1, 0xDE, "hierarchical coding is not read"},
+    {0xC0, 1, 0xC9, "arithmetic coding is not read"},
+    {0xC0, 1, 0xCA, "arithmetic coding is not read"},
+    {0xC0, 1, 0xCC, "arithmetic coding is not read"},
+    {0xC0, 1, 0xDC, "the height comes after the picture (DNL), which is not read"},
+    {0xC0, 1, 0xF0, "marker FF F0 is unknown"},
+    {0xC0, 1, 0xC8, "marker FF C8 is unknown"},
+    {0xC0, 1, 0x02, "marker FF 02 is out of place"},
+    {0xC0, 1, 0xD0, "marker FF D0 is out of place"},
+    {0xC0, 1, 0xD8, "marker FF D8 is out of place"},
+    {0xC0, 1, 0xD9, "there is no frame header"},
+    {0xC0, 1, 0xFE, "a scan before the frame header"},
+    {0xC0, 0, 0x00, "a marker is missing"},
+    {0xC0, 3, 1, "the segment of marker FF C0 has the wrong length"},
+    {0xC0, 3, 18, "the frame header has the wrong length"},
+    {0xC0, 4, 12, "12 bits a sample: only 8 are read"},
+    {0xC0, 6, 0, "the height comes after the picture (DNL), which is not read"},
+    {0xC0, 8, 0, "the picture size is out of range"},
+    {0xC0, 7, 0xFF, "the picture size is out of range"},
+    {0xC0, 5, 0x1F, "the file ends early"}, /* 20 x 7948 in so few bytes */
+    {0xC0, 9, 2, "the frame header has the wrong length"},
+    {0xC0, 11, 0x01, "component 1 has sampling factors that are not 1 to 4"},
+    {0xC0, 11, 0x15, "component 1 has sampling factors that are not 1 to 4"},
+    {0xC0, 12, 4, "a quantisation table is not one of 0 to 3"},
+    {0xC0, 12, 1, "quantisation table 1 is missing"},
+    {0xC0, 13, 1, "two components have the number 1"},
+    {0xC0, 13, 9, "a scan has component 2, which the frame has not"},
+    {0xDB, 4, 0x04, "a quantisation table is not one of 0 to 3"},
+    {0xDB, 4, 0x20, "a quantisation table is not one of 0 to 3"},
+    {0xDB, 4, 0x10, "a quantisation table is cut off"},
+    {0xC4, 4, 0x04, "a Huffman code is malformed"},
+    {0xC4, 4, 0x20, "a Huffman code is malformed"},
+    {0xC4, 4, 0x01, "a Huffman code of component 1 is missing"},
+    {0xC4, 5, 3, "a Huffman code is cut off"},
+    {0xC4, 20, 0xF8, "a Huffman code is malformed"},
+    {0xC4, 3, 18, "a Huffman code is cut off"},
+    {0xC4, 29, 12, "a coefficient is out of range"},   /* bits of the first DC */
+    {0xC4, 54, 0x0B, "a coefficient is out of range"}, /* of AC: the other code is 33 bytes on */
+    {0xDA, 4, 0, "the header of a scan has the wrong length"},
+    {0xDA, 4, 4, "the header of a scan has the wrong length"},
+    {0xDA, 4, 2, "the header of a scan has the wrong length"},
+    {0xDA, 5, 7, "a scan has component 7, which the frame has not"},
+    {0xDA, 7, 1, "a scan has component 1 twice"},
+    {0xDA, 6, 0x40, "a Huffman code of component 1 is missing"},
+    {0xDA, 6, 0x01, "a Huffman code of component 1 is missing"},
+};
+
 static void test_headers(void)
 {
-    static const struct {
-        int marker;
-        size_t offset;
-        uint8_t value;
-        const char *why;
-    } cases[] = {
-        {0xC0, 1, 0xC3, "lossless coding is not read"},
-        {0xC0, 1, 0xC5, "hierarchical coding is not read"},
-        {0xC0, 1, 0xC7, "hierarchical coding is not read"},
-        {0xC0, 1, 0xDE, "hierarchical coding is not read"},
-        {0xC0, 1, 0xC9, "arithmetic coding is not read"},
-        {0xC0, 1, 0xCA, "arithmetic coding is not read"},
-        {0xC0, 1, 0xCC, "arithmetic coding is not read"},
-        {0xC0, 1, 0xDC, "the height comes after the picture (DNL), which is not read"},
-        {0xC0, 1, 0xF0, "marker FF F0 is unknown"},
-        {0xC0, 1, 0xC8, "marker FF C8 is unknown"},
-        {0xC0, 1, 0x02, "marker FF 02 is out of place"},
-        {0xC0, 1, 0xD0, "marker FF D0 is out of place"},
-        {0xC0, 1, 0xD8, "marker FF D8 is out of place"},
-        {0xC0, 1, 0xD9, "there is no frame header"},
-        {0xC0, 1, 0xFE, "a scan before the frame header"},
-        {0xC0, 0, 0x00, "a marker is missing"},
-        {0xC0, 3, 1, "the segment of marker FF C0 has the wrong length"},
-        {0xC0, 3, 18, "the frame header has the wrong length"},
-        {0xC0, 4, 12, "12 bits a sample: only 8 are read"},
-        {0xC0, 6, 0, "the height comes after the picture (DNL), which is not read"},
-        {0xC0, 8, 0, "the picture size is out of range"},
-        {0xC0, 7, 0xFF, "the picture size is out of range"},
-        {0xC0, 5, 0x1F, "the file ends early"}, /* 20 x 7948 in so few bytes */
-        {0xC0, 9, 2, "the frame header has the wrong length"},
-        {0xC0, 11, 0x01, "component 1 has sampling factors that are not 1 to 4"},
-        {0xC0, 11, 0x15, "component 1 has sampling factors that are not 1 to 4"},
-        {0xC0, 12, 4, "a quantisation table is not one of 0 to 3"},
-        {0xC0, 12, 1, "quantisation table 1 is missing"},
-        {0xC0, 13, 1, "two components have the number 1"},
-        {0xC0, 13, 9, "a scan has component 2, which the frame has not"},
-        {0xDB, 4, 0x04, "a quantisation table is not one of 0 to 3"},
-        {0xDB, 4, 0x20, "a quantisation table is not one of 0 to 3"},
-        {0xDB, 4, 0x10, "a quantisation table is cut off"},
-        {0xC4, 4, 0x04, "a Huffman code is malformed"},
-        {0xC4, 4, 0x20, "a Huffman code is malformed"},
-        {0xC4, 4, 0x01, "a Huffman code of component 1 is missing"},
-        {0xC4, 5, 3, "a Huffman code is cut off"},
-        {0xC4, 20, 0xF8, "a Huffman code is malformed"},
-        {0xC4, 3, 18, "a Huffman code is cut off"},
-        {0xC4, 29, 12, "a coefficient is out of range"},   /* bits of the first DC */
-        {0xC4, 54, 0x0B, "a coefficient is out of range"}, /* of AC: the other code is 33 bytes on */
-        {0xDA, 4, 0, "the header of a scan has the wrong length"},
-        {0xDA, 4, 4, "the header of a scan has the wrong length"},
-        {0xDA, 4, 2, "the header of a scan has the wrong length"},
-        {0xDA, 5, 7, "a scan has component 7, which the frame has not"},
-        {0xDA, 7, 1, "a scan has component 1 twice"},
-        {0xDA, 6, 0x40, "a Huffman code of component 1 is missing"},
-        {0xDA, 6, 0x01, "a Huffman code of component 1 is missing"},
-    };
-    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+    for (size_t i = 0; i < sizeof header_cases / sizeof *header_cases; i++) {
         make_flat(&small);
-        jpeg[find_marker(cases[i].marker) + cases[i].offset] = cases[i].value;
-        if (!CHECK(refused(cases[i].why))) printf("  case %zu\n", i);
+        jpeg[find_marker(header_cases[i].marker) + header_cases[i].offset] = header_cases[i].value;
+        if (!CHECK(refused(header_cases[i].why))) printf("  case %zu\n", i);
     }
 }
 

@@ -1,10 +1,9 @@
 /* An ST7789 module, 240x320, on SPI1: clock PA5, data PA7, select PA4, data/command PB0, reset PB1, light PB10.
  * Stream 3 of DMA2 feeds the transmitter. */
+#include "../../common/dma_screen.h"
 #include "../../common/stm32f4.h"
-#include "../../displays/screen.h"
-#include "gn_port.h"
 
-enum { FUNCTION_SPI1 = 5, PIN_RESET = 1, PIN_LIGHT = 10, TILE_BYTES = GN_TILE_WIDTH * GN_TILE_HEIGHT * 2 };
+enum { FUNCTION_SPI1 = 5, PIN_RESET = 1, PIN_LIGHT = 10 };
 
 static const stm32f4_spi lcd = {
     .spi = STM32F4_SPI1,
@@ -24,19 +23,13 @@ static void reset(void *user, int active)
 
 panel_status screen_open(panel *p, display *d)
 {
-    GN_PORT_DMA static uint8_t buffer[2][TILE_BYTES];
     const panel_config config = {.width = 240, .height = 320, .turn = 1, .flags = PANEL_INVERT};
     stm32f4_make_output(STM32F4_PORT_A, 4, 0); /* alone on the bus: selected for good */
-    stm32f4_make_output(lcd.command_port, lcd.command_pin, 0);
     stm32f4_make_output(STM32F4_PORT_B, PIN_RESET, 1);
     stm32f4_make_output(STM32F4_PORT_B, PIN_LIGHT, 1);
     stm32f4_set_function(STM32F4_PORT_A, 5, FUNCTION_SPI1);
     stm32f4_set_function(STM32F4_PORT_A, 7, FUNCTION_SPI1);
     panel_bus bus = stm32f4_spi_open(&lcd);
     bus.reset = reset;
-    panel_status status = panel_init(p, &panel_st7789, &config, &bus);
-    if (status) return status;
-    *d = (display){
-        .panel = p, .format = GN_FORMAT_SCREEN, .buffer = {buffer[0], buffer[1]}, .buffer_bytes = sizeof buffer[0]};
-    return display_init(d);
+    return dma_screen_open(p, d, &panel_st7789, &config, &bus);
 }

@@ -1,8 +1,6 @@
 /* An ILI9341 shield, 240x320, on the Arduino header: clock D13 (P1.15), data D11 (P1.13), select D10 (P1.12),
  * data/command D9 (P1.11). SPIM2 sends by its own DMA, which reads RAM alone: 8 MHz, its fastest. */
-#include "../../common/systick.h"
-#include "../../displays/screen.h"
-#include "gn_port.h"
+#include "../../common/dma_screen.h"
 
 #define REGISTER(address) (*(volatile uint32_t *)(uintptr_t)(address))
 
@@ -29,10 +27,7 @@ enum {
     SPIM_MODE = 0x40023554,
     SPIM_ON = 7,
     SPIM_MOST = 65535,
-    CLOCK_MHZ = 64,
-    POLLS = 10000000,
-    ABORT_POLLS = 10000,
-    TILE_BYTES = GN_TILE_WIDTH * GN_TILE_HEIGHT * 2
+    ABORT_POLLS = 10000
 };
 #define RATE_8_MHZ 0x80000000U
 
@@ -87,21 +82,16 @@ static void abandon(void *user)
     REGISTER(SPIM_SENT) = REGISTER(SPIM_STOPPED);
 }
 
-static void delay_us(void *user, uint32_t us)
-{
-    (void)user;
-    systick_delay_us(us, CLOCK_MHZ);
-}
-
 panel_status screen_open(panel *p, display *d)
 {
-    GN_PORT_DMA static uint8_t buffer[2][TILE_BYTES];
-    const panel_bus bus = {.write = write, .wait = wait, .delay_us = delay_us, .abandon = abandon, .max_polls = POLLS};
+    static const uint32_t clock_mhz = 64;
+    const panel_bus bus = {.user = (void *)(uintptr_t)&clock_mhz,
+                           .write = write,
+                           .wait = wait,
+                           .delay_us = dma_screen_delay_us,
+                           .abandon = abandon,
+                           .max_polls = DMA_SCREEN_POLLS};
     const panel_config config = {.width = 240, .height = 320, .turn = 1, .flags = PANEL_BGR};
     set_up_pins();
-    panel_status status = panel_init(p, &panel_ili9341, &config, &bus);
-    if (status) return status;
-    *d = (display){
-        .panel = p, .format = GN_FORMAT_SCREEN, .buffer = {buffer[0], buffer[1]}, .buffer_bytes = sizeof buffer[0]};
-    return display_init(d);
+    return dma_screen_open(p, d, &panel_ili9341, &config, &bus);
 }

@@ -1,8 +1,6 @@
 /* Pimoroni Pico Display Pack 2.0: ST7789, 320x240, on SPI0: select GP17, clock GP18, data GP19, data/command GP16,
  * backlight GP20. It has no reset line. DMA channel 0 feeds the transmitter. */
-#include "../../common/systick.h"
-#include "../../displays/screen.h"
-#include "gn_port.h"
+#include "../../common/dma_screen.h"
 
 #define REGISTER(address) (*(volatile uint32_t *)(uintptr_t)(address))
 #define ATOMIC_CLEAR      0x3000U /* a write to the alias clears the bits */
@@ -40,10 +38,7 @@ enum {
     PIN_CLOCK = 18,
     PIN_DATA = 19,
     PIN_LIGHT = 20,
-    CLOCK_MHZ = 125,
-    POLLS = 10000000,
-    ABORT_POLLS = 10000,
-    TILE_BYTES = GN_TILE_WIDTH * GN_TILE_HEIGHT * 2
+    ABORT_POLLS = 10000
 };
 #define SIO_SET    0xD0000014U
 #define SIO_CLEAR  0xD0000018U
@@ -116,21 +111,16 @@ static void abandon(void *user)
     REGISTER(DMA_CONTROL) = 3U << 29; /* a one clears what failed */
 }
 
-static void delay_us(void *user, uint32_t us)
-{
-    (void)user;
-    systick_delay_us(us, CLOCK_MHZ);
-}
-
 panel_status screen_open(panel *p, display *d)
 {
-    GN_PORT_DMA static uint8_t buffer[2][TILE_BYTES];
-    const panel_bus bus = {.write = write, .wait = wait, .delay_us = delay_us, .abandon = abandon, .max_polls = POLLS};
+    static const uint32_t clock_mhz = 125;
+    const panel_bus bus = {.user = (void *)(uintptr_t)&clock_mhz,
+                           .write = write,
+                           .wait = wait,
+                           .delay_us = dma_screen_delay_us,
+                           .abandon = abandon,
+                           .max_polls = DMA_SCREEN_POLLS};
     const panel_config config = {.width = 240, .height = 320, .turn = 1, .flags = PANEL_INVERT};
     set_up_pins();
-    panel_status status = panel_init(p, &panel_st7789, &config, &bus);
-    if (status) return status;
-    *d = (display){
-        .panel = p, .format = GN_FORMAT_SCREEN, .buffer = {buffer[0], buffer[1]}, .buffer_bytes = sizeof buffer[0]};
-    return display_init(d);
+    return dma_screen_open(p, d, &panel_st7789, &config, &bus);
 }

@@ -1,10 +1,9 @@
 /* The board's own LCD: ILI9341, 240x320, on SPI5: select PC2, clock PF7, data PF9, data/command PD13; the read strobe
  * PD12 stays high. Its reset line is the board's. Stream 4 of DMA2 feeds the transmitter. */
+#include "../../common/dma_screen.h"
 #include "../../common/stm32f4.h"
-#include "../../displays/screen.h"
-#include "gn_port.h"
 
-enum { FUNCTION_SPI5 = 5, TILE_BYTES = GN_TILE_WIDTH * GN_TILE_HEIGHT * 2 };
+enum { FUNCTION_SPI5 = 5 };
 
 static const stm32f4_spi lcd = {
     .spi = STM32F4_SPI5,
@@ -18,18 +17,12 @@ static const stm32f4_spi lcd = {
 
 panel_status screen_open(panel *p, display *d)
 {
-    GN_PORT_DMA static uint8_t buffer[2][TILE_BYTES];
     const panel_config config = {.width = 240, .height = 320, .turn = 1, .flags = PANEL_BGR};
     stm32f4_make_output(STM32F4_PORT_D, 12, 1);
     stm32f4_make_output(STM32F4_PORT_C, 1, 1); /* the gyroscope on this bus has a select of its own */
     stm32f4_make_output(STM32F4_PORT_C, 2, 0);
-    stm32f4_make_output(lcd.command_port, lcd.command_pin, 0);
     stm32f4_set_function(STM32F4_PORT_F, 7, FUNCTION_SPI5);
     stm32f4_set_function(STM32F4_PORT_F, 9, FUNCTION_SPI5);
     const panel_bus bus = stm32f4_spi_open(&lcd);
-    panel_status status = panel_init(p, &panel_ili9341, &config, &bus);
-    if (status) return status;
-    *d = (display){
-        .panel = p, .format = GN_FORMAT_SCREEN, .buffer = {buffer[0], buffer[1]}, .buffer_bytes = sizeof buffer[0]};
-    return display_init(d);
+    return dma_screen_open(p, d, &panel_ili9341, &config, &bus);
 }

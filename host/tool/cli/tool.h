@@ -45,6 +45,7 @@ typedef struct {
     int triangles;        /* --triangles: meshes are reduced to so many; 0: not given */
     int outside;          /* the scene may name files outside its folder */
     int posed;            /* loaded for what moves alone: scene_options */
+    int compact_fits;     /* compact=1 is compile's own choice */
     int budget;           /* times the usual limits of what a scene may ask for; 0: once */
     int orbit;            /* --orbit is given: */
     double yaw, pitch, zoom;

@@ -37,17 +37,21 @@ static void say_limit(const char *name, bool given, long limit, char *out, size_
 /* What gnomon compile would say. */
 static int judge(info_memory *out, const tool_options *o, const board *b, char *error, size_t bytes)
 {
+    char remark[TOOL_ERROR_BYTES];
+    tool_options own = *o;
     compiled c;
-    if (compile_all(&c, o, error, bytes)) return -1;
+    if (compile_all(&c, &own, error, bytes)) return -1;
+    const bool compact = compile_try_compact(&c, &own, b, remark, sizeof remark);
     compile_memory m = compile_measure(&c, b);
     out->fits = compile_fits(&m, b);
     if (out->fits) {
         char ram[40], flash[40];
         say_limit("ram", o->board || o->ram, b->ram, ram, sizeof ram);
         say_limit("flash", o->board || o->flash, b->flash, flash, sizeof flash);
-        snprintf(out->verdict, sizeof out->verdict, "fits %s: %ld bytes of RAM (stack %ld)%s, about %ld of flash%s%s",
-                 b->name, compile_ram_bytes(&m, b), b->stack, ram, compile_rom_bytes(&m),
-                 o->board ? "" : " (Cortex-M0)", flash);
+        snprintf(out->verdict, sizeof out->verdict,
+                 "fits %s: %ld bytes of RAM (stack %ld)%s, about %ld of flash%s%s%s%s", b->name,
+                 compile_ram_bytes(&m, b), b->stack, ram, compile_rom_bytes(&m), o->board ? "" : " (Cortex-M0)", flash,
+                 compact ? "; " : "", compact ? remark : "");
     } else {
         char much[240], nearest[400];
         compile_say_memory(&m, b, much, sizeof much);

@@ -95,9 +95,9 @@ static void print_summary(const compiled *c, const board *b)
     }
     printf("{\"out\": ");
     tool_json_string(c->options->out_path);
-    printf(
-        ", \"frames\": %d, \"renderer_bytes\": %ld, \"state_bytes\": %ld, \"data_bytes\": %ld, \"code_bytes\": %ld}\n",
-        c->n_frames, m.renderer, m.state, m.data, m.code);
+    printf(", \"frames\": %d, \"renderer_bytes\": %ld, \"state_bytes\": %ld, \"data_bytes\": %ld, \"code_bytes\": %ld, "
+           "\"compact\": %d}\n",
+           c->n_frames, m.renderer, m.state, m.data, m.code, c->set.build.compact);
 }
 
 /* The loader holds the last frame: what was requested is compiled, and takes flash for nothing. */
@@ -111,7 +111,8 @@ static void say_if_beyond(const compiled *c)
 
 int tool_compile(const tool_options *o)
 {
-    char error[TOOL_ERROR_BYTES] = "out of memory";
+    char error[TOOL_ERROR_BYTES] = "out of memory", remark[TOOL_ERROR_BYTES];
+    tool_options own = *o;
     compiled c;
     board b;
     if (!o->out_path) {
@@ -122,7 +123,8 @@ int tool_compile(const tool_options *o)
         tool_error("%s", error);
         return TOOL_FAILED;
     }
-    if (compile_all(&c, o, error, sizeof error)) return tool_fail(o->scene_path, error);
+    if (compile_all(&c, &own, error, sizeof error)) return tool_fail(o->scene_path, error);
+    if (compile_try_compact(&c, &own, &b, remark, sizeof remark)) tool_error("%s", remark);
     say_if_beyond(&c);
     if (!o->json) remarks_on_settings(&c.scene);
     const char *about = o->scene_path;

@@ -214,6 +214,13 @@ void compile_say_memory(const compile_memory *m, const board *b, char *out, size
 /* compile_search.c: the settings of the configuration that fits and changes the picture least, as options; false: none.
  */
 bool compile_find_nearest(const compiled *c, const board *b, char *out, size_t bytes);
+/* How far some frames of two of one size differ, RMS of 255; HUGE_VAL: one is refused. */
+double compile_difference(const compiled *a, const compiled *b);
+#define COMPILE_MUCH 16.0 /* a difference that is another picture */
+
+/* compile_arithmetic.c: where c does not fit the board, compact arithmetic in its place if that serves; own, c's
+ * options, then have the setting, and remark says so in one line. */
+bool compile_try_compact(compiled *c, tool_options *own, const board *b, char *remark, size_t bytes);
 
 /* compile.c: all of it but the files; 1: there is a board, 0: none was requested, -1. */
 int compile_all(compiled *c, const tool_options *o, char *error, size_t error_bytes);

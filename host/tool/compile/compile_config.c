@@ -320,7 +320,9 @@ static void choose_checks(compiled *c)
     if (path) c->set.feature.validation = 0;
     if (c->set.build.compact) {
         c->set.feature.shadows = 1; /* always built */
-        because(c, "compact", "as set: --set compact=1 draws these pictures");
+        because(c, "compact",
+                c->options->compact_fits ? "chosen, as the general arithmetic does not fit"
+                                         : "as set: --set compact=1 draws these pictures");
     }
     because(c, "validation",
             c->set.feature.validation ? "scenes of --simplify none and safe may be moved otherwise"

@@ -15,7 +15,6 @@
 
 enum { SAMPLES = 3, LISTED_MAX = 48, EIGHTHS = 8, LEAN_BARE = 2, LEAN_MAX = 3, SMALL_VERTEX_CACHE = 8, GROUPS = 256 };
 enum { TEXTURE_SIDE_MIN = 8, TEXTURE_SIDE_MAX = 2048 };
-#define MUCH 16.0 /* a change, RMS of 255, for which a picture of down to half the sides is looked for instead */
 
 /* What changes the picture, each from 0: as it was requested. */
 enum { ATLAS, OTHER_ATLAS, DEPTH, OTHER_DEPTH, SUBPIXEL, FILTER, OTHER_FILTER, STEP, FIT, LOSSES };
@@ -340,6 +339,18 @@ static bool find(search *s, bool smaller, char *out, size_t bytes)
     return false;
 }
 
+double compile_difference(const compiled *a, const compiled *b)
+{
+    const search was = {.c = a}, is = {.c = b};
+    const variant requested = {.lean = 0};
+    const size_t n = SAMPLES * frame_bytes(&was);
+    uint8_t *both = malloc(2 * n);
+    const bool drawn = both && !show_samples(&was, &requested, both) && !show_samples(&is, &requested, both + n);
+    const double change = drawn ? sqrt(mean_square(both, both + n, n)) : HUGE_VAL;
+    free(both);
+    return change;
+}
+
 /* With one setting more in the picture's own size, where that fits and changes less than `change`. */
 static bool find_with(search *s, const tool_options *requested, const char *set, double change, char *out, size_t bytes)
 {
@@ -349,19 +360,14 @@ static bool find_with(search *s, const tool_options *requested, const char *set,
     if (o.n_sets == TOOL_SETS_MAX) return false;
     o.sets[o.n_sets++] = set;
     if (compile_all(&c, &o, error, sizeof error)) return false;
-    const search with = {.c = &c, .b = s->b};
     const compile_memory m = compile_measure(&c, s->b);
-    const size_t n = SAMPLES * frame_bytes(s);
-    uint8_t *both = malloc(2 * n);
-    bool found = both && compile_fits(&m, s->b) && !show_samples(s, &(variant){.lean = 0}, both) &&
-                 !show_samples(&with, &(variant){.lean = 0}, both + n);
-    if (found) s->change = sqrt(mean_square(both, both + n, n));
+    bool found = compile_fits(&m, s->b);
+    if (found) s->change = compile_difference(s->c, &c);
     found = found && s->change < change;
     if (found)
         snprintf(out, bytes,
                  "nearest that does: --set %s: %ld bytes of RAM, %ld of flash, colours off by %.1f of 255 (RMS)", set,
                  compile_ram_bytes(&m, s->b), compile_rom_bytes(&m), s->change);
-    free(both);
     compile_free(&c);
     return found;
 }
@@ -440,12 +446,12 @@ bool compile_find_nearest(const compiled *c, const board *b, char *out, size_t b
         found = true;
         s.change = other_way.change;
     }
-    if (found && s.change <= MUCH) return true;
+    if (found && s.change <= COMPILE_MUCH) return true;
     for (int eighths = EIGHTHS - 1; eighths > 0 && !(found && eighths < EIGHTHS / 2); eighths--) {
         if (!find_smaller(&s, c->options, eighths, other, sizeof other)) continue;
-        if (!found || s.change <= MUCH) snprintf(out, bytes, "%s", other);
+        if (!found || s.change <= COMPILE_MUCH) snprintf(out, bytes, "%s", other);
         found = true;
-        if (s.change <= MUCH) return true;
+        if (s.change <= COMPILE_MUCH) return true;
     }
     if (found) return true;
     snprintf(out, bytes,
