@@ -11,7 +11,7 @@
 #include "../lib/shadow/gn_texel.h"
 #include "ref_fixture.h"
 
-enum { WIDTH = 48, HEIGHT = 36, N_SCENES = SLOW_LIBRARY ? 40 : 240, N_BOXES = 7 };
+enum { WIDTH = 48, HEIGHT = 36, N_SCENES = SLOW_LIBRARY ? 80 : 240, N_BOXES = 7 };
 
 static int random_int(int n)
 {
