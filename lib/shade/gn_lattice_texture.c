@@ -156,12 +156,12 @@ GN_HOT static void begin_level(gn_shading *s, uint32_t pass, gn_cell_textures *o
     out->other = 0U - pass;
 }
 
-/* Pixels of a row that are drawn from the level at hand. */
+/* Pixels of a row that are drawn from the level at hand: dxy is what rounding leaves. */
 GN_HOT static uint32_t level_bits(const gn_cell_textures *t, int32_t size_log2, int32_t below)
 {
     uint32_t finer = 0, n = 1U << size_log2;
-    int32_t at = gn_patch_at(&t->nearness_q30, 0, below), step = t->nearness_q30.dx + below * t->nearness_q30.dxy;
-    for (uint32_t i = 0; i < n; i++, at += step) finer |= (uint32_t)(at > t->end_q30) << i;
+    int32_t at = gn_patch_at(&t->nearness_q30, 0, below);
+    for (uint32_t i = 0; i < n; i++, at += t->nearness_q30.dx) finer |= (uint32_t)(at > t->end_q30) << i;
     return finer ^ t->other;
 }
 #endif

@@ -134,12 +134,11 @@ GN_HOT static uint64_t across2_q32(const gn_frame *frame, int32_t px, int32_t py
     return (uint64_t)(x * x) + (uint64_t)(y * y);
 }
 
-/* The cascade of a point so far from the view axis, and its fade factor. [D4] [D6] [D11] */
+/* The cascade of a point so far from the view axis, and its fade factor; the caller begins with none and 0. [D4] [D6]
+ * [D11] */
 GN_HOT static void cascade_within(const gn_frame *frame, uint64_t across, gn_sample *sample)
 {
     int64_t z = sample->value[GN_VALUE_Z];
-    sample->cascade = GN_CASCADE_NONE;
-    sample->value[GN_VALUE_FADE] = 0;
     int64_t m = frame->scene->shadow.max_distance_q16;
     sample->in_reach =
         frame->scene->shadow.distance_mode != GN_DISTANCE_RADIUS || across + (uint64_t)(z * z) <= (uint64_t)(m * m);
