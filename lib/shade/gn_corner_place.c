@@ -38,22 +38,13 @@ GN_HOT static void coords_directional(const gn_frame *frame, const gn_surface *s
     int32_t up = gn_clz32((uint32_t)c->z_q16) - 1, z = c->z_q16 * (1 << up), down = view->fit.ortho.ray_shift + up - 32;
     const int32_t *n = normal_of(s, c);
     for (int i = 0; i < 3; i++) {
-        const gn_ray_plane *r = &view->fit.ortho.ray[i];
-        int32_t a = (int32_t)((uint32_t)r->a0 + (uint32_t)r->ax * (uint32_t)px + (uint32_t)r->ay * (uint32_t)py);
-        int32_t at = (int32_t)((uint32_t)(gn_mul_high(z, a) >> down) + (uint32_t)r->d_q16);
+        int32_t at = gn_corner_ortho(&view->fit.ortho.ray[i], px, py, z, down);
         if (flat_q16) coord_q16[i] = gn_sat32((int64_t)at + flat_q16[i]); /* automatic bias may say: lit */
         else
             coord_q16[i] =
                 (int32_t)((uint32_t)at +
                           4 * (uint32_t)gn_mul_high((int32_t)(gn_dot64(n, view->axis_q30[i]) >> 30), view->offset_q16));
     }
-}
-
-/* A coordinate of a directional view. */
-GN_HOT static inline int32_t coord_ortho(const gn_ray_plane *r, int32_t px, int32_t py, int32_t z, int32_t down)
-{
-    int32_t a = (int32_t)((uint32_t)r->a0 + (uint32_t)r->ax * (uint32_t)px + (uint32_t)r->ay * (uint32_t)py);
-    return (int32_t)((uint32_t)(gn_mul_high(z, a) >> down) + (uint32_t)r->d_q16);
 }
 
 /* View depth of the plane at a pixel, up to its largest on the triangle. */
@@ -81,8 +72,8 @@ GN_HOT void gn_corner_uv(const gn_lattice *l, const gn_frame *frame, const gn_su
     int32_t z = plane_depth(l, frame, s, x, y), up = gn_clz32((uint32_t)z) - 1;
     int32_t down = gn_min32(gn_max32(view->fit.ortho.ray_shift + up - 32, 0), 31);
     z *= 1 << up;
-    uv_q16[0] = coord_ortho(&view->fit.ortho.ray[0], px, py, z, down) + offset_q16[0];
-    uv_q16[1] = coord_ortho(&view->fit.ortho.ray[1], px, py, z, down) + offset_q16[1];
+    uv_q16[0] = gn_corner_ortho(&view->fit.ortho.ray[0], px, py, z, down) + offset_q16[0];
+    uv_q16[1] = gn_corner_ortho(&view->fit.ortho.ray[1], px, py, z, down) + offset_q16[1];
 }
 
 GN_HOT static GN_NOINLINE void place_directional(gn_lattice *l, const gn_frame *frame, const gn_surface *s,

@@ -98,25 +98,29 @@ GN_HOT static int32_t seen_depth(const gn_lattice *l, const gn_frame *frame, con
 GN_HOT static int see_flat(gn_lattice *l, const gn_frame *frame, const gn_surface *s, uint32_t slot,
                            const gn_light_view *view, int32_t x, int32_t y, int uv, gn_window_place *out)
 {
-    int32_t z = seen_depth(l, frame, s, x, y), at[3], px = 2 * x + 1 - frame->picture.width,
+    int32_t z = seen_depth(l, frame, s, x, y), px = 2 * x + 1 - frame->picture.width,
             py = frame->picture.height - 1 - 2 * y;
     if (z <= 0) return 0;
     int32_t z_up = gn_clz32((uint32_t)z) - 1, down = view->fit.ortho.ray_shift + z_up - 32;
     if (down < 0 || down > 31) return 0;
+    z *= 1 << z_up;
     if (l->offset_view != view) gn_sample_offset(frame, s, slot, view, s->normal_q30[0], l->offset_q16);
     l->offset_view = view;
-    for (int i = 0; i < 3 - uv; i++) {
-        const gn_ray_plane *r = &view->fit.ortho.ray[i];
-        int32_t a = (int32_t)((uint32_t)r->a0 + (uint32_t)r->ax * (uint32_t)px + (uint32_t)r->ay * (uint32_t)py);
-        int32_t moved = (int32_t)((uint32_t)(gn_mul_high(z * (1 << z_up), a) >> down) + (uint32_t)r->d_q16);
-        at[i] = gn_sat32((int64_t)moved + l->offset_q16[i]);
-    }
-    out->u_q16 = at[0];
-    out->v_q16 = at[1];
+    const gn_ray_plane *ray = view->fit.ortho.ray;
+    const int32_t *offset = l->offset_q16;
+    int32_t u = gn_corner_ortho(&ray[0], px, py, z, down), v = gn_corner_ortho(&ray[1], px, py, z, down);
+    const uint32_t quarter = 1U << 30; /* where sums may leave 32 bits */
+    if ((((uint32_t)u + quarter) | ((uint32_t)v + quarter) | ((uint32_t)offset[0] + quarter) |
+         ((uint32_t)offset[1] + quarter)) >>
+        31)
+        return 0;
+    out->u_q16 = u + offset[0];
+    out->v_q16 = v + offset[1];
     if (uv) return 1;
-    int32_t up = 14 - view->tile_log2 - view->depth_log2;
-    if (up < 0) out->depth_q30 = at[2] >> gn_min32(-up, 31);
-    else out->depth_q30 = gn_max32(-(1 << 29) >> up, gn_min32(at[2], ((1 << 30) - 1) >> up)) * (1 << up);
+    int32_t depth = gn_sat32((int64_t)gn_corner_ortho(&ray[2], px, py, z, down) + offset[2]),
+            up = 14 - view->tile_log2 - view->depth_log2;
+    if (up < 0) out->depth_q30 = depth >> gn_min32(-up, 31);
+    else out->depth_q30 = gn_max32(-(1 << 29) >> up, gn_min32(depth, ((1 << 30) - 1) >> up)) * (1 << up);
     return 1;
 }
 
