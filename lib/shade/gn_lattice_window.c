@@ -176,18 +176,18 @@ GN_HOT static seen_box empty_box(void)
     return (seen_box){{INT32_MAX, INT32_MAX}, {INT32_MIN, INT32_MIN}, {0, 0, 0, 0}};
 }
 
-/* Makes it for columns x .. x_end - 1 of cells, whose left corners are in `left`, NULL if they are not seen; for pixels
- * alone, if `rows`. Returns 0 if that is too much. */
+/* Makes it for columns x .. x_end - 1, whose left corners are in `left`, NULL if they are not seen: of cells up to the
+ * corners at x_end and y_end, or of `pixels` before them. Returns 0 if that is too much. */
 GN_HOT static int make_window(gn_lattice *l, const gn_frame *frame, const gn_surface *s, uint32_t slot,
-                              uint32_t view_idx, int32_t x, int32_t x_end, int32_t y_end, int rows,
+                              uint32_t view_idx, int32_t x, int32_t x_end, int32_t y_end, int pixels,
                               const seen_box *left, gn_window *window)
 {
     seen_box box = left ? *left : empty_box();
     int32_t first[2], n[2];
-    if (!left || !see(l, frame, s, slot, view_idx, x_end, l->y, 1, &box) ||
-        !see(l, frame, s, slot, view_idx, x_end, y_end, 0, &box)) {
+    if (!left || !see(l, frame, s, slot, view_idx, x_end - pixels, l->y, 1, &box) ||
+        !see(l, frame, s, slot, view_idx, x_end - pixels, y_end - pixels, 0, &box)) {
         if (left) box = empty_box();
-        if (!rows || !see_rows(l, frame, s, slot, view_idx, x, x_end, &box)) return 0;
+        if (!pixels || !see_rows(l, frame, s, slot, view_idx, x, x_end, &box)) return 0;
     }
     if (gn_beyond_tile(window->view, box.lo[0], box.hi[0], box.lo[1], box.hi[1])) {
         light_up(window);
@@ -208,18 +208,20 @@ GN_HOT gn_window *gn_lattice_window(gn_lattice *l, const gn_frame *frame, const 
 {
     const gn_light_view *view = &frame->view[s->light[slot].state->view_idx + (int32_t)view_idx];
     gn_window *window = &l->window[gn_lattice_window_idx(frame, view)];
-    int32_t log2 = l->size_log2, size = 1 << log2;
+    const int32_t log2 = l->size_log2, size = 1 << log2, pixels = !at;
     if (window->view != view) begin_window(l, frame, s, slot, view, at, window);
     if (window->planar <= 0) return NULL;
     window->w = 0;
-    int32_t rows = (gn_min32(l->n_rows, l->y_end - l->y) + size - 1) >> log2;
+    int32_t y_end = gn_min32(l->y + l->n_rows, l->y_end), rows = (y_end - l->y + size - 1) >> log2;
     int32_t columns = (gn_min32(GN_PART_WIDTH - (x - l->x), l->x_end - x) + size - 1) >> log2;
     const int32_t few = at ? 2 : 0; /* for one or two cells their own corners tell as much */
+    if (!pixels) y_end = l->y + rows * size;
     seen_box left = empty_box();
     int seen = columns * rows > few && see(l, frame, s, slot, view_idx, x, l->y, 1, &left) &&
-               see(l, frame, s, slot, view_idx, x, l->y + rows * size, 1, &left);
-    while (columns * rows > few && !make_window(l, frame, s, slot, view_idx, x, x + columns * size, l->y + rows * size,
-                                                !at, seen ? &left : NULL, window))
+               see(l, frame, s, slot, view_idx, x, y_end - pixels, 1, &left);
+    while (columns * rows > few && !make_window(l, frame, s, slot, view_idx, x,
+                                                pixels ? gn_min32(x + columns * size, l->x_end) : x + columns * size,
+                                                y_end, pixels, seen ? &left : NULL, window))
         columns = columns > 1 ? (columns + 1) >> 1 : 0;
     window->until_x = x + columns * size;
     return window;
