@@ -18,6 +18,13 @@ GN_HOT static inline uint32_t gn_borrow(uint32_t bits, uint32_t texel, uint32_t 
     return bits << 1 | (texel - level) >> 31;
 }
 
+/* Four texels of a row. */
+GN_HOT static inline uint32_t gn_four_below(const uint16_t *texel, uint32_t level)
+{
+    return gn_borrow(gn_borrow(gn_borrow(gn_borrow(0, texel[3], level), texel[2], level), texel[1], level), texel[0],
+                     level);
+}
+
 /* Which of n x n texels, in rows `pitch` apart, shadow a receiver: their depth, as the upper 16 of 32 bits, is below
  * `least`. Bit i of dark[j] is for texel i of row j. Returns the OR of all rows, plus, 16 bits up, their AND. n = 4, 6
  * or 8; least <= 0xFFFF0000. `texel` is aligned to two bytes, not to four. */
@@ -25,12 +32,17 @@ GN_HOT static inline uint32_t gn_portable_dark_texels16(const uint16_t *texel, s
                                                         uint8_t *dark)
 {
     uint32_t level = (least + 0xFFFFU) >> 16, any = 0, all = 255;
+    if (!GN_SIZE_FIRST && n == 4) { /* without a loop callers keep them in registers */
+        uint32_t a = gn_four_below(texel, level), b = gn_four_below(texel + pitch, level),
+                 c = gn_four_below(texel + 2 * pitch, level), d = gn_four_below(texel + 3 * pitch, level);
+        dark[0] = (uint8_t)a, dark[1] = (uint8_t)b, dark[2] = (uint8_t)c, dark[3] = (uint8_t)d;
+        return a | b | c | d | (a & b & c & d) << 16;
+    }
     for (uint8_t *end = dark + n; dark < end; dark++, texel += pitch) {
         uint32_t row = 0;
         if (n == 8) row = gn_borrow(gn_borrow(row, texel[7], level), texel[6], level);
         if (n >= 6) row = gn_borrow(gn_borrow(row, texel[5], level), texel[4], level);
-        row = gn_borrow(gn_borrow(row, texel[3], level), texel[2], level);
-        row = gn_borrow(gn_borrow(row, texel[1], level), texel[0], level);
+        row = row << 4 | gn_four_below(texel, level);
         *dark = (uint8_t)row;
         any |= row;
         all &= row;

@@ -407,16 +407,6 @@ GN_HOT int gn_corner_texture(gn_lattice *l, const gn_frame *frame, const gn_surf
 #endif
 
 #if GN_SHADOWS
-GN_HOT int32_t gn_corner_depth(const gn_lattice *l, const gn_frame *frame, const gn_surface *s, int32_t x, int32_t y)
-{
-    int32_t w = gn_max32(along(&l->plane.w, x - l->plane.x, y - l->plane.y), 1 << 10), clz = gn_clz32((uint32_t)w);
-    uint32_t z = gn_umul_high(s->depth_scale.mant, gn_recip_norm((uint32_t)w << clz, GN_K(frame, newton_steps)));
-    int32_t shift = l->plane.z_shift - clz;
-    if (shift < 1) return s->z_max_q16;
-    z = shift > 31 ? 0 : ((z >> (shift - 1)) + 1) >> 1;
-    return gn_max32(1, gn_min32((int32_t)(z & INT32_MAX), s->z_max_q16));
-}
-
 GN_HOT int gn_corner_locate(const gn_lattice *l, const gn_frame *frame, const gn_surface *s, uint32_t slot, int32_t x,
                             int32_t y, gn_corner *c)
 {

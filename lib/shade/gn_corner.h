@@ -59,7 +59,14 @@ int gn_corner_texture(gn_lattice *lattice, const gn_frame *frame, const gn_surfa
                       int32_t uv_q20[2]);
 
 #if GN_SHADOWS
-/* The same in whichever way there is; once per corner, until another view is asked for. */
+/* A coordinate of a point in a directional view, without bias: z, its depth in 31 bits, along the pixel's ray. */
+GN_HOT static inline int32_t gn_corner_ortho(const gn_ray_plane *r, int32_t px, int32_t py, int32_t z, int32_t down)
+{
+    int32_t a = (int32_t)((uint32_t)r->a0 + (uint32_t)r->ax * (uint32_t)px + (uint32_t)r->ay * (uint32_t)py);
+    return (int32_t)((uint32_t)(gn_mul_high(z, a) >> down) + (uint32_t)r->d_q16);
+}
+
+/* Sets u, v, depth in whichever way there is; once per corner, until another view is asked for. */
 GN_HOT static inline int gn_corner_place(gn_lattice *l, const gn_frame *frame, const gn_surface *s, gn_corner *c,
                                          uint32_t slot, uint32_t view_idx)
 {

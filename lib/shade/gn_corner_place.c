@@ -38,9 +38,7 @@ GN_HOT static void coords_directional(const gn_frame *frame, const gn_surface *s
     int32_t up = gn_clz32((uint32_t)c->z_q16) - 1, z = c->z_q16 * (1 << up), down = view->fit.ortho.ray_shift + up - 32;
     const int32_t *n = normal_of(s, c);
     for (int i = 0; i < 3; i++) {
-        const gn_ray_plane *r = &view->fit.ortho.ray[i];
-        int32_t a = (int32_t)((uint32_t)r->a0 + (uint32_t)r->ax * (uint32_t)px + (uint32_t)r->ay * (uint32_t)py);
-        int32_t at = (int32_t)((uint32_t)(gn_mul_high(z, a) >> down) + (uint32_t)r->d_q16);
+        int32_t at = gn_corner_ortho(&view->fit.ortho.ray[i], px, py, z, down);
         if (flat_q16) coord_q16[i] = gn_sat32((int64_t)at + flat_q16[i]); /* automatic bias may say: lit */
         else
             coord_q16[i] =
@@ -49,21 +47,33 @@ GN_HOT static void coords_directional(const gn_frame *frame, const gn_surface *s
     }
 }
 
-/* A coordinate of a directional view. */
-GN_HOT static inline int32_t coord_ortho(const gn_ray_plane *r, int32_t px, int32_t py, int32_t z, int32_t down)
+/* View depth of the plane at a pixel, up to its largest on the triangle. */
+GN_HOT static GN_SHARED int32_t plane_depth(const gn_lattice *l, const gn_frame *frame, const gn_surface *s, int32_t x,
+                                            int32_t y)
 {
-    int32_t a = (int32_t)((uint32_t)r->a0 + (uint32_t)r->ax * (uint32_t)px + (uint32_t)r->ay * (uint32_t)py);
-    return (int32_t)((uint32_t)(gn_mul_high(z, a) >> down) + (uint32_t)r->d_q16);
+    const gn_screen_plane *p = &l->plane;
+    int32_t w = gn_max32(p->w.at + p->w.dx * (x - p->x) + p->w.dy * (y - p->y), 1 << 10), clz = gn_clz32((uint32_t)w);
+    uint32_t z = gn_umul_high(s->depth_scale.mant, gn_recip_norm((uint32_t)w << clz, GN_K(frame, newton_steps)));
+    int32_t shift = p->z_shift - clz;
+    if (shift < 1) return s->z_max_q16;
+    z = shift > 31 ? 0 : ((z >> (shift - 1)) + 1) >> 1;
+    return gn_max32(1, gn_min32((int32_t)(z & INT32_MAX), s->z_max_q16));
+}
+
+GN_HOT int32_t gn_corner_depth(const gn_lattice *l, const gn_frame *frame, const gn_surface *s, int32_t x, int32_t y)
+{
+    return plane_depth(l, frame, s, x, y);
 }
 
 GN_HOT void gn_corner_uv(const gn_lattice *l, const gn_frame *frame, const gn_surface *s, const gn_light_view *view,
                          int32_t x, int32_t y, const int32_t offset_q16[3], int32_t uv_q16[2])
 {
     int32_t px = 2 * x + 1 - frame->picture.width, py = frame->picture.height - 1 - 2 * y;
-    int32_t z = gn_corner_depth(l, frame, s, x, y), up = gn_clz32((uint32_t)z) - 1;
+    int32_t z = plane_depth(l, frame, s, x, y), up = gn_clz32((uint32_t)z) - 1;
     int32_t down = gn_min32(gn_max32(view->fit.ortho.ray_shift + up - 32, 0), 31);
-    for (int i = 0; i < 2; i++)
-        uv_q16[i] = coord_ortho(&view->fit.ortho.ray[i], px, py, z * (1 << up), down) + offset_q16[i];
+    z *= 1 << up;
+    uv_q16[0] = gn_corner_ortho(&view->fit.ortho.ray[0], px, py, z, down) + offset_q16[0];
+    uv_q16[1] = gn_corner_ortho(&view->fit.ortho.ray[1], px, py, z, down) + offset_q16[1];
 }
 
 GN_HOT static GN_NOINLINE void place_directional(gn_lattice *l, const gn_frame *frame, const gn_surface *s,

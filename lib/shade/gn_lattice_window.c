@@ -93,38 +93,45 @@ GN_HOT static int32_t seen_depth(const gn_lattice *l, const gn_frame *frame, con
     return z < (uint32_t)s->z_min_q16 >> 1 || z >> 1 > (uint32_t)s->z_max_q16 ? 0 : (int32_t)z;
 }
 
-/* Where a directional view sees a flat surface at a pixel: what corners say. Returns 0 if it is not to be told so. */
+/* Where a directional view sees a flat surface at a pixel: what corners say, without its depth if `uv`. Returns 0 if it
+ * is not to be told so. */
 GN_HOT static int see_flat(gn_lattice *l, const gn_frame *frame, const gn_surface *s, uint32_t slot,
-                           const gn_light_view *view, int32_t x, int32_t y, gn_window_place *out)
+                           const gn_light_view *view, int32_t x, int32_t y, int uv, gn_window_place *out)
 {
-    int32_t z = seen_depth(l, frame, s, x, y), at[3], px = 2 * x + 1 - frame->picture.width,
+    int32_t z = seen_depth(l, frame, s, x, y), px = 2 * x + 1 - frame->picture.width,
             py = frame->picture.height - 1 - 2 * y;
     if (z <= 0) return 0;
     int32_t z_up = gn_clz32((uint32_t)z) - 1, down = view->fit.ortho.ray_shift + z_up - 32;
     if (down < 0 || down > 31) return 0;
+    z *= 1 << z_up;
     if (l->offset_view != view) gn_sample_offset(frame, s, slot, view, s->normal_q30[0], l->offset_q16);
     l->offset_view = view;
-    for (int i = 0; i < 3; i++) {
-        const gn_ray_plane *r = &view->fit.ortho.ray[i];
-        int32_t a = (int32_t)((uint32_t)r->a0 + (uint32_t)r->ax * (uint32_t)px + (uint32_t)r->ay * (uint32_t)py);
-        int32_t moved = (int32_t)((uint32_t)(gn_mul_high(z * (1 << z_up), a) >> down) + (uint32_t)r->d_q16);
-        at[i] = gn_sat32((int64_t)moved + l->offset_q16[i]);
-    }
-    out->u_q16 = at[0];
-    out->v_q16 = at[1];
-    int32_t up = 14 - view->tile_log2 - view->depth_log2;
-    if (up < 0) out->depth_q30 = at[2] >> gn_min32(-up, 31);
-    else out->depth_q30 = gn_max32(-(1 << 29) >> up, gn_min32(at[2], ((1 << 30) - 1) >> up)) * (1 << up);
+    const gn_ray_plane *ray = view->fit.ortho.ray;
+    const int32_t *offset = l->offset_q16;
+    int32_t u = gn_corner_ortho(&ray[0], px, py, z, down), v = gn_corner_ortho(&ray[1], px, py, z, down);
+    const uint32_t quarter = 1U << 30; /* where sums may leave 32 bits */
+    if ((((uint32_t)u + quarter) | ((uint32_t)v + quarter) | ((uint32_t)offset[0] + quarter) |
+         ((uint32_t)offset[1] + quarter)) >>
+        31)
+        return 0;
+    out->u_q16 = u + offset[0];
+    out->v_q16 = v + offset[1];
+    if (uv) return 1;
+    int32_t depth = gn_sat32((int64_t)gn_corner_ortho(&ray[2], px, py, z, down) + offset[2]),
+            up = 14 - view->tile_log2 - view->depth_log2;
+    if (up < 0) out->depth_q30 = depth >> gn_min32(-up, 31);
+    else out->depth_q30 = gn_max32(-(1 << 29) >> up, gn_min32(depth, ((1 << 30) - 1) >> up)) * (1 << up);
     return 1;
 }
 
-/* Returns 0 if the surface is not seen at the pixel, or beyond what windows hold. */
+/* Widens the box to a pixel. The place in it is that of the last one that was seen without `uv`. Returns 0 if the
+ * surface is not seen there, or beyond what windows hold. */
 GN_HOT static int see(gn_lattice *l, const gn_frame *frame, const gn_surface *s, uint32_t slot, uint32_t view_idx,
-                      int32_t x, int32_t y, seen_box *box)
+                      int32_t x, int32_t y, int uv, seen_box *box)
 {
     const gn_light_view *view = &frame->view[s->light[slot].state->view_idx + (int32_t)view_idx];
     gn_window_place *place = &box->place;
-    if (view->perspective || !see_flat(l, frame, s, slot, view, x, y, place)) {
+    if (view->perspective || !see_flat(l, frame, s, slot, view, x, y, uv, place)) {
         gn_corner *c = &l->corner;
         if (!gn_corner_locate(l, frame, s, slot, x, y, c) || !gn_corner_place(l, frame, s, c, slot, view_idx)) return 0;
         place->u_q16 = c->light[slot].u_q16;
@@ -147,8 +154,8 @@ GN_HOT static GN_NOINLINE int see_rows(gn_lattice *l, const gn_frame *frame, con
         const gn_run_span *span = &l->span[i];
         int32_t from = gn_max32(span->x, x), to = gn_min32(span->x + span->n_px, x_end);
         if (span->y < l->y || span->y >= l->y + l->n_rows || from >= to) continue;
-        if (!see(l, frame, s, slot, view_idx, from, span->y, box) ||
-            !see(l, frame, s, slot, view_idx, to - 1, span->y, box))
+        if (!see(l, frame, s, slot, view_idx, from, span->y, 1, box) ||
+            !see(l, frame, s, slot, view_idx, to - 1, span->y, 0, box))
             return 0;
         any = 1;
     }
@@ -163,16 +170,24 @@ GN_HOT static void light_up(gn_window *window)
     window->any = window->all = window->doubts = 0;
 }
 
-/* Makes it for columns x .. x_end - 1 of cells; for pixels alone, if `rows`. Returns 0 if that is too much. */
-GN_HOT static int make_window(gn_lattice *l, const gn_frame *frame, const gn_surface *s, uint32_t slot,
-                              uint32_t view_idx, int32_t x, int32_t x_end, int32_t y_end, int rows, gn_window *window)
+/* Of nothing. */
+GN_HOT static seen_box empty_box(void)
 {
-    seen_box box = {{INT32_MAX, INT32_MAX}, {INT32_MIN, INT32_MIN}, {0, 0, 0, 0}};
-    int32_t first[2], n[2], seen = 0;
-    while (seen < 4 && see(l, frame, s, slot, view_idx, seen & 1 ? x_end : x, seen & 2 ? y_end : l->y, &box)) seen++;
-    if (seen < 4) {
-        for (int i = 0; i < 2; i++) box.lo[i] = INT32_MAX, box.hi[i] = INT32_MIN;
-        if (!rows || !see_rows(l, frame, s, slot, view_idx, x, x_end, &box)) return 0;
+    return (seen_box){{INT32_MAX, INT32_MAX}, {INT32_MIN, INT32_MIN}, {0, 0, 0, 0}};
+}
+
+/* Makes it for columns x .. x_end - 1, whose left corners are in `left`, NULL if they are not seen: of cells up to the
+ * corners at x_end and y_end, or of `pixels` before them. Returns 0 if that is too much. */
+GN_HOT static int make_window(gn_lattice *l, const gn_frame *frame, const gn_surface *s, uint32_t slot,
+                              uint32_t view_idx, int32_t x, int32_t x_end, int32_t y_end, int pixels,
+                              const seen_box *left, gn_window *window)
+{
+    seen_box box = left ? *left : empty_box();
+    int32_t first[2], n[2];
+    if (!left || !see(l, frame, s, slot, view_idx, x_end - pixels, l->y, 1, &box) ||
+        !see(l, frame, s, slot, view_idx, x_end - pixels, y_end - pixels, 0, &box)) {
+        if (left) box = empty_box();
+        if (!pixels || !see_rows(l, frame, s, slot, view_idx, x, x_end, &box)) return 0;
     }
     if (gn_beyond_tile(window->view, box.lo[0], box.hi[0], box.lo[1], box.hi[1])) {
         light_up(window);
@@ -193,14 +208,20 @@ GN_HOT gn_window *gn_lattice_window(gn_lattice *l, const gn_frame *frame, const 
 {
     const gn_light_view *view = &frame->view[s->light[slot].state->view_idx + (int32_t)view_idx];
     gn_window *window = &l->window[gn_lattice_window_idx(frame, view)];
-    int32_t log2 = l->size_log2, size = 1 << log2;
+    const int32_t log2 = l->size_log2, size = 1 << log2, pixels = !at;
     if (window->view != view) begin_window(l, frame, s, slot, view, at, window);
     if (window->planar <= 0) return NULL;
     window->w = 0;
-    int32_t rows = (gn_min32(l->n_rows, l->y_end - l->y) + size - 1) >> log2;
+    int32_t y_end = gn_min32(l->y + l->n_rows, l->y_end), rows = (y_end - l->y + size - 1) >> log2;
     int32_t columns = (gn_min32(GN_PART_WIDTH - (x - l->x), l->x_end - x) + size - 1) >> log2;
-    while (columns * rows > (at ? 2 : 0) && /* for one or two cells their own corners tell as much */
-           !make_window(l, frame, s, slot, view_idx, x, x + columns * size, l->y + rows * size, !at, window))
+    const int32_t few = at ? 2 : 0; /* for one or two cells their own corners tell as much */
+    if (!pixels) y_end = l->y + rows * size;
+    seen_box left = empty_box();
+    int seen = columns * rows > few && see(l, frame, s, slot, view_idx, x, l->y, 1, &left) &&
+               see(l, frame, s, slot, view_idx, x, y_end - pixels, 1, &left);
+    while (columns * rows > few && !make_window(l, frame, s, slot, view_idx, x,
+                                                pixels ? gn_min32(x + columns * size, l->x_end) : x + columns * size,
+                                                y_end, pixels, seen ? &left : NULL, window))
         columns = columns > 1 ? (columns + 1) >> 1 : 0;
     window->until_x = x + columns * size;
     return window;

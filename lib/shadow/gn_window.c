@@ -293,38 +293,34 @@ GN_HOT static uint32_t dark_texels(const gn_frame *frame, const window_rows *row
 }
 
 #if GN_FILTER_MAX >= 2
-/* The same of 4 x 4 texels of which some may be in doubt. */
-GN_HOT static inline uint32_t dark_4x4(const gn_frame *frame, const window_rows *rows, int32_t s, int32_t j,
-                                       int32_t depth_q30, uint8_t *dark)
-{
-    const gn_window *window = rows->window;
-    const uint32_t *doubt = &rows->doubt[j - rows->v0];
-    if (GN_SIZE_FIRST || !window->plain || !((doubt[0] | doubt[1] | doubt[2] | doubt[3]) >> s & 15U))
-        return dark_texels(frame, rows, s, j, 4, depth_q30, dark);
-    return gn_kernel_dark_texels16(gn_view_texels(window->view, window->u0 + s, window->v0 + j).d16,
-                                   (size_t)window->view->tile_texels, least_depth(frame, window->view, depth_q30), 4,
-                                   dark);
-}
-
 /* 3x3, positions to 1/32 texel. */
 GN_HOT static void row_3x3(const gn_frame *frame, const window_rows *rows, int32_t u, int32_t v, int32_t depth_q30,
                            const gn_receiver_step *step, int32_t n, uint32_t *out)
 {
-    const uint32_t *first = rows->dark - rows->v0;
-    uint32_t doubts = rows->doubts;
-    u += 1024; /* rounded, not cut */
+    const gn_window *window = rows->window;
+    const uint16_t *texels = window->plain ? gn_view_texels(window->view, window->u0, window->v0).d16 : NULL;
+    const uint32_t *first = rows->dark - rows->v0, pitch = window->view->tile_texels, doubts = rows->doubts;
+    GN_KEEP(first); /* one pointer */
+    u += 1024;      /* rounded, not cut */
     v += 1024;
     for (uint32_t *end = out + n; out < end; out++, u += step->u_q16, v += step->v_q16,
                   depth_q30 = (int32_t)((uint32_t)depth_q30 + (uint32_t)step->depth_q31)) {
-        const uint32_t *row = &first[v >> 16];
+        const uint32_t *row = &first[v >> 16], *doubt = row + (rows->doubt - rows->dark);
         int32_t s = u >> 16;
         uint32_t a = row[0] >> s & 15U, b = row[1] >> s & 15U, c = row[2] >> s & 15U, d = row[3] >> s & 15U;
         *out = 65536;
         if (!(a | b | c | d)) continue;
-        if (doubts >> s & 15U) {
-            uint8_t dark[4];
-            if (!(dark_4x4(frame, rows, s, v >> 16, depth_q30, dark) & 15U)) continue;
-            a = dark[0], b = dark[1], c = dark[2], d = dark[3];
+        if (doubts >> s & 15U && (doubt[0] | doubt[1] | doubt[2] | doubt[3]) >> s & 15U) {
+            uint8_t near[4], dark[4]; /* the one in registers */
+            if (GN_SIZE_FIRST || !texels) {
+                if (!(dark_texels(frame, rows, s, v >> 16, 4, depth_q30, dark) & 15U)) continue;
+                a = dark[0], b = dark[1], c = dark[2], d = dark[3];
+            } else {
+                uint32_t least = least_depth(frame, window->view, depth_q30);
+                if (!(gn_kernel_dark_texels16(texels + (uint32_t)(v >> 16) * pitch + s, pitch, least, 4, near) & 15U))
+                    continue;
+                a = near[0], b = near[1], c = near[2], d = near[3];
+            }
         }
         *out = 0;
         if ((a & b & c & d) == 15U) continue;
