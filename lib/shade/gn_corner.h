@@ -54,10 +54,6 @@ int gn_corner_place_flat(gn_lattice *lattice, const gn_frame *frame, const gn_su
 void gn_corner_uv(const gn_lattice *lattice, const gn_frame *frame, const gn_surface *surface,
                   const gn_light_view *view, int32_t x, int32_t y, const int32_t offset_q16[3], int32_t uv_q16[2]);
 
-/* Texture coordinates at a pixel. Returns 0 where the plane cannot be sampled. */
-int gn_corner_texture(gn_lattice *lattice, const gn_frame *frame, const gn_surface *surface, int32_t x, int32_t y,
-                      int32_t uv_q20[2]);
-
 #if GN_SHADOWS
 /* The same in whichever way there is; once per corner, until another view is asked for. */
 GN_HOT static inline int gn_corner_place(gn_lattice *l, const gn_frame *frame, const gn_surface *s, gn_corner *c,
