@@ -135,9 +135,9 @@ GN_HOT static GN_NOINLINE int inner_keeps(const gn_texture *texture, const gn_te
     if (!pitch || !(texture->flags & GN_TEXTURE_BILINEAR) || !begin_inner(&u, texture, curve, 0, n) ||
         !begin_inner(&v, texture, curve, 1, n))
         return 0;
-    for (int32_t i = 0; i < n; i++) {
+    for (uint32_t bit = 1; bits; bits >>= 1, bit <<= 1) {
         uint32_t at_u = inner_at(&u), at_v = inner_at(&v);
-        if (!(bits >> i & 1U)) continue;
+        if (!(bits & 1U)) continue;
         uint32_t left = (at_u >> 20 & u.mask) * pitch, right = (((at_u >> 20) + 1) & u.mask) * pitch;
         const uint8_t *upper = first + (at_v >> 20 & v.mask) * stride,
                       *lower = first + (((at_v >> 20) + 1) & v.mask) * stride;
@@ -145,7 +145,7 @@ GN_HOT static GN_NOINLINE int inner_keeps(const gn_texture *texture, const gn_te
         uint32_t mixed = a * 257U;
         if (a != b || a != c || a != d)
             mixed = blend(at_u >> 4 & 0xFFFFU, at_v >> 4 & 0xFFFFU, a * 257U, b * 257U, c * 257U, d * 257U);
-        if (gn_alpha_passes(test, i, mixed)) passed |= 1U << i;
+        if (gn_alpha_passes(test, 31 - gn_clz32(bit), mixed)) passed |= bit;
     }
     *kept = passed;
     return 1;

@@ -84,7 +84,7 @@ GN_INLINE uint32_t read_texel(const row_source *s, int kind, const uint8_t *row,
 {
     if (kind == TEXELS_RGBA) return gn_texel_word(row + 4 * x);
     if (IS_565(kind)) return (uint32_t)row[2 * x] | (uint32_t)row[2 * x + 1] << 8;
-    uint32_t index = gn_texel_index(row, x, s->bits_log2);
+    uint32_t index = s->bits_log2 == 3 ? row[x] : gn_texel_index(row, x, s->bits_log2);
     if (kind == TEXELS_PALETTE) return gn_texel_word(s->texture->palette + 4 * index);
     return s->bits_log2 == 2 ? index * 17U : index;
 }

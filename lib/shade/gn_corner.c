@@ -392,20 +392,6 @@ GN_HOT void gn_corner_find(const gn_lattice *l, const gn_frame *frame, const gn_
 #endif
 }
 
-#if GN_TEXTURES
-GN_HOT int gn_corner_texture(gn_lattice *l, const gn_frame *frame, const gn_surface *s, int32_t x, int32_t y,
-                             int32_t uv_q20[2])
-{
-    corner_point p;
-    gn_corner *c = &l->corner;
-    c->x = (int16_t)x;
-    c->y = (int16_t)y;
-    if (!find_point(l, frame, s, c, &p)) return 0;
-    texture_at(s, &p, uv_q20);
-    return 1;
-}
-#endif
-
 #if GN_SHADOWS
 GN_HOT int gn_corner_locate(const gn_lattice *l, const gn_frame *frame, const gn_surface *s, uint32_t slot, int32_t x,
                             int32_t y, gn_corner *c)

@@ -54,10 +54,6 @@ int gn_corner_place_flat(gn_lattice *lattice, const gn_frame *frame, const gn_su
 void gn_corner_uv(const gn_lattice *lattice, const gn_frame *frame, const gn_surface *surface,
                   const gn_light_view *view, int32_t x, int32_t y, const int32_t offset_q16[3], int32_t uv_q16[2]);
 
-/* Texture coordinates at a pixel. Returns 0 where the plane cannot be sampled. */
-int gn_corner_texture(gn_lattice *lattice, const gn_frame *frame, const gn_surface *surface, int32_t x, int32_t y,
-                      int32_t uv_q20[2]);
-
 #if GN_SHADOWS
 /* A coordinate of a point in a directional view, without bias: z, its depth in 31 bits, along the pixel's ray. */
 GN_HOT static inline int32_t gn_corner_ortho(const gn_ray_plane *r, int32_t px, int32_t py, int32_t z, int32_t down)

@@ -29,82 +29,95 @@ GN_HOT static int32_t start_q17(const gn_texture *texture, int axis, int32_t c_q
     return (int32_t)gn_clamp64(c_q20 * size >> 3, -(1 << 30), 1 << 30);
 }
 
-/* Three places down a column, or two: c[1] is not looked at if it does not bend. */
-GN_HOT static void set_column(gn_texture_column *out, int32_t origin_q17, int32_t origin_q20, uint32_t size,
-                              const int32_t c_q20[3], int bends)
+/* By how much of its length the middle of an edge of the cell is beyond half of it, twice: depth's n . ray is linear on
+ * the screen, and so is a coordinate times that. NUMERICS 4.12. */
+GN_HOT static int32_t pull_q30(int32_t w_from, int32_t w_to)
 {
-    int32_t upper = texels_q17(origin_q20, c_q20[0], size);
-    out->from_q17 = origin_q17 + upper;
-    out->down_q17 = texels_q17(c_q20[0], c_q20[2], size);
-    out->bent_q17 = bends ? out->down_q17 - 2 * texels_q17(c_q20[0], c_q20[1], size) : 0;
+    int32_t more = w_to - w_from;
+    int32_t pull = (int32_t)gn_quotient_q30(gn_abs32(more), (uint32_t)w_from + (uint32_t)w_to); /* sum: < 2^31 */
+    return more < 0 ? -pull : pull;
 }
 
-/* Whether column i and row k of three has its place within 2^5 texels of where lines between the corners have it, as
- * all have that bend as they should: those of a coordinate that goes round thousands of times in the cell have not. */
-GN_HOT static int is_between(const gn_texture *texture, const int32_t uv_q20[2], gn_corner *const corner[4], int i,
-                             int k)
-{
-    for (int axis = 0; axis < 2; axis++) {
-        const int32_t first_q20 = corner[0]->uv_q20[axis];
-        int64_t off = 4 * (int64_t)change_q20(first_q20, uv_q20[axis]);
-        for (int n = 0; n < 4; n++)
-            off -= change_q20(first_q20, corner[((i + (n & 1)) >> 1) + ((k + (n >> 1)) & 2)]->uv_q20[axis]);
-        if (gn_abs64(off) * gn_texture_size(texture, axis) >> 27) return 0;
-    }
-    return 1;
-}
-
-/* u, v of column i and row k of three each: the corners', or exact ones. Returns 0 where the plane cannot be sampled.
- */
-GN_HOT static GN_NOINLINE int find_texture_places(gn_shading *s, const gn_texture *texture, int32_t x, int32_t y,
-                                                  int32_t size, gn_corner *const corner[4], int32_t bends,
-                                                  int32_t uv_q20[3][3][2])
-{
-    for (int i = 0; i < 3; i++)
-        for (int k = 0; k < 3; k++) {
-            int in_row = i == 1, in_column = k == 1;
-            if ((in_row && !(bends & 1)) || (in_column && !(bends & 2))) continue;
-            if (in_row || in_column) {
-                if (!gn_corner_texture(&s->lattice, s->frame, &s->surface, x + i * (size >> 1), y + k * (size >> 1),
-                                       uv_q20[i][k]) ||
-                    !is_between(texture, uv_q20[i][k], corner, i, k))
-                    return 0;
-                continue;
-            }
-            for (int axis = 0; axis < 2; axis++) uv_q20[i][k][axis] = corner[(i >> 1) + k]->uv_q20[axis];
-        }
-    return 1;
-}
-
-GN_HOT void gn_lattice_texture_begin(gn_shading *s, const gn_texture *texture, int32_t x, int32_t y, int32_t size_log2,
-                                     gn_corner *const corner[4], gn_texture_patch *out)
-{
-    int32_t uv_q20[3][3][2], bends = s->lattice.look.texture_bends;
-    if (!find_texture_places(s, texture, x, y, 1 << size_log2, corner, bends, uv_q20)) {
-        bends = 0; /* rounding keeps a place between two that are sampled from being so itself */
-        find_texture_places(s, texture, x, y, 1 << size_log2, corner, bends, uv_q20);
-    }
-    out->bends_rows = bends & 1;
-    for (int axis = 0; axis < 2; axis++) {
-        int32_t origin = start_q17(texture, axis, uv_q20[0][0][axis]);
-        for (int i = 0; i < 3; i += bends & 1 ? 1 : 2) {
-            const int32_t c[3] = {uv_q20[i][0][axis], uv_q20[i][1][axis], uv_q20[i][2][axis]};
-            set_column(&out->column[axis][i], origin, uv_q20[0][0][axis], gn_texture_size(texture, axis), c, bends & 2);
-        }
-    }
-}
-
-/* A row of the cell, and in it the pixel that its line begins at. */
+/* The same of the upper and lower row, and of the left, right and middle column; of those that do not bend, 0. */
 typedef struct {
-    int32_t t, bend; /* rows from the first; t (t - size) */
-    int32_t k, k2;   /* pixels from the first; k (k - 1) */
-    int32_t size_log2;
-} texture_place;
+    int32_t row_q30[2], column_q30[3];
+} cell_pulls;
 
-/* 2^27 * 15, 2^24 * 64 */
-GN_INLINE int32_t column_at(const gn_texture_column *c, const texture_place *at)
+GN_HOT static void find_pulls(const gn_screen_plane *plane, int32_t x, int32_t y, int32_t size_log2, int32_t bends,
+                              cell_pulls *out)
 {
-    return c->from_q17 + (c->down_q17 * at->t >> at->size_log2) + (c->bent_q17 * at->bend >> (2 * at->size_log2 - 1));
+    const gn_slope *w = &plane->w;
+    int32_t right = w->dx * (1 << size_log2), down = w->dy * (1 << size_log2),
+            first = w->at + w->dx * (x - plane->x) + w->dy * (y - plane->y), middle = first + (right >> 1);
+    for (int i = 0; i < 2; i++) {
+        int32_t row = first + i * down, column = first + i * right;
+        out->row_q30[i] = bends & 1 ? pull_q30(row, row + right) : 0;
+        out->column_q30[i] = bends & 2 ? pull_q30(column, column + down) : 0;
+    }
+    out->column_q30[2] = bends & 2 ? pull_q30(middle, middle + down) : 0;
+}
+
+/* An edge's way less twice that to its middle; below 2^3 texels where the tolerance holds. */
+GN_HOT static int32_t bend_of(int32_t way_q17, int32_t pull)
+{
+    return -(int32_t)(((int64_t)way_q17 * pull + (1 << 29)) >> 30);
+}
+
+/* v 2^up, rounded */
+GN_HOT static int32_t times_power(int32_t v, int32_t up)
+{
+    return up >= 0 ? v * (1 << up) : (v + (1 << (-up - 1))) >> -up;
+}
+
+/* Of a cell's corners, texels from its first one. Sides are below 2^9, so that steps are below 2^29. */
+GN_HOT static void set_axis(gn_texture_axis *out, const int32_t at_q17[4], const cell_pulls *pull, int32_t log2)
+{
+    const int32_t down[2] = {at_q17[2], at_q17[3] - at_q17[1]}, across[2] = {at_q17[1], at_q17[3] - at_q17[2]};
+    int32_t row[2], column[2];
+    for (int i = 0; i < 2; i++) {
+        row[i] = bend_of(across[i], pull->row_q30[i]);
+        column[i] = bend_of(down[i], pull->column_q30[i]);
+    }
+    int32_t middle = bend_of(down[0] + ((across[1] - row[1] - across[0] + row[0]) >> 1), pull->column_q30[2]);
+    out->left.down = times_power(down[0], 4 - log2);
+    out->left.bent = times_power(column[0], 9 - 2 * log2);
+    out->step.from = times_power(across[0], 4 - log2) + 8;
+    out->step.down = times_power(across[1] - across[0], 4 - 2 * log2);
+    out->step.bent = times_power(column[1] - column[0], 9 - 3 * log2);
+    out->bend.from = times_power(row[0], 9 - 2 * log2) + 128;
+    out->bend.down = times_power(row[1] - row[0], 9 - 3 * log2);
+    out->bend.bent = times_power(column[0] + column[1] - 2 * middle, 10 - 4 * log2);
+}
+
+GN_HOT void gn_lattice_texture_begin(const gn_lattice *l, const gn_texture *texture, int32_t x, int32_t y,
+                                     int32_t size_log2, gn_corner *const corner[4], gn_texture_patch *out)
+{
+    cell_pulls pull;
+    find_pulls(&l->plane, x, y, size_log2, l->look.texture_bends, &pull);
+    for (int axis = 0; axis < 2; axis++) {
+        const int32_t first = corner[0]->uv_q20[axis];
+        const uint32_t size = gn_texture_size(texture, axis);
+        int32_t at_q17[4];
+        for (int i = 0; i < 4; i++) at_q17[i] = texels_q17(first, corner[i]->uv_q20[axis], size);
+        out->axis[axis].left.from = start_q17(texture, axis, first);
+        set_axis(&out->axis[axis], at_q17, &pull, size_log2);
+    }
+}
+
+GN_HOT void gn_lattice_texture_line(const gn_texture_patch *patch, const gn_texture *texture, int32_t size_log2,
+                                    int32_t below, int32_t first, gn_texture_line *line)
+{
+    int32_t size = 1 << size_log2, bent = below * (below - size), pairs = first * (first - 1),
+            half_texel = texture->flags & GN_TEXTURE_BILINEAR ? (1 << 16) - (1 << 8) : 0;
+    for (int i = 0; i < 2; i++) {
+        const gn_texture_axis *c = &patch->axis[i];
+        int32_t half = (c->bend.from + c->bend.down * below + c->bend.bent * bent) >> 8,
+                step = ((c->step.from + c->step.down * below + (c->step.bent * bent >> 4)) >> 4) - half * (size - 1);
+        line->at_q17[i] = c->left.from + ((c->left.down * below + (c->left.bent * bent >> 4)) >> 4) - half_texel +
+                          first * step + pairs * half;
+        line->step_q17[i] = step + 2 * half * first;
+        line->step_change_q17[i] = 2 * half;
+    }
 }
 
 /* Colours of the texture in a row, `below` pixels under the cell's first row: of the pixels `bits`, the lowest of which
@@ -113,21 +126,8 @@ GN_HOT static GN_NOINLINE void texture_row(const gn_texture_patch *patch, const 
                                            int32_t below, int32_t first, uint32_t bits, gn_texel_rgb *texel)
 {
     gn_texture_line line;
-    int32_t lowest = 31 - gn_clz32(bits & (0U - bits)), k = first + lowest, size = 1 << size_log2,
-            half_texel = texture->flags & GN_TEXTURE_BILINEAR ? (1 << 16) - (1 << 8) : 0;
-    const texture_place place = {below, below * (below - size), k, k * (k - 1), size_log2};
-    for (int i = 0; i < 2; i++) {
-        const gn_texture_column *c = patch->column[i];
-        int32_t from = column_at(&c[0], &place), across = column_at(&c[2], &place) - from, half = 0;
-        if (patch->bends_rows) {
-            int32_t bent = across - 2 * (column_at(&c[1], &place) - from);
-            half = ((bent >> (2 * size_log2 - 2)) + 1) >> 1;
-        }
-        int32_t step = (across >> size_log2) - half * (size - 1);
-        line.at_q17[i] = from - half_texel + place.k * step + half * place.k2;
-        line.step_q17[i] = step + 2 * half * k;
-        line.step_change_q17[i] = 2 * half;
-    }
+    int32_t lowest = 31 - gn_clz32(bits & (0U - bits));
+    gn_lattice_texture_line(patch, texture, size_log2, below, first + lowest, &line);
     gn_texture_row(texture, &line, bits >> lowest, texel + lowest);
 }
 
@@ -179,7 +179,7 @@ GN_HOT static void begin_glow(gn_shading *s, int32_t x, int32_t y, int32_t size_
         out->glow = &out->glow_level;
     }
 #endif
-    gn_lattice_texture_begin(s, out->glow, x, y, size_log2, corner, &out->glow_uv);
+    gn_lattice_texture_begin(&s->lattice, out->glow, x, y, size_log2, corner, &out->glow_uv);
 }
 #endif
 
@@ -200,7 +200,7 @@ GN_HOT int gn_lattice_textures_begin(gn_shading *s, int32_t x, int32_t y, int32_
     if (last && !pass) find_level_end(s, size_log2, corner, out);
     if (gn_texture_has_levels(out->texture)) begin_level(s, (uint32_t)pass, out);
 #endif
-    gn_lattice_texture_begin(s, out->texture, x, y, size_log2, corner, &out->uv);
+    gn_lattice_texture_begin(&s->lattice, out->texture, x, y, size_log2, corner, &out->uv);
     return 1;
 }
 

@@ -1,4 +1,4 @@
-/* Texture coordinates of a cell: bilinear between its corners, or quadratics through more exact places. */
+/* Texture coordinates of a cell: bilinear between its corners, or quadratics that bend as perspective does. */
 #ifndef GN_LATTICE_TEXTURE_H
 #define GN_LATTICE_TEXTURE_H
 
@@ -8,15 +8,19 @@
 
 #if GN_INTERPOLATES && GN_TEXTURES
 
-/* A coordinate down a column, in texels: from + down t + 2 bent t (t - 1), t = 0 .. 1 over the cell. */
+/* A value down the rows of a cell, t pixels from the first: from + down t + bent t (t - size). */
 typedef struct {
-    int32_t from_q17, down_q17, bent_q17;
+    int32_t from, down, bent;
 } gn_texture_column;
 
-/* u and v in the left, the middle and the right column. */
+/* A coordinate in texels, k pixels from the left column: left + step k + bend k (k - size), as if no value were
+ * rounded. Fraction bits: left 17, 21, 25; step 21, 21, 25, and a half of 2^-17; bend 25, and a half of 2^-17. */
 typedef struct {
-    gn_texture_column column[2][3];
-    int32_t bends_rows;
+    gn_texture_column left, step, bend;
+} gn_texture_axis;
+
+typedef struct {
+    gn_texture_axis axis[2]; /* u, v */
 } gn_texture_patch;
 
 /* The textures of a cell. */
@@ -37,8 +41,12 @@ typedef struct {
 } gn_cell_textures;
 
 /* Of the cell at hand, 2^size_log2 pixels from (x, y) on, with these corners; `texture`: the surface's, or a level. */
-void gn_lattice_texture_begin(gn_shading *shading, const gn_texture *texture, int32_t x, int32_t y, int32_t size_log2,
-                              gn_corner *const corner[4], gn_texture_patch *out);
+void gn_lattice_texture_begin(const gn_lattice *lattice, const gn_texture *texture, int32_t x, int32_t y,
+                              int32_t size_log2, gn_corner *const corner[4], gn_texture_patch *out);
+
+/* A row of it, `below` pixels under the first, from pixel `first` on. */
+void gn_lattice_texture_line(const gn_texture_patch *patch, const gn_texture *texture, int32_t size_log2, int32_t below,
+                             int32_t first, gn_texture_line *line);
 
 /* The same of all textures, pass by pass from 0 on: one per level that the cell shows. Returns 0 beyond the last. */
 int gn_lattice_textures_begin(gn_shading *shading, int32_t x, int32_t y, int32_t size_log2, gn_corner *const corner[4],

@@ -38,15 +38,29 @@ void prove_patch(void)
     }
 }
 
-/* column_at: places in textures of up to 8192 texels, columns 1024 texels long at most, bends below 128 */
-void prove_texture_column(void)
+static void any_column(gn_texture_column *c, int32_t from, int32_t down, int32_t bent)
+{
+    c->from = any_i32(-from, from);
+    c->down = any_i32(-down, down);
+    c->bent = any_i32(-bent, bent);
+}
+
+/* gn_lattice_texture_line: textures of up to 8192 texels, cells of up to 512 each way, bends below 8 */
+void prove_texture_line(void)
 {
     for (int32_t log2 = 1; log2 <= 4; log2++)
         for (int32_t t = 0; t < 1 << log2; t++) {
-            const texture_place at = {t, t * (t - (1 << log2)), 0, 0, log2};
-            const gn_texture_column column = {any_i32(-(1 << 30), (1 << 30) + (1 << 27)), any_i32(-(1 << 27), 1 << 27),
-                                              any_i32(-(1 << 24), 1 << 24)};
-            sink = column_at(&column, &at);
+            static const gn_texture texture;
+            gn_texture_patch patch;
+            gn_texture_line line;
+            for (int i = 0; i < 2; i++) {
+                gn_texture_axis *c = &patch.axis[i];
+                any_column(&c->left, 1 << 30, 1 << (30 - log2), 1 << (29 - 2 * log2));
+                any_column(&c->step, 1 << (30 - log2), 1 << (30 - 2 * log2) << 1, 1 << (30 - 3 * log2));
+                any_column(&c->bend, 1 << (29 - 2 * log2), 1 << (30 - 3 * log2), 1 << (30 - 4 * log2) << 2);
+            }
+            gn_lattice_texture_line(&patch, &texture, log2, t, any_i32(0, (1 << log2) - 1), &line);
+            sink = line.at_q17[0];
         }
 }
 

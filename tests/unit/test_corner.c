@@ -175,40 +175,39 @@ static void check_attributes(const gn_surface *s, const known_point *k, const gn
 
 /* ---- Texture coordinates in a cell ------------------------------------------------------------------------------- */
 
-/* A column's place at the share t of the cell's height, texels from the cell's origin on. */
-static double down_column(const gn_texture_column *c, double t)
-{
-    return ldexp(c->from_q17 + c->down_q17 * t + 2 * c->bent_q17 * t * (t - 1), -17);
-}
-
-/* NUMERICS 4.12: the quadratics, as they are stored, are within the tolerance of the plane's coordinates; and what the
- * corners, or exact places, are off by, of which a quadratic through three takes 5/4 each way; and the rounding of
- * origins, columns and differences to 2^-17. */
+/* NUMERICS 4.12: pixels of rows, as they are stepped, are within the tolerance of the plane's coordinates; and what the
+ * corners are off by, of which a quadratic through three takes 5/4 each way; quotients that bend edges, rounding of the
+ * origin, the corners and the bends, and that of steps. */
 static void check_patch(const gn_surface *s, const plane *p, const gn_lattice *l, const gn_texture_patch *patch, int x,
-                        int y, int size)
+                        int y, int size_log2)
 {
     static const double sides[2] = {512, 48};
+    const int size = 1 << size_log2;
     for (int j = 0; j < size; j += 3)
-        for (int i = 0; i < size; i += 3)
-            for (int axis = 0; axis < 2; axis++) {
-                const double t = (double)i / size, down = (double)j / size;
-                const gn_texture_column *c = patch->column[axis];
-                const double left = down_column(&c[0], down), across = down_column(&c[2], down) - left;
-                const double bent = patch->bends_rows ? across - 2 * (down_column(&c[1], down) - left) : 0;
-                double off, at = 0, corner_off = 0;
-                known_point k;
-                for (int q = 0; q < 5; q++) { /* the corners, then the pixel */
-                    find_known(&k, l, p, x + (q == 4 ? i : (q & 1) * size), y + (q == 4 ? j : (q >> 1) * size));
-                    at = value_at(&k, (double)s->uv.uv_q16[0][axis] * LSB16, (double)s->uv.uv_q16[1][axis] * LSB16,
-                                  (double)s->uv.uv_q16[2][axis] * LSB16, &off);
-                    corner_off = fmax(corner_off, off + ldexp(2, -20));
+        for (int first = 0; first < size; first += 5) {
+            gn_texture_line line;
+            gn_lattice_texture_line(patch, &texture, size_log2, j, first, &line);
+            for (int i = first; i < size; i += 3)
+                for (int axis = 0; axis < 2; axis++) {
+                    double off, at = 0, corner_off = 0;
+                    const int n = i - first;
+                    known_point k;
+                    for (int q = 0; q < 5; q++) { /* the corners, then the pixel */
+                        find_known(&k, l, p, x + (q == 4 ? i : (q & 1) * size), y + (q == 4 ? j : (q >> 1) * size));
+                        at = value_at(&k, (double)s->uv.uv_q16[0][axis] * LSB16, (double)s->uv.uv_q16[1][axis] * LSB16,
+                                      (double)s->uv.uv_q16[2][axis] * LSB16, &off);
+                        corner_off = fmax(corner_off, off + ldexp(2, -20));
+                    }
+                    const double stepped = line.at_q17[axis] + (double)n * line.step_q17[axis] +
+                                           n * (n - 1) / 2.0 * line.step_change_q17[axis];
+                    const double bends = ldexp(8, -17); /* 8 texels at most */
+                    double error = ldexp(stepped, -17) - at * sides[axis];
+                    error -= sides[axis] * floor(error / sides[axis] + 0.5); /* whole turns */
+                    const double bound = ldexp(1, -gn_cell_texture_log2(&renderer.frame)) +
+                                         1.5625 * corner_off * sides[axis] + ldexp(6, -17) + bends + ldexp(2, -12);
+                    record(STAGE_QUADRATIC, fabs(error), bound, ldexp(1, -17));
                 }
-                double error = left + across * t + 2 * bent * t * (t - 1) - at * sides[axis];
-                error -= sides[axis] * floor(error / sides[axis] + 0.5); /* whole turns */
-                const double bound = ldexp(1, -gn_cell_texture_log2(&renderer.frame)) +
-                                     1.5625 * corner_off * sides[axis] + ldexp(6, -17);
-                record(STAGE_QUADRATIC, fabs(error), bound, ldexp(1, -17));
-            }
+        }
 }
 
 static long n_bent_rows, n_bent_columns, n_straight;
@@ -253,8 +252,8 @@ static void check_cell(const gn_lattice *from, const gn_surface *s, const plane 
     n_bent_rows += l->look.texture_bends & 1;
     n_bent_columns += l->look.texture_bends >> 1 & 1;
     n_straight += !l->look.texture_bends;
-    gn_lattice_texture_begin(&c->shading, &texture, x, y, size_log2, c->corners, &patch);
-    check_patch(s, p, l, &patch, x, y, 1 << size_log2);
+    gn_lattice_texture_begin(l, &texture, x, y, size_log2, c->corners, &patch);
+    check_patch(s, p, l, &patch, x, y, size_log2);
 }
 
 /* ---- Light ------------------------------------------------------------------------------------------------------- */
