@@ -132,6 +132,7 @@ GN_HOT static GN_NOINLINE int make_forms(gn_view_forms *out, const gn_screen_pla
     return 1;
 }
 
+#if GN_AUTO_BIAS
 /* Automatic bias of the plane through pixel (x, y), with room for what forms are off. Returns 0 if forms are not to be
  * told so. */
 GN_HOT static GN_NOINLINE int move_by_auto_bias(const gn_lattice *l, const gn_frame *frame, const gn_surface *s,
@@ -159,6 +160,8 @@ GN_HOT static GN_NOINLINE int move_by_auto_bias(const gn_lattice *l, const gn_fr
     return 1;
 }
 
+#endif
+
 GN_HOT static GN_NOINLINE int begin_forms(const gn_lattice *l, const gn_frame *frame, const gn_surface *s,
                                           uint32_t slot, int32_t x, int32_t y, gn_view_forms *out)
 {
@@ -166,9 +169,12 @@ GN_HOT static GN_NOINLINE int begin_forms(const gn_lattice *l, const gn_frame *f
     point_mover move = {s->normal_q30[0], view->fit.persp.lift_q31, 0, 0};
     out->less_q30 = out->in_tile = 0;
     out->z_least = 1 << 22;
-    if (GN_AUTO_BIAS && s->light[slot].state->auto_bias) {
-        if (!move_by_auto_bias(l, frame, s, slot, x, y, out, &move)) return 0;
-    } else if (!l->light[slot].lifts || move.share_q31 == INT32_MAX) return 0;
+#if GN_AUTO_BIAS
+    if (s->light[slot].state->auto_bias)
+        return move_by_auto_bias(l, frame, s, slot, x, y, out, &move) && make_forms(out, &l->plane, frame, s, &move);
+#endif
+    (void)x, (void)y;
+    if (!l->light[slot].lifts || move.share_q31 == INT32_MAX) return 0;
     return make_forms(out, &l->plane, frame, s, &move);
 }
 
