@@ -134,18 +134,17 @@ GN_HOT static GN_NOINLINE int make_forms(gn_view_forms *out, const gn_screen_pla
 
 #if GN_AUTO_BIAS
 /* Automatic bias of the plane through pixel (x, y), with room for what forms are off. Returns 0 if forms are not to be
- * told so. */
-GN_HOT static GN_NOINLINE int move_by_auto_bias(const gn_lattice *l, const gn_frame *frame, const gn_surface *s,
+ * told so. Whoever has the lattice's own corner in use has it at this pixel. */
+GN_HOT static GN_NOINLINE int move_by_auto_bias(gn_lattice *l, const gn_frame *frame, const gn_surface *s,
                                                 uint32_t slot, int32_t x, int32_t y, gn_view_forms *out,
                                                 point_mover *move)
 {
     const gn_light_view *view = out->view;
     const int32_t most_px = l->plane.w_px + l->plane.h_px + 1;
     gn_auto_plane plane = {(gn_auto_bias)s->light[slot].state->auto_bias, 0, 0, 0, 0};
-    gn_corner c;
     int32_t from[3];
-    if (view->filter == GN_FILTER_DISK || !gn_corner_locate(l, frame, s, slot, x, y, &c)) return 0;
-    gn_corner_from(&c, s->light[slot].state, from);
+    if (view->filter == GN_FILTER_DISK || !gn_corner_locate(l, frame, s, slot, x, y, &l->corner)) return 0;
+    gn_corner_from(&l->corner, s->light[slot].state, from);
     plane.reach_q16 = view->offset_q16 + (most_px * view->tile_texels >> 9) + 1;
     plane.step_q32 = view->auto_step + 48 * most_px; /* 3 / 2 of 2^32 / 2^27 */
     gn_bias_auto_plane(view, s->face_q30, from, &plane);
@@ -162,8 +161,8 @@ GN_HOT static GN_NOINLINE int move_by_auto_bias(const gn_lattice *l, const gn_fr
 
 #endif
 
-GN_HOT static GN_NOINLINE int begin_forms(const gn_lattice *l, const gn_frame *frame, const gn_surface *s,
-                                          uint32_t slot, int32_t x, int32_t y, gn_view_forms *out)
+GN_HOT static GN_NOINLINE int begin_forms(gn_lattice *l, const gn_frame *frame, const gn_surface *s, uint32_t slot,
+                                          int32_t x, int32_t y, gn_view_forms *out)
 {
     const gn_light_view *view = out->view;
     point_mover move = {s->normal_q30[0], view->fit.persp.lift_q31, 0, 0};
