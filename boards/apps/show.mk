@@ -7,4 +7,9 @@ undefine FW_SCENE_DIR
 APP_SRC := $(wildcard boards/displays/*.c boards/$(BOARD)/screen/*.c)
 BOARD_EMULATOR += $(SCREEN_DEVICE)
 # TURN=N: N pictures for one turn of the model about its vertical axis
+ifneq ($(TURN),)
+ifneq ($(shell echo '$(TURN)' | grep -c -x '[1-9][0-9]*'),1)
+$(error TURN='$(TURN)' is no number of pictures)
+endif
+endif
 APP_FLAGS += $(if $(TURN),-DSHOW_TURN=$(TURN))

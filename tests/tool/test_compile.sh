@@ -264,9 +264,9 @@ mkdir "$tmp/half" "$tmp/half/scene.c"
 refused 1 "scene.c: Is a directory" docs/scenes/near.gltf -o "$tmp/half" --size 16x12
 [ -z "$(find "$tmp/half" -name '*.new')" ] && pass || fail "a failed write leaves $(ls "$tmp/half" | tr '\n' ' ')"
 # what make says of a board, an app or a scene that is not there
-for wrong in "BOARD=nowhere" "BOARD=mps2-an385 SCENE=$tmp/none.gltf" "BOARD=mps2-an385 APP=none" "BOARD=mps2-an385 APP=stream" "BOARD=mps2-an385 APP=clock"; do
+for wrong in "BOARD=nowhere" "BOARD=mps2-an385 SCENE=$tmp/none.gltf" "BOARD=mps2-an385 APP=none" "BOARD=mps2-an385 APP=stream" "BOARD=mps2-an385 APP=clock" "BOARD=pico APP=show TURN=round"; do
     make -s firmware $wrong >"$tmp/out" 2>"$tmp/err" && fail "make firmware $wrong succeeds" || pass
-    grep -q "There is no board 'nowhere'\|there is no such file\|no app 'none': .* gauge .* stack stream\|APP=stream needs SCENE=FILE\|mps2-an385 has no display" "$tmp/err" && pass || fail "make firmware $wrong: $(head -n 1 "$tmp/err")"
+    grep -q "There is no board 'nowhere'\|there is no such file\|no app 'none': .* gauge .* stack stream\|APP=stream needs SCENE=FILE\|mps2-an385 has no display\|TURN='round' is no number" "$tmp/err" && pass || fail "make firmware $wrong: $(head -n 1 "$tmp/err")"
 done
 # the same again, byte for byte
 "$tool" compile host/scenes/desk.gltf -o "$tmp/again" --frames 0-3 --size 96x64 >"$tmp/log" 2>&1

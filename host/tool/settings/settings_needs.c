@@ -194,8 +194,8 @@ int settings_enforce(const settings *set, scene *s, int width, int height, char 
     for (int i = 0; i < n; i++) {
         int value = settings_feature(set, needs[i].knob);
         if (value >= needs[i].value) continue;
-        snprintf(error, error_bytes, "setting '%s': %d, and %s needs %d", needs[i].knob, value, needs[i].what,
-                 needs[i].value);
+        snprintf(error, error_bytes, "setting '%s': %d, and %s needs %d%s", needs[i].knob, value, needs[i].what,
+                 needs[i].value, set->build.compact ? " (compact is 1)" : "");
         return -1;
     }
     return 0;
