@@ -143,12 +143,13 @@ GN_HOT int64_t gn_bias_auto_place_q16(const gn_light_view *view, int32_t depth_q
 /* Normal: the offset from the plane that the filter radius and the rounding of depths require, as a fraction of the
  * light-plane distance, Q30: A / (1 - A max(0, m_w)), A = radius * tau * (|m_u| + |m_v|) + D_s h / n. Returns -1 where
  * it would be above 2, or the divisor below 1/2. */
-GN_HOT static int64_t lift_share_q30(const gn_light_view *view, const gn_auto_plane *plane, int64_t across_q30,
-                                     int64_t m_w_q30, int64_t h_q16)
+GN_HOT static int64_t lift_share_q30(const gn_light_view *view, const gn_auto_plane *plane, uint32_t across_q30,
+                                     int32_t m_w_q30, int64_t h_q16)
 {
     const int64_t two = (int64_t)2 << 30;
-    int64_t share =
-        gn_bf_apply(plane->reach_q16 * across_q30 >> 16, view->fit.persp.texel_per_z, 0) + 2; /* 2^21 * 2^31 */
+    int64_t share = gn_bf_apply((int64_t)((uint64_t)(uint32_t)plane->reach_q16 * across_q30 >> 16),
+                                view->fit.persp.texel_per_z, 0) +
+                    2;                                                                 /* 2^21 * 2^31 */
     share += gn_bf_apply((h_q16 + 2) * plane->step_q32, view->fit.persp.per_near, -2); /* 2^32 * 2^24; h is rounded */
     if (share > two) return -1;
     if (m_w_q30 <= 0) return share;
@@ -159,29 +160,31 @@ GN_HOT static int64_t lift_share_q30(const gn_light_view *view, const gn_auto_pl
 }
 
 /* Whether depth changes by more than twice the range over a texel, which casters do not: n tau |m_u| > 2 h. */
-GN_HOT static int too_steep(const gn_light_view *view, int64_t m_q30, int64_t h_q16)
+GN_HOT static int too_steep(const gn_light_view *view, uint32_t m_q30, int64_t h_q16)
 {
-    return gn_bf_apply(m_q30 * view->fit.persp.near_q16, view->fit.persp.texel_per_z, -31) > h_q16; /* 2^31 * 2^29 */
+    return gn_bf_apply((int64_t)m_q30 * view->fit.persp.near_q16, view->fit.persp.texel_per_z, -31) >
+           h_q16; /* 2^31 * 2^29 */
 }
 
 /* Depth: radius * (|ds/dU| + |ds/dV|), Q32, with |ds/dU| = n tau |m_u| / h. */
-GN_HOT static int64_t slope_share_q32(const gn_light_view *view, int32_t reach_q16, int64_t across_q30, int64_t h_q16)
+GN_HOT static int64_t slope_share_q32(const gn_light_view *view, int32_t reach_q16, uint32_t across_q30, int64_t h_q16)
 {
     const gn_persp_fit *fit = &view->fit.persp;
     gn_bfloat per_h = gn_bf_mul(gn_bf_recip(gn_bf_from_u64((uint64_t)h_q16 | 1U)), fit->texel_per_z);
-    int64_t reach_q26 = reach_q16 * across_q30 >> 20; /* 2^21 * 2^31 * 2^-20 */
+    int64_t reach_q26 = (int64_t)((uint64_t)(uint32_t)reach_q16 * across_q30 >> 20); /* 2^21 * 2^31 * 2^-20 */
     return gn_clamp64(gn_bf_apply(reach_q26 * fit->near_q16, per_h, 6) + 1, 0, (int64_t)1 << 33); /* 2^32 * 2^29 */
 }
 
 GN_HOT void gn_bias_auto_plane(const gn_light_view *view, const int32_t face_q30[3], const int32_t from_q16[3],
                                gn_auto_plane *plane)
 {
-    int64_t h_q16 = (int64_t)gn_abs64(gn_dot_q30(face_q30, from_q16)), m_q30[3]; /* m . P = -h, behind the face +h */
-    for (int i = 0; i < 3; i++) m_q30[i] = gn_dot_q30(face_q30, view->axis_q30[i]);
-    int64_t u_q30 = (int64_t)gn_abs64(m_q30[0]), v_q30 = (int64_t)gn_abs64(m_q30[1]), across_q30 = u_q30 + v_q30;
+    int64_t h_q16 = (int64_t)gn_abs64(gn_dot_q30(face_q30, from_q16)); /* m . P = -h, behind the face +h */
+    uint32_t u_q30 = gn_abs32((int32_t)gn_dot_q30(face_q30, view->axis_q30[0]));
+    uint32_t v_q30 = gn_abs32((int32_t)gn_dot_q30(face_q30, view->axis_q30[1])), across_q30 = u_q30 + v_q30;
+    int32_t m_w_q30 = (int32_t)gn_dot_q30(face_q30, view->axis_q30[2]);
     plane->less_q32 = 0;
     plane->share_q30 =
-        plane->form == GN_AUTO_BIAS_NORMAL ? lift_share_q30(view, plane, across_q30, m_q30[2], h_q16) : -1;
+        plane->form == GN_AUTO_BIAS_NORMAL ? lift_share_q30(view, plane, across_q30, m_w_q30, h_q16) : -1;
     if (plane->share_q30 >= 0) {
         if (too_steep(view, u_q30 > v_q30 ? u_q30 : v_q30, h_q16)) plane->less_q32 = (int64_t)1 << 33;
         return;

@@ -133,17 +133,15 @@ GN_HOT static GN_NOINLINE int make_forms(gn_view_forms *out, const gn_screen_pla
 }
 
 #if GN_AUTO_BIAS
-/* Automatic bias of the plane through pixel (x, y), with room for what forms are off. Returns 0 if forms are not to be
- * told so. Whoever has the lattice's own corner in use has it at this pixel. */
-GN_HOT static GN_NOINLINE int move_by_auto_bias(gn_lattice *l, const gn_frame *frame, const gn_surface *s,
-                                                uint32_t slot, int32_t x, int32_t y, gn_view_forms *out,
-                                                point_mover *move)
+/* Automatic bias of the plane through the lattice's own corner, with room for what forms are off. Returns 0 if forms
+ * are not to be told so. */
+GN_HOT static GN_NOINLINE int move_by_auto_bias(const gn_lattice *l, const gn_surface *s, uint32_t slot,
+                                                gn_view_forms *out, point_mover *move)
 {
     const gn_light_view *view = out->view;
     const int32_t most_px = l->plane.w_px + l->plane.h_px + 1;
     gn_auto_plane plane = {(gn_auto_bias)s->light[slot].state->auto_bias, 0, 0, 0, 0};
     int32_t from[3];
-    if (view->filter == GN_FILTER_DISK || !gn_corner_locate(l, frame, s, slot, x, y, &l->corner)) return 0;
     gn_corner_from(&l->corner, s->light[slot].state, from);
     plane.reach_q16 = view->offset_q16 + (most_px * view->tile_texels >> 9) + 1;
     plane.step_q32 = view->auto_step + 48 * most_px; /* 3 / 2 of 2^32 / 2^27 */
@@ -161,20 +159,22 @@ GN_HOT static GN_NOINLINE int move_by_auto_bias(gn_lattice *l, const gn_frame *f
 
 #endif
 
-GN_HOT static GN_NOINLINE int begin_forms(gn_lattice *l, const gn_frame *frame, const gn_surface *s, uint32_t slot,
-                                          int32_t x, int32_t y, gn_view_forms *out)
+/* What bias does to the surface as the view of the forms sees it, by what pixel (x, y) says. Returns 0 if forms are not
+ * to be told so. */
+GN_HOT static GN_NOINLINE int find_move(gn_lattice *l, const gn_frame *frame, const gn_surface *s, uint32_t slot,
+                                        int32_t x, int32_t y, gn_view_forms *out, point_mover *move)
 {
     const gn_light_view *view = out->view;
-    point_mover move = {s->normal_q30[0], view->fit.persp.lift_q31, 0, 0};
+    *move = (point_mover){s->normal_q30[0], view->fit.persp.lift_q31, 0, 0};
     out->less_q30 = out->in_tile = 0;
     out->z_least = 1 << 22;
 #if GN_AUTO_BIAS
-    if (s->light[slot].state->auto_bias)
-        return move_by_auto_bias(l, frame, s, slot, x, y, out, &move) && make_forms(out, &l->plane, frame, s, &move);
+    if (s->light[slot].state->auto_bias) /* whoever has the lattice's own corner in use has it at this pixel */
+        return view->filter != GN_FILTER_DISK && gn_corner_locate(l, frame, s, slot, x, y, &l->corner) &&
+               move_by_auto_bias(l, s, slot, out, move);
 #endif
-    (void)x, (void)y;
-    if (!l->light[slot].lifts || move.share_q31 == INT32_MAX) return 0;
-    return make_forms(out, &l->plane, frame, s, &move);
+    (void)frame, (void)x, (void)y;
+    return l->light[slot].lifts && move->share_q31 != INT32_MAX;
 }
 
 /* Those of the view, if need be new ones, by what a pixel says. */
@@ -184,7 +184,9 @@ GN_HOT static inline const gn_view_forms *forms_of(gn_lattice *l, const gn_frame
     gn_view_forms *forms = &l->forms[(uint32_t)(view - frame->view) & (GN_VIEW_FORMS - 1)];
     if (forms->view == view) return forms;
     forms->view = view;
-    if (!begin_forms(l, frame, s, slot, x, y, forms)) forms->near_up = INT32_MAX;
+    point_mover move;
+    if (!find_move(l, frame, s, slot, x, y, forms, &move) || !make_forms(forms, &l->plane, frame, s, &move))
+        forms->near_up = INT32_MAX;
     return forms;
 }
 
