@@ -60,7 +60,7 @@ GN_HOT static int find_shares(const gn_lattice_cell *cell, uint32_t slot, gn_con
     const gn_light_state *light = cell->s->light[slot].state;
     int realtime = 0, masks = 0, ends = 0;
     const gn_lattice_light *near = &cell->lattice->light[slot];
-    if (cell->near && !near->masked) {
+    if (cell->near > 0 && !near->masked) {
         for (int i = 0; i < 4; i++) {
             out->dark_uq16[i] = near->dark_uq16;
             out->more_uq16[i] = near->lit_uq16 - near->dark_uq16;
@@ -157,7 +157,7 @@ GN_HOT static int add_light(gn_lattice_cell *cell, uint32_t slot)
     int faint = is_faint(cell, strongest_of(colour), most);
     int realtime = find_shares(cell, slot, light),
         shadow = realtime > 0 && !faint ? gn_cell_shadow(cell, slot, light) : GN_CELL_LIT;
-    if (realtime < 0 || shadow == GN_CELL_SPLIT) return 0;
+    if (realtime < 0 || shadow == GN_CELL_SPLIT || (shadow != GN_CELL_LIT && cell->near < 0)) return 0;
     if (shadow != GN_CELL_DARK && !faint) {
         uint32_t kink, strongest = strongest_of(colour);
         uint32_t error = gn_cell_unevenness_q24(cell, slot, least, most, &kink);
@@ -227,14 +227,28 @@ GN_HOT static int is_even(const gn_lattice_cell *cell)
     return error << gn_cell_light_log2(cell->frame) <= (uint64_t)(gn_max32(least, 0) + (1 << 19)) << more_log2;
 }
 
+/* 1: shadows do not fade in the cell; -1: they begin or end to, and change by more than 1/32: no bilinear function is
+ * near; 0: on a ramp. */
+GN_HOT static int fading_of(gn_corner *const corner[4])
+{
+    uint32_t least = 65536, most = 0;
+    for (int i = 0; i < 4; i++) {
+        uint32_t g = corner[i]->g_uq16;
+        least = g < least ? g : least;
+        most = g > most ? g : most;
+    }
+    if (least == 65536) return 1;
+    return (!least || most == 65536) && most - least > 65536 >> 5 ? -1 : 0;
+}
+
 /* Returns 0 if the cell is too steep or its textures too uneven. */
 GN_HOT static int begin_look(gn_lattice *lattice, const gn_frame *frame, const gn_surface *surface,
                              gn_corner *const corner[4], int32_t size_log2, gn_wanted_window *ask)
 {
     gn_lattice_look *look = &lattice->look;
     gn_lattice_cell *cell = &lattice->by.look.cell;
-    uint32_t g = corner[0]->g_uq16 & corner[1]->g_uq16 & corner[2]->g_uq16 & corner[3]->g_uq16; /* at most 65536 */
-    *cell = (gn_lattice_cell){lattice, frame, surface, corner, size_log2, {0, 0}, g == 65536, 0, 0, 0, look, ask};
+    *cell =
+        (gn_lattice_cell){lattice, frame, surface, corner, size_log2, {0, 0}, fading_of(corner), 0, 0, 0, look, ask};
     if (!gn_cell_find_bend(cell) || !gn_cell_textures_hold(cell) || !gn_cell_masks_hold(cell)) return 0;
     look->n_edges = 0;
     look->spacing_log2 = size_log2;

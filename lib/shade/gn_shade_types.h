@@ -280,7 +280,7 @@ typedef struct {
     gn_corner *const *corner;
     int32_t size_log2;
     uint32_t bend_q16[2]; /* by how much view depths differ along and across rows, as a share of the least */
-    int near;             /* no shadow fades at any corner */
+    int near;             /* 1: no shadow fades at any corner; -1: one begins or ends to */
     uint64_t sides_q30;   /* of its sides, 0: not known yet */
     uint64_t error_q24;   /* of interpolated light, at most */
     uint64_t kink_q24;    /* the part of it that comes from where a light ends */
