@@ -3,7 +3,9 @@
  *
  * - Both engines choose the same views, texels, sizes and origins.
  * - Every visible receiver is looked up in a tile that covers it, filter and bias included; or nothing casts there.
- * - With the same atlas, shadows are nearer to those of a map with 16 times the texels than stable fits are. */
+ * - With the same atlas, shadows are nearer to those of a map with 16 times the texels than stable fits are.
+ * - In boxes for two frames, all of that holds in both, and tiles of directional lights are the same, but for their
+ *   sides by worth beside spots and points. A frame outside of its boxes is drawn as without them, and counted. */
 #include "../host/tool/engine/engine.h"
 #include "../host/tool/fixed/quantise.h"
 #include "../lib/shadow/gn_texel.h"
@@ -241,6 +243,94 @@ static void check_choices(const fixture *f, const settings *set, const ref_pictu
     quantise_free(&fixed);
 }
 
+/* ---- Boxes for two frames ---------------------------------------------------------------------------------------- */
+
+static long n_boxes, n_outside, n_steady, n_held;
+
+/* Tiles of directional lights in a frame. */
+static int list_views(const fixture *f, const ref_picture *p, ref_light_view *out)
+{
+    int n = 0;
+    for (size_t l = 0; l < p->n_lights; l++)
+        for (int i = 0; f->s.lights[l].kind == SCENE_LIGHT_DIRECTIONAL && i < p->grant[l].n_tiles; i++)
+            out[n++] = p->view[l][i];
+    return n;
+}
+
+static void compare_views(const ref_light_view *a, const ref_light_view *b, int n)
+{
+    for (int i = 0; i < n; i++) {
+        n_held++;
+        n_steady += memcmp(a[i].origin, b[i].origin, sizeof a[i].origin) == 0 && !(fabs(a[i].texel - b[i].texel) > 0) &&
+                    a[i].tile_texels == b[i].tile_texels && a[i].tile_rows == b[i].tile_rows;
+    }
+}
+
+static void draw(engine_picture *out, const fixture *f, const settings *set)
+{
+    char error[200];
+    CHECK_EQ_INT(engine_fixed(out, &f->s, set, WIDTH, HEIGHT, ENGINE_COLOUR_ONLY, error, sizeof error), 0);
+}
+
+/* Boxes that are too small in one direction. */
+static void check_outside(fixture *f, const settings *set)
+{
+    engine_picture outside, without;
+    const int n_fits = f->s.n_fixed_fits;
+    for (int i = 0; i < n_fits; i++) f->s.fixed_fits[i].lo[i % 3] = f->s.fixed_fits[i].hi[i % 3] - 0.01;
+    draw(&outside, f, set);
+    f->s.n_fixed_fits = 0;
+    draw(&without, f, set);
+    CHECK_EQ_INT(without.stats.n_outside_fixed_fit, 0);
+    if (CHECK_EQ_INT(outside.stats.n_outside_fixed_fit, n_fits))
+        CHECK(memcmp(outside.rgb8, without.rgb8, 3 * WIDTH * HEIGHT) == 0);
+    engine_free(&outside);
+    engine_free(&without);
+}
+
+/* The camera takes a step; both frames see the boxes of both. */
+static void check_boxes(fixture *f, const settings *set, const ref_options *options, const ref_options *finer)
+{
+    static engine_fits fits;
+    static ref_light_view views[2][REF_MAX_LIGHTS];
+    const scene_affine at[2] = {f->s.camera.to_world, f->s.camera.to_world};
+    const double step[3] = {random_between(-1, 1), random_between(0, 0.5), random_between(-1, 1)};
+    char error[200];
+    engine_picture p;
+    int n[2];
+    memset(&fits, 0, sizeof fits);
+    for (int i = 0; i < 2; i++) {
+        f->s.camera.to_world = at[i];
+        for (int k = 0; k < 3; k++) f->s.camera.to_world.m[k][3] += i * step[k];
+        CHECK_EQ_INT(engine_fits_add(&fits, &f->s, &f->s, set, WIDTH, HEIGHT, error, sizeof error), 0);
+    }
+    CHECK_EQ_INT(engine_fits_take(&fits, &f->s, error, sizeof error), 0);
+    n_boxes += f->s.n_fixed_fits;
+    for (int i = 1; i >= 0; i--) {
+        f->s.camera.to_world = at[i];
+        for (int k = 0; k < 3; k++) f->s.camera.to_world.m[k][3] += i * step[k];
+        ref_picture compiled = render_with(f, options), fine;
+        check_choices(f, set, &compiled);
+        draw(&p, f, set);
+        n_outside += p.stats.n_outside_fixed_fit;
+        engine_free(&p);
+        n[i] = list_views(f, &compiled, views[i]);
+        scene_fit fit = f->s.shadow.fit;
+        scene_tiles tiles = f->s.shadow.tiles;
+        f->s.shadow.fit = SCENE_FIT_STABLE;
+        f->s.shadow.tiles = SCENE_TILES_EQUAL;
+        fine = render_with(f, finer);
+        f->s.shadow.fit = fit;
+        f->s.shadow.tiles = tiles;
+        check_coverage(f, &compiled, &fine);
+        ref_free(&compiled);
+        ref_free(&fine);
+    }
+    if (n[0] == n[1] && n[0] == f->s.n_fixed_fits) compare_views(views[0], views[1], n[0]);
+    if (n[0] == f->s.n_fixed_fits) check_outside(f, set);
+    f->s.n_fixed_fits = 0;
+}
+
 /* ---- Shadows ----------------------------------------------------------------------------------------------------- */
 
 static long n_off[2]; /* tight, stable */
@@ -261,6 +351,7 @@ static void check_scene(fixture *f)
     finer.atlas_size = finer.other_atlas_size = 512;
     ref_picture tight = render_with(f, &options);
     check_choices(f, &set, &tight);
+    check_boxes(f, &set, &options, &finer);
     f->s.shadow.fit = SCENE_FIT_STABLE;
     f->s.shadow.tiles = SCENE_TILES_EQUAL;
     ref_picture stable = render_with(f, &options), fine = render_with(f, &finer);
@@ -280,6 +371,8 @@ int main(void)
         check_scene(&f);
         end(&f);
     }
+    printf("%ld boxes, %ld times something is outside; %ld of %ld tiles in them are the same in both frames\n", n_boxes,
+           n_outside, n_steady, n_held);
     printf("%ld views, %ld of them unseen, %ld turned, %ld otherwise chosen; %ld lookups, %ld of them where nothing "
            "casts, %ld "
            "from a raised near plane; "
@@ -287,7 +380,8 @@ int main(void)
            n_views, n_unseen, n_turned, n_other_choice, n_looked_up, n_beyond, n_raised, n_flat, n_off[0], n_off[1]);
     CHECK(n_unseen > n_views / 50 && n_turned > n_views / 50 && n_looked_up > 1000L * N_SCENES &&
           n_raised > n_looked_up / 8 && n_beyond > n_looked_up / 50);
-    CHECK(200 * n_other_choice <= n_views);
+    CHECK(200 * n_other_choice <= n_views && 200 * n_outside <= n_boxes);
+    CHECK(n_boxes > N_SCENES && 100 * n_steady >= 99 * n_held);
     CHECK(4 * n_off[0] < 3 * n_off[1]);
     CHECK(n_flat > 10000 && 50 * n_not_flat < n_flat);
     if (check_n_failed) printf("%ld texels are not flattened alike\n", n_not_flat);
