@@ -437,6 +437,8 @@ static void random_shadows(gn_shadow_settings *s, int32_t near_q16)
     }
     s->blend = (gn_blend)(rnd() % 3);
     s->distance_mode = (gn_distance_mode)(rnd() % 2);
+    s->fixed_fits = NULL; /* oracle/test_fit has them */
+    s->n_fixed_fits = 0;
     built_shadows(s, near_q16);
 }
 
