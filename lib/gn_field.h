@@ -46,6 +46,7 @@
     X(GN_FIELD_SHADOW_CASCADE_RATIO, "shadow.cascade_ratio_uq16")                                                      \
     X(GN_FIELD_SHADOW_BLEND, "shadow.blend")                                                                           \
     X(GN_FIELD_SHADOW_DISTANCE_MODE, "shadow.distance_mode")                                                           \
+    X(GN_FIELD_SHADOW_FIXED_FITS, "shadow.fixed_fits")                                                                 \
     X(GN_FIELD_LIGHT_KIND, "light.kind")                                                                               \
     X(GN_FIELD_LIGHT_MODE, "light.mode")                                                                               \
     X(GN_FIELD_LIGHT_DIRECTION, "light.direction")                                                                     \

@@ -174,6 +174,16 @@ typedef enum { GN_DISTANCE_DEPTH, GN_DISTANCE_RADIUS } gn_distance_mode;
 
 #define GN_OBJECT_LIGHTS_MAX 8
 
+/* A box that stands still in the world: a tight tile of a directional light covers it in every frame that sees nothing
+ * outside of it. Along the light's u, v, w from the world's origin, u and v turned by turn / 32 about the light. */
+typedef struct {
+    uint16_t light_idx;
+    uint8_t cascade_idx; /* of a single tile: 0 */
+    uint8_t turn;        /* 0..7 */
+    int32_t lo_q16[3], hi_q16[3];
+    uint32_t worth_px; /* pixels that its tile is worth */
+} gn_fixed_fit;
+
 typedef struct {
     int32_t max_distance_q16;    /* no shadows beyond */
     uint32_t distance_fade_uq16; /* the last part of that distance, 66 (0.001) .. 65536 */
@@ -199,6 +209,8 @@ typedef struct {
                                        ends there */
     gn_blend blend;                 /* anything but hard needs GN_BLENDED_CASCADES */
     gn_distance_mode distance_mode;
+    const gn_fixed_fit *fixed_fits; /* or NULL: by `gnomon compile`, for a whole animation; of tight fits alone */
+    uint32_t n_fixed_fits;
 } gn_shadow_settings;
 
 /* Drawing of the caller's into a screen tile: w * h pixels in the picture's format, laid out as they are flushed

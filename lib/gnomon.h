@@ -220,6 +220,9 @@ typedef struct {
     uint32_t n_tiles_drawn;         /* shadow tiles that were drawn, not kept */
     uint32_t n_texels_drawn;        /* of those tiles */
     uint32_t n_casters_culled;      /* objects not drawn into a cascade */
+#if GN_TIGHT_FIT || GN_RUNTIME_KNOBS
+    uint32_t n_outside_fixed_fit; /* views that see more than their fixed box holds: fitted to what they see */
+#endif
 #if GN_GROUPS
     uint32_t n_tile_triangles; /* with triangle_groups: of the screen tile that has most */
 #endif

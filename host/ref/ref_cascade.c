@@ -111,28 +111,10 @@ static void fit_grid(ref_light_view *view, double near_offset, bool unsnapped)
 #define BACK      4.0 /* texels of the range before and behind what is seen */
 
 typedef struct {
-    double lo[3], hi[3];           /* from the camera, along the light's axes */
-    double cast_lo[2], cast_hi[2]; /* the same of casters */
-    double first[2];               /* texels from the camera: where the tile begins at the latest */
-    int side;                      /* of the square whose texels there are */
+    const ref_seen *seen;
+    double first[2]; /* texels from the world's origin: where the tile begins at the latest */
+    int side;        /* of the square whose texels there are */
 } tight_box;
-
-static tight_box make_box(const ref_light_view *view, const ref_seen *seen, vec3 camera, int side)
-{
-    tight_box box = {.side = side};
-    for (int k = 0; k < 3; k++) {
-        const double r = view->sphere_radius;
-        const double centre = vec3_dot(vec3_sub(vec3_load(view->sphere_centre), camera), vec3_load(view->axis[k]));
-        const double lo = clamp(seen->lo[k], centre - r, centre + r), hi = clamp(seen->hi[k], centre - r, centre + r);
-        const double lacks = k < 2 ? fmax(0.0, r / 4.0 - (hi - lo)) : 0.0;
-        box.lo[k] = lo - lacks / 2.0;
-        box.hi[k] = hi + lacks / 2.0;
-        if (k == 2) break;
-        box.cast_lo[k] = seen->cast_lo[k] - lacks / 2.0;
-        box.cast_hi[k] = seen->cast_hi[k] + lacks / 2.0;
-    }
-    return box;
-}
 
 /* (k_f + 1)(1 + nu), nu of a tile of so many texels. */
 static double lateral_texels(ref_light_view *view, const scene_light *light, const ref_options *options, double texels)
@@ -164,8 +146,9 @@ static double pull_of(const ref_light_view *view, const scene_light *light)
 /* Sizes with view->texel; whether they fit. */
 static bool sizes_fit(ref_light_view *view, tight_box *box, const scene_light *light, const ref_options *options)
 {
+    const ref_seen *seen = box->seen;
     const double before = lateral_texels(view, light, options, box->side) + BACK;
-    const double deep = (box->hi[2] - box->lo[2]) / view->texel + 2.0 * before + pull_of(view, light) - 1.0 / 64.0;
+    const double deep = (seen->hi[2] - seen->lo[2]) / view->texel + 2.0 * before + pull_of(view, light) - 1.0 / 64.0;
     double size[2];
     view->depth_range = RANGE_MIN;
     while (view->depth_range <= RANGE_MAX && view->depth_range * 63.0 / 64.0 < deep) view->depth_range *= 2.0;
@@ -173,8 +156,8 @@ static bool sizes_fit(ref_light_view *view, tight_box *box, const scene_light *l
     const double margin = lateral_texels(view, light, options, fmax(box->side, view->depth_range / 2.0));
     const double reach = light->bias_caster + (view->filter == SCENE_FILTER_HARD ? 0.0 : view->filter_index + 1.0);
     for (int k = 0; k < 2; k++) {
-        const double last = fmin(box->hi[k] / view->texel + margin, box->cast_hi[k] / view->texel + reach);
-        box->first[k] = fmax(box->lo[k] / view->texel - margin, box->cast_lo[k] / view->texel - reach);
+        const double last = fmin(seen->hi[k] / view->texel + margin, seen->cast_hi[k] / view->texel + reach);
+        box->first[k] = fmax(seen->lo[k] / view->texel - margin, seen->cast_lo[k] / view->texel - reach);
         size[k] = 8.0 * ceil((fmax(0.0, last - box->first[k]) + 1.5 - 1.0 / 64.0) / 8.0);
     }
     if (size[0] > 1024.0 || size[1] > 1024.0 || size[0] * size[1] > (double)box->side * box->side) return false;
@@ -188,21 +171,18 @@ static int disk_index(const ref_light_view *view, double width)
     return ref_filter_index(view->filter, width / view->texel);
 }
 
-static void place_box(ref_light_view *view, const tight_box *box, const scene_light *light, vec3 camera,
-                      const ref_options *options)
+static void place_box(ref_light_view *view, const tight_box *box, const scene_light *light, const ref_options *options)
 {
-    double at[3];
-    for (int k = 0; k < 3; k++) at[k] = vec3_dot(camera, vec3_load(view->axis[k]));
-    for (int k = 0; k < 2; k++) view->origin[k] = floor(at[k] / view->texel + box->first[k] - 0.25);
+    for (int k = 0; k < 2; k++) view->origin[k] = floor(box->first[k] - 0.25);
     ref_light_view square = *view;
-    const double far = (at[2] + box->hi[2]) / view->texel + lateral_texels(&square, light, options, box->side) + BACK;
+    const double far = box->seen->hi[2] / view->texel + lateral_texels(&square, light, options, box->side) + BACK;
     const double step = view->depth_range / 64.0;
     view->origin[2] = ceil(far / step) * step - view->depth_range;
 }
 
 /* What is seen, in a rectangle of at most side^2 texels. False: nothing is, or the square is too small. */
 static bool fit_tight(ref_light_view *view, const ref_seen *seen, const scene_light *light, const scene_shadow *shadow,
-                      vec3 camera, const ref_options *options)
+                      const ref_options *options)
 {
     if (!seen->any) return false;
     const int side = view->tile_texels;
@@ -211,16 +191,16 @@ static bool fit_tight(ref_light_view *view, const ref_seen *seen, const scene_li
     const double least = 2.0 * lateral_texels(view, light, options, side) + 2.0;
     if (least + 8.0 > side) return false;
     ref_turn_axes(view, seen->turn);
-    tight_box box = make_box(view, seen, camera, side);
+    tight_box box = {.seen = seen, .side = side};
     /* what is seen, alone, takes at least this texel */
-    const double smallest = sqrt((box.hi[0] - box.lo[0]) * (box.hi[1] - box.lo[1])) / side;
+    const double smallest = sqrt((seen->hi[0] - seen->lo[0]) * (seen->hi[1] - seen->lo[1])) / side;
     int step = step_of(smallest);
     do {
         view->texel = texel_of(step++);
         view->filter_index = disk_index(view, width);
     } while (!sizes_fit(view, &box, light, options));
     view->disk_radius = fmin(width / view->texel, view->filter_index);
-    place_box(view, &box, light, camera, options);
+    place_box(view, &box, light, options);
     view->tight = true;
     return true;
 }
@@ -240,8 +220,7 @@ static int fit_directional(ref_light_view *view, const scene *s, const scene_lig
     vec3_store(view->sphere_centre, sphere.centre);
     view->sphere_radius = sphere.radius;
     ref_fit_axes(view, vec3_load(light->direction));
-    if (seen && fit_tight(view, seen, light, &s->shadow,
-                          ref_make_camera(&s->camera, options->width, options->height).position, options)) {
+    if (seen && fit_tight(view, seen, light, &s->shadow, options)) {
         view->active = true;
         return 0;
     }

@@ -44,7 +44,8 @@ typedef struct {
 typedef struct {
     bool any;
     double worth;        /* pixels */
-    double lo[3], hi[3]; /* directional: from the camera, along the view's axes; others: only lo[2], from the light */
+    double lo[3], hi[3]; /* directional: from the world's origin, along the view's axes; others: only lo[2], from the
+                            light */
     double cast_lo[2], cast_hi[2]; /* directional: along u and v, what casters may cover */
     int turn;                      /* of which u and v are turned about the light */
 } ref_seen;

@@ -383,6 +383,15 @@ static gn_field wrong_fade(const gn_shadow_settings *shadow)
     return fade_ok(shadow->cascade_fade_uq16) ? GN_FIELD_NONE : GN_AT(GN_FIELD_SHADOW_CASCADE_FADE);
 }
 
+static gn_status check_fixed_fits(gn_frame *frame, const gn_shadow_settings *shadow)
+{
+    if (!GN_TIGHT_FIT || !shadow->n_fixed_fits) return GN_OK;
+    if (!shadow->fixed_fits) return GN_FAIL_AT(frame, GN_ERR_NULL, 0, GN_FIELD_SHADOW_FIXED_FITS);
+    for (uint32_t i = 0; i < shadow->n_fixed_fits; i++)
+        if (shadow->fixed_fits[i].turn > 7) return GN_FAIL_AT(frame, GN_ERR_SHADOW_MODE, i, GN_FIELD_SHADOW_FIXED_FITS);
+    return GN_OK;
+}
+
 static gn_status check_shadow(gn_frame *frame, const gn_scene *scene)
 {
     const gn_shadow_settings *shadow = &scene->shadow;
@@ -393,7 +402,8 @@ static gn_status check_shadow(gn_frame *frame, const gn_scene *scene)
     if ((wrong = wrong_cascades(shadow)) != GN_FIELD_NONE) return GN_FAIL_AT(frame, GN_ERR_SHADOW_CASCADES, 0, wrong);
     if ((wrong = wrong_filter(shadow)) != GN_FIELD_NONE) return GN_FAIL_AT(frame, GN_ERR_SHADOW_FILTER, 0, wrong);
     if ((wrong = wrong_mode(shadow)) != GN_FIELD_NONE) return GN_FAIL_AT(frame, GN_ERR_SHADOW_MODE, 0, wrong);
-    return GN_FILTER_MAX >= 3 ? GN_OK : check_softness(frame, scene);
+    gn_status status = check_fixed_fits(frame, shadow);
+    return status || GN_FILTER_MAX >= 3 ? status : check_softness(frame, scene);
 }
 
 static gn_field wrong_background(const gn_scene *scene)

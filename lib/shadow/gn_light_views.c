@@ -72,7 +72,7 @@ static void fit_directional(gn_frame *frame, gn_light_view *view, const gn_light
     gn_light_view_axes(view->axis_q30, w);
     if (cascaded) gn_cascade_slice(frame, view->cascade_idx, &near_q16, &far_q16);
 #if GN_TIGHT_FIT
-    if (frame->scene->shadow.fit == GN_FIT_TIGHT && gn_ortho_fit_tight(frame, view, light, near_q16, far_q16)) return;
+    if (frame->scene->shadow.fit == GN_FIT_TIGHT && gn_ortho_fit_tight(frame, view, light)) return;
 #endif
     gn_ortho_fit_view(frame, view, light, near_q16, far_q16);
 }

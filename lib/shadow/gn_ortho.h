@@ -11,7 +11,7 @@ void gn_ortho_fit_view(gn_frame *frame, gn_light_view *view, const gn_light *lig
 #if GN_TIGHT_FIT
 /* Fits it to what is seen, in a rectangle of at most as many texels as its square has. Returns 0 if nothing is seen, or
  * the square is too small for the filter. */
-int gn_ortho_fit_tight(gn_frame *frame, gn_light_view *view, const gn_light *light, int32_t near_q16, int32_t far_q16);
+int gn_ortho_fit_tight(gn_frame *frame, gn_light_view *view, const gn_light *light);
 
 /* Whether the view's tile, of an earlier frame, covers what is seen. */
 int gn_ortho_covers(const gn_frame *frame, gn_light_view *view, const gn_light *light, const gn_view_seen *seen);

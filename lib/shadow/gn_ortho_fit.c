@@ -112,35 +112,12 @@ void gn_ortho_fit_view(gn_frame *frame, gn_light_view *view, const gn_light *lig
 #define RANGE_LOG2_MAX 16        /* so that a texel is a whole number of depth steps */
 #define BACK_Q16       (4 << 16) /* of the range, before and behind what is seen: coordinates' errors and biases */
 
-/* The box that a tight fit covers, from the camera, along the light's axes. */
+/* What a tight fit covers. */
 typedef struct {
-    int64_t lo_q16[3], hi_q16[3], cast_lo_q16[2], cast_hi_q16[2];
+    const gn_view_seen *seen;
     uint32_t side;        /* of the square whose texels there are */
     int64_t first_q16[2]; /* along u and v, where the tile begins at the latest, texels */
 } tight_box;
-
-/* Bounds of what is seen, clamped to the sphere, and at least an eighth of its diameter wide. */
-static void begin_box(const gn_frame *frame, const gn_light_view *view, int32_t near_q16, int32_t far_q16,
-                      tight_box *box)
-{
-    const gn_view_seen *seen = &frame->seen[view - frame->view];
-    gn_bfloat radius;
-    int32_t centre_q16 = gn_cascade_fit_sphere(frame, near_q16, far_q16, &radius);
-    int64_t r_q16 = gn_clamp64(gn_bf_apply(1, radius, 16), 1, (int64_t)1 << 30);
-    for (int k = 0; k < 3; k++) {
-        int64_t centre = gn_shr64(centre_q16 * gn_dot_q30(frame->cam.axis_q30[2], view->axis_q30[k]), 30);
-        int64_t lo = gn_clamp64(seen->lo_q16[k], centre - r_q16, centre + r_q16);
-        int64_t hi = gn_clamp64(seen->hi_q16[k], centre - r_q16, centre + r_q16);
-        int64_t lacks = k < 2 ? r_q16 / 4 - (hi - lo) : 0;
-        if (lacks < 0) lacks = 0;
-        box->lo_q16[k] = lo - lacks / 2;
-        box->hi_q16[k] = hi + lacks - lacks / 2;
-        if (k == 2) break;
-        box->cast_lo_q16[k] = seen->cast_lo_q16[k] - lacks / 2;
-        box->cast_hi_q16[k] = seen->cast_hi_q16[k] + lacks - lacks / 2;
-    }
-    box->side = view->tile_texels;
-}
 
 static int64_t texels_q16(const gn_light_view *view, int64_t units_q16)
 {
@@ -176,17 +153,18 @@ static int64_t reach_q16(const gn_light_view *view, const gn_light *light, int64
 /* Sizes with the view's texel; whether they fit. The range keeps a 64th of itself free, for its origin's steps. */
 static int sizes_fit(const gn_frame *frame, gn_light_view *view, const gn_light *light, tight_box *box)
 {
+    const gn_view_seen *seen = box->seen;
     int64_t rows[2];
     int32_t range_log2 = RANGE_LOG2_MIN, before_q16 = margin_q16(frame, view, light, box->side) + BACK_Q16;
-    int64_t deep = texels_q16(view, box->hi_q16[2] - box->lo_q16[2]) + 2 * (int64_t)before_q16 - 1024 +
+    int64_t deep = texels_q16(view, (int64_t)seen->hi_q16[2] - seen->lo_q16[2]) + 2 * (int64_t)before_q16 - 1024 +
                    (int64_t)pull_texels(view, light) * 65536;
     while (range_log2 <= RANGE_LOG2_MAX && (int64_t)63 << (10 + range_log2) < deep) range_log2++;
     if (range_log2 > RANGE_LOG2_MAX) return 0;
     uint32_t half = 1U << (range_log2 - 1);
     int32_t margin = margin_q16(frame, view, light, box->side > half ? box->side : half);
     for (int k = 0; k < 2; k++) {
-        box->first_q16[k] = reach_q16(view, light, box->lo_q16[k], box->cast_lo_q16[k], margin, -1);
-        int64_t wide = reach_q16(view, light, box->hi_q16[k], box->cast_hi_q16[k], margin, 1) - box->first_q16[k];
+        box->first_q16[k] = reach_q16(view, light, seen->lo_q16[k], seen->cast_lo_q16[k], margin, -1);
+        int64_t wide = reach_q16(view, light, seen->hi_q16[k], seen->cast_hi_q16[k], margin, 1) - box->first_q16[k];
         if (wide < 0) wide = 0; /* nothing there is seen and can be darkened */
         rows[k] = ((wide + 98304 - 1024 + 0x7FFFF) >> 19) * 8;
     }
@@ -213,8 +191,9 @@ static int texel_fits(const gn_frame *frame, gn_light_view *view, const gn_light
 /* The smallest texel that fits: larger ones do, too. What is seen alone takes sqrt(e_u e_v) / side. */
 static void find_texel(const gn_frame *frame, gn_light_view *view, const gn_light *light, tight_box *box)
 {
-    uint64_t area =
-        (uint64_t)(box->hi_q16[0] - box->lo_q16[0]) * (uint64_t)(box->hi_q16[1] - box->lo_q16[1]); /* 2^62 */
+    const gn_view_seen *seen = box->seen;
+    uint64_t area = (uint64_t)((int64_t)seen->hi_q16[0] - seen->lo_q16[0]) *
+                    (uint64_t)((int64_t)seen->hi_q16[1] - seen->lo_q16[1]); /* 2^62 */
     gn_bfloat least = gn_bf_mul(gn_bf_from_u64(gn_isqrt64(area) | 1U), gn_bf_recip(gn_bf_from_u64(box->side)));
     int32_t steps = (int32_t)(least.mant >> 26) - 33, by = 4;
     for (least.exp -= 16; by; by >>= 1)
@@ -229,27 +208,23 @@ static void find_texel(const gn_frame *frame, gn_light_view *view, const gn_ligh
 static void place_box(const gn_frame *frame, gn_light_view *view, const gn_light *light, const tight_box *box)
 {
     int32_t *origin = view->fit.ortho.origin, range_log2 = view->tile_log2 + view->depth_log2;
-    int64_t at[3];
-    for (int k = 0; k < 3; k++) at[k] = gn_light_coord_q16(view, k, frame->cam.eye_q16);
-    for (int k = 0; k < 2; k++)
-        origin[k] = (int32_t)gn_clamp64((at[k] + box->first_q16[k] - 16384) >> 16, -(1 << 30), 1 << 30);
-    int64_t end = at[2] + texels_q16(view, box->hi_q16[2]) + margin_q16(frame, view, light, box->side) + BACK_Q16;
+    for (int k = 0; k < 2; k++) origin[k] = (int32_t)gn_clamp64((box->first_q16[k] - 16384) >> 16, -(1 << 30), 1 << 30);
+    int64_t end = texels_q16(view, box->seen->hi_q16[2]) + margin_q16(frame, view, light, box->side) + BACK_Q16;
     end = -(-end >> (10 + range_log2)) * ((int64_t)1 << (range_log2 - 6));
     origin[2] = (int32_t)gn_clamp64(end, -(1 << 30), 1 << 30) - (1 << range_log2);
 }
 
 /* [D12] */
-int gn_ortho_fit_tight(gn_frame *frame, gn_light_view *view, const gn_light *light, int32_t near_q16, int32_t far_q16)
+int gn_ortho_fit_tight(gn_frame *frame, gn_light_view *view, const gn_light *light)
 {
     const gn_view_seen *seen = &frame->seen[view - frame->view];
-    tight_box box;
+    tight_box box = {seen, view->tile_texels, {0, 0}};
     uint8_t filter_idx = view->filter_idx;
     if (GN_DISK_FILTER && view->filter == GN_FILTER_DISK) view->filter_idx = 1;
     int32_t least_q16 = 2 * margin_q16(frame, view, light, view->tile_texels) + (2 << 16);
     view->filter_idx = filter_idx;
     if (!gn_seen_any(seen) || least_q16 + (8 << 16) > (int32_t)view->tile_texels << 16) return 0;
     gn_seen_turn_axes(view, seen->turn);
-    begin_box(frame, view, near_q16, far_q16, &box);
     find_texel(frame, view, light, &box);
     place_box(frame, view, light, &box);
     view->tight = 1;
@@ -268,7 +243,7 @@ int gn_ortho_covers(const gn_frame *frame, gn_light_view *view, const gn_light *
     if (!gn_seen_any(seen)) return 1;
     if (seen->turn != view->turn) return 0;
     for (int k = 0; k < 3; k++) {
-        int64_t from = gn_light_coord_q16(view, k, frame->cam.eye_q16) - (int64_t)view->fit.ortho.origin[k] * 65536;
+        int64_t from = -(int64_t)view->fit.ortho.origin[k] * 65536;
         int32_t cast_lo = k < 2 ? seen->cast_lo_q16[k] : -(1 << 30), cast_hi = k < 2 ? seen->cast_hi_q16[k] : 1 << 30;
         if (from + reach_q16(view, light, seen->lo_q16[k], cast_lo, margin, -1) < 0) return 0;
         if (from + reach_q16(view, light, seen->hi_q16[k], cast_hi, margin, 1) > size[k] * 65536) return 0;

@@ -244,16 +244,12 @@ static void see_directional(gn_seen_job *job, gn_view_seen *seen)
     for (int k = 0; k < 3; k++) job->below[k] = INT32_MAX, job->above[k] = INT32_MIN;
     for (uint32_t o = 0; o < frame->scene->n_objects; o++) see_object(job, o);
     if (job->along_lo[0] > job->along_hi[0]) return;
-    gn_seen_pick_turn(job, seen);
+    uint32_t u = 2 * gn_seen_pick_turn(job), v = u + 1;
     seen->worth_q16 =
-        pixels_q16(frame, (int64_t)seen->hi_q16[0] - seen->lo_q16[0], (int64_t)seen->hi_q16[1] - seen->lo_q16[1],
+        pixels_q16(frame, (int64_t)job->along_hi[u] - job->along_lo[u], (int64_t)job->along_hi[v] - job->along_lo[v],
                    (int64_t)job->depth_q16[0] + job->depth_q16[1]);
     gn_seen_crop(job);
-    gn_seen_pick_turn(job, seen);
-    for (uint32_t k = 0; k < 2; k++) {
-        seen->cast_lo_q16[k] = job->cast_lo[2 * seen->turn + k];
-        seen->cast_hi_q16[k] = job->cast_hi[2 * seen->turn + k];
-    }
+    gn_seen_take(job, seen, gn_seen_pick_turn(job));
 }
 
 /* ---- Views of spot and point lights ------------------------------------------------------------------------------ */
@@ -369,9 +365,35 @@ static void forget(gn_view_seen *seen)
     seen->worth_q16 = 0;
 }
 
-static void see_light(gn_seen_job *job, gn_view_seen *seen, uint32_t light_idx, const gn_tile_plan *plan)
+static const gn_fixed_fit *fixed_fit(const gn_shadow_settings *shadow, uint32_t light_idx, uint32_t cascade_idx)
 {
-    const gn_frame *frame = job->frame;
+    for (uint32_t i = 0; shadow->fit == GN_FIT_TIGHT && i < shadow->n_fixed_fits; i++) {
+        const gn_fixed_fit *fit = &shadow->fixed_fits[i];
+        if (fit->light_idx == light_idx && fit->cascade_idx == cascade_idx) return fit;
+    }
+    return NULL;
+}
+
+/* What is seen in a cascade, or in a single tile. */
+static void see_cascade(gn_frame *frame, gn_seen_job *job, gn_view_seen *seen, int cascaded, uint32_t idx)
+{
+    int32_t first_q16 = frame->scene->camera.near_q16, last_q16 = frame->scene->shadow.max_distance_q16;
+    int32_t near_q16 = first_q16, far_q16 = last_q16;
+    gn_bfloat radius;
+    if (cascaded) {
+        gn_cascade_slice(frame, idx, &near_q16, &far_q16);
+        cascade_depths(frame, idx, &first_q16, &last_q16);
+    }
+    if (first_q16 >= last_q16) return;
+    job->sphere_q16[0] = gn_cascade_fit_sphere(frame, near_q16, far_q16, &radius);
+    job->sphere_q16[1] = (int32_t)gn_clamp64(gn_bf_apply(1, radius, 16), 1, (int64_t)1 << 30);
+    begin_frustum(job, first_q16, last_q16);
+    see_directional(job, seen);
+}
+
+static void see_light(gn_frame *frame, gn_seen_job *job, gn_view_seen *seen, uint32_t light_idx,
+                      const gn_tile_plan *plan)
+{
     const gn_light *light = &frame->scene->lights[light_idx];
     job->directional = light->kind == GN_LIGHT_DIRECTIONAL;
 #if GN_PUNCTUAL_LIGHTS
@@ -388,12 +410,12 @@ static void see_light(gn_seen_job *job, gn_view_seen *seen, uint32_t light_idx, 
     gn_normalise_q30(w, direction);
     gn_light_view_axes(job->axis_q30, w);
     for (uint32_t i = 0; i < plan->n_tiles; i++) {
-        int32_t first_q16 = frame->scene->camera.near_q16, last_q16 = frame->scene->shadow.max_distance_q16;
         if (plan->cascaded && !frame->cascade[i].radius2_q32) continue;
-        if (plan->cascaded) cascade_depths(frame, i, &first_q16, &last_q16);
-        if (first_q16 >= last_q16) continue;
-        begin_frustum(job, first_q16, last_q16);
-        see_directional(job, &seen[i]);
+        see_cascade(frame, job, &seen[i], plan->cascaded, i);
+        const gn_fixed_fit *fit = fixed_fit(&frame->scene->shadow, light_idx, i);
+        if (!fit || gn_seen_take_fixed(job, &seen[i], fit)) continue;
+        gn_seen_take(job, &seen[i], gn_seen_pick_turn(job));
+        frame->stats.n_outside_fixed_fit++;
     }
 }
 
@@ -403,7 +425,7 @@ void gn_seen_find(gn_frame *frame, gn_seen_job *job, const gn_tile_plan *plan)
     job->frame = frame;
     for (uint32_t l = 0; l < frame->scene->n_lights; l++) {
         for (uint32_t i = 0; i < plan[l].n_tiles; i++) forget(&frame->seen[view_idx + i]);
-        if (plan[l].n_tiles) see_light(job, &frame->seen[view_idx], l, &plan[l]);
+        if (plan[l].n_tiles) see_light(frame, job, &frame->seen[view_idx], l, &plan[l]);
         view_idx += plan[l].n_tiles;
     }
 }

@@ -77,22 +77,67 @@ void gn_seen_box_along(const gn_seen_job *job, int32_t lo[GN_SEEN_DIRECTIONS], i
     }
 }
 
-void gn_seen_pick_turn(const gn_seen_job *job, gn_view_seen *seen)
+uint32_t gn_seen_pick_turn(const gn_seen_job *job)
 {
     const int32_t *lo = job->along_lo, *hi = job->along_hi;
     uint64_t limit = UINT64_MAX;
+    uint32_t best = 0;
     for (uint32_t turn = 0; turn < GN_TURNS; turn++) {
         uint32_t u = 2 * turn, v = u + 1;
         uint64_t area = (uint64_t)((int64_t)hi[u] - lo[u]) * (uint64_t)((int64_t)hi[v] - lo[v]); /* 2^62 */
         if (area >= limit) continue;
         limit = area - (turn ? area >> 6 : 5 * (area >> 4));
-        seen->turn = (uint8_t)turn;
-        for (uint32_t k = 0; k < 3; k++) {
-            uint32_t d = k < 2 ? u + k : GN_SEEN_DIRECTIONS - 1;
-            seen->lo_q16[k] = lo[d];
-            seen->hi_q16[k] = hi[d];
-        }
+        best = turn;
     }
+    return best;
+}
+
+/* A point of the world along u, v and w of a turn. |.| <= sqrt(3) * 2^30 */
+static void along_turn(const gn_seen_job *job, const int32_t p_q16[3], uint32_t turn, int32_t out[3])
+{
+    int32_t at[3], all[GN_SEEN_DIRECTIONS];
+    for (int k = 0; k < 3; k++) at[k] = (int32_t)gn_dot_q30(job->axis_q30[k], p_q16);
+    gn_seen_directions(at, all);
+    for (uint32_t k = 0; k < 3; k++) out[k] = all[k < 2 ? 2 * turn + k : GN_SEEN_DIRECTIONS - 1];
+}
+
+void gn_seen_take(const gn_seen_job *job, gn_view_seen *seen, uint32_t turn)
+{
+    const gn_cam *cam = &job->frame->cam;
+    int32_t centre[3], middle[3], eye[3], r_q16 = job->sphere_q16[1];
+    for (int k = 0; k < 3; k++) centre[k] = (int32_t)gn_shr64((int64_t)job->sphere_q16[0] * cam->axis_q30[2][k], 30);
+    along_turn(job, centre, turn, middle);
+    along_turn(job, cam->eye_q16, turn, eye); /* below 2^30, as positions are within 2^29 */
+    seen->turn = (uint8_t)turn;
+    for (uint32_t k = 0; k < 3; k++) {
+        uint32_t d = k < 2 ? 2 * turn + k : GN_SEEN_DIRECTIONS - 1;
+        int64_t least = (int64_t)middle[k] - r_q16, most = (int64_t)middle[k] + r_q16;
+        int32_t lo = (int32_t)gn_clamp64(job->along_lo[d], least, most),
+                hi = (int32_t)gn_clamp64(job->along_hi[d], least, most);
+        int32_t lacks = k < 2 ? gn_max32(r_q16 / 4 - (hi - lo), 0) : 0, before = eye[k] - lacks / 2;
+        seen->lo_q16[k] = lo + before;
+        seen->hi_q16[k] = hi + before + lacks;
+        if (k == 2) break;
+        seen->cast_lo_q16[k] = job->cast_lo[d] + before;
+        seen->cast_hi_q16[k] = job->cast_hi[d] + before + lacks;
+    }
+}
+
+int gn_seen_take_fixed(const gn_seen_job *job, gn_view_seen *seen, const gn_fixed_fit *fit)
+{
+    int outside = 0;
+    if (gn_seen_any(seen)) gn_seen_take(job, seen, fit->turn);
+    for (int k = 0; k < 3; k++) {
+        outside |= seen->lo_q16[k] < fit->lo_q16[k] || seen->hi_q16[k] > fit->hi_q16[k];
+        seen->lo_q16[k] = fit->lo_q16[k];
+        seen->hi_q16[k] = fit->hi_q16[k];
+        if (k == 2) break;
+        seen->cast_lo_q16[k] = INT32_MIN;
+        seen->cast_hi_q16[k] = INT32_MAX;
+    }
+    seen->turn = fit->turn;
+    if (!outside) seen->worth_q16 = (uint64_t)fit->worth_px << 16;
+    return !outside;
 }
 
 /* ---- Casters ----------------------------------------------------------------------------------------------------- */

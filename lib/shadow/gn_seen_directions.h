@@ -33,7 +33,14 @@ void gn_seen_crop(gn_seen_job *job);
 
 /* The turn with the smallest rectangle, of those within a 64th of it the first. None if that saves less than 5/16:
  * windows of texels are smallest where u is level. */
-void gn_seen_pick_turn(const gn_seen_job *job, gn_view_seen *seen);
+uint32_t gn_seen_pick_turn(const gn_seen_job *job);
+
+/* Bounds along a turn's directions from the world's origin, no more than the sphere's, and along u and v at least an
+ * eighth of its diameter wide. */
+void gn_seen_take(const gn_seen_job *job, gn_view_seen *seen, uint32_t turn);
+
+/* A fixed box in their place. Returns 0 if it does not hold all that is seen: they must be taken then. */
+int gn_seen_take_fixed(const gn_seen_job *job, gn_view_seen *seen, const gn_fixed_fit *fit);
 
 #endif
 

@@ -24,8 +24,8 @@
 /* What the camera sees that a view is looked up for, and of a directional view only where something may cast. */
 typedef struct {
     uint64_t worth_q16;           /* pixels that its tile is worth */
-    int32_t lo_q16[3], hi_q16[3]; /* along the view's axes, from the camera; lo > hi: nothing. Spot and point lights:
-                                     whether anything is seen, and lo[2] its nearest distance into the view */
+    int32_t lo_q16[3], hi_q16[3]; /* along the view's axes, from the world's origin; lo > hi: nothing. Spot and point
+                                     lights: whether anything is seen, and lo[2] its nearest distance into the view */
     int32_t cast_lo_q16[2], cast_hi_q16[2]; /* directional: along u and v, what casters may cover */
     uint16_t side;                          /* of its tile, by worth; 0: none */
     uint8_t turn;                           /* of a directional view's axes about the light */
@@ -42,6 +42,7 @@ typedef struct {
     const gn_object_state *object;
     int32_t axis_q30[3][3];        /* of the light */
     int32_t depth_q16[2];          /* of the part */
+    int32_t sphere_q16[2];         /* of a directional view: depth of the centre, radius */
     int32_t part[8][6];            /* its corners */
     int32_t part_world[8][3];      /* along the world's axes */
     int32_t from[3];               /* middle of the box, along the world's axes */

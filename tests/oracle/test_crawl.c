@@ -1,7 +1,8 @@
 /* [D2] [D12] Edges of static shadows do not crawl. The camera moves and turns by less than a texel per frame over a
  * static scene; points fixed in the world are looked up in each frame's shadow tiles. How many change from lit to
  * shadowed or back, with the grid fixed in the world and without, and where tiles are fitted to what is visible, whose
- * texels change with the camera, though in steps? "--table" prints it. */
+ * texels change with the camera, though in steps? And in boxes that hold what all frames see? "--table" prints it. */
+#include "../host/tool/engine/engine.h"
 #include "../host/tool/fixed/quantise.h"
 #include "../lib/shadow/gn_ortho.h"
 #include "../lib/shadow/gn_texel.h"
@@ -102,6 +103,7 @@ static void see_library(sight *out, const fixture *f, const sight *choice)
     CHECK_EQ_INT(gn_init(&renderer, &picture), GN_OK);
     renderer.frame.knobs = set.quality;
     CHECK_EQ_INT(gn_begin(&renderer, &fixed.scene), GN_OK);
+    CHECK_EQ_INT(gn_get_stats(&renderer)->n_outside_fixed_fit, 0);
     for (uint32_t t = 0; t < gn_shadow_tile_count(&renderer); t++) CHECK_EQ_INT(gn_shadow_tile(&renderer, t), GN_OK);
     const gn_light_view *first = &renderer.frame.view[renderer.frame.light[0].view_idx];
     for (int i = 0; i < N_POINTS; i++) {
@@ -118,7 +120,7 @@ static void see_library(sight *out, const fixture *f, const sight *choice)
 
 /* ---- Flips ------------------------------------------------------------------------------------------------------- */
 
-enum { SNAPPED, UNSNAPPED, LIBRARY, TIGHT, TIGHT_LIBRARY, N_WAYS };
+enum { SNAPPED, UNSNAPPED, LIBRARY, TIGHT, TIGHT_LIBRARY, COMPILED, COMPILED_LIBRARY, N_WAYS };
 
 typedef struct {
     long points, shadowed; /* that stayed in their cascade, over all frames */
@@ -140,6 +142,31 @@ static void count(tally *t, const sight *before, const sight *now)
     }
 }
 
+static void see_tight(sight *now, const fixture *f)
+{
+    ref_picture p = reference(f, false);
+    see(&now[0], &p);
+    ref_free(&p);
+    see_library(&now[1], f, &now[0]);
+}
+
+/* Boxes that hold what all frames see. */
+static void compile_fits(fixture *f, int n_frames)
+{
+    static engine_fits fits;
+    char error[200];
+    settings set;
+    settings_init(&set);
+    settings_preset(&set, SETTINGS_BALANCED);
+    set.quality.atlas_size = ATLAS;
+    for (int frame = 0; frame < n_frames; frame++) {
+        step_camera(f, frame);
+        CHECK_EQ_INT(engine_fits_add(&fits, &f->s, &f->s, &set, WIDTH, HEIGHT, error, sizeof error), 0);
+    }
+    CHECK_EQ_INT(engine_fits_take(&fits, &f->s, error, sizeof error), 0);
+    CHECK_EQ_INT(f->s.n_fixed_fits, f->s.shadow.n_cascades);
+}
+
 static void walk(tally out[N_WAYS], int n_frames)
 {
     static fixture f;
@@ -148,6 +175,8 @@ static void walk(tally out[N_WAYS], int n_frames)
     f.s.shadow.n_cascades = 3;
     f.s.shadow.filter = SCENE_FILTER_HARD;
     scene_default_ratios(&f.s.shadow);
+    compile_fits(&f, n_frames);
+    const int n_fits = f.s.n_fixed_fits;
     for (int frame = 0; frame < n_frames; frame++) {
         sight *now = seen[frame % 2];
         step_camera(&f, frame);
@@ -158,10 +187,10 @@ static void walk(tally out[N_WAYS], int n_frames)
         }
         see_library(&now[LIBRARY], &f, &now[SNAPPED]);
         f.s.shadow.fit = SCENE_FIT_TIGHT;
-        ref_picture p = reference(&f, false);
-        see(&now[TIGHT], &p);
-        ref_free(&p);
-        see_library(&now[TIGHT_LIBRARY], &f, &now[TIGHT]);
+        see_tight(&now[COMPILED], &f);
+        f.s.n_fixed_fits = 0;
+        see_tight(&now[TIGHT], &f);
+        f.s.n_fixed_fits = n_fits;
         f.s.shadow.fit = SCENE_FIT_STABLE;
         for (int way = 0; frame > 0 && way < N_WAYS; way++) count(&out[way], &seen[1 - frame % 2][way], &now[way]);
     }
@@ -170,9 +199,13 @@ static void walk(tally out[N_WAYS], int n_frames)
 
 int main(int argc, char **argv)
 {
-    static const char *const names[N_WAYS] = {
-        "reference, grid fixed in the world", "reference, grid moving with the camera",
-        "library, grid fixed in the world", "reference, tight fit", "library, tight fit"};
+    static const char *const names[N_WAYS] = {"reference, grid fixed in the world",
+                                              "reference, grid moving with the camera",
+                                              "library, grid fixed in the world",
+                                              "reference, tight fit",
+                                              "library, tight fit",
+                                              "reference, compiled fit",
+                                              "library, compiled fit"};
     tally t[N_WAYS] = {{0, 0, 0, 0}};
     const bool table = argc > 1 && strcmp(argv[1], "--table") == 0;
 #if !SLOW_LIBRARY
@@ -188,6 +221,8 @@ int main(int argc, char **argv)
     CHECK(t[UNSNAPPED].flips > 5 * n_frames);
     CHECK_EQ_INT(t[SNAPPED].flips, 0);
     CHECK_EQ_INT(t[LIBRARY].flips, 0);
+    CHECK_EQ_INT(t[COMPILED].flips, 0);
+    CHECK_EQ_INT(t[COMPILED_LIBRARY].flips, 0);
     CHECK(2 * t[TIGHT].flips <= 3 * n_frames);
     CHECK(2 * t[TIGHT_LIBRARY].flips <= 3 * n_frames);
     if (!table) return check_report();

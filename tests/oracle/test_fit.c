@@ -4,7 +4,9 @@
  * - Both engines choose the same views, texels, sizes and origins.
  * - Every shadow is that of tiles of the same texels that go on to all sides, whatever
  *   the bias. (m of MODEL 4 could be less: it saves work.)
- * - With the same atlas, shadows are nearer to those of a map with 16 times the texels than stable fits are. */
+ * - With the same atlas, shadows are nearer to those of a map with 16 times the texels than stable fits are.
+ * - In boxes for two frames, all of that holds in both, and tiles of directional lights are the same, but for their
+ *   sides by worth beside spots and points. A frame outside of its boxes is drawn as without them, and counted. */
 #include "../host/tool/engine/engine.h"
 #include "../host/tool/fixed/quantise.h"
 #include "../host/ref/ref_internal.h"
@@ -242,6 +244,87 @@ static void check_choices(const fixture *f, const settings *set, const ref_pictu
     quantise_free(&fixed);
 }
 
+/* ---- Boxes for two frames ---------------------------------------------------------------------------------------- */
+
+static long n_boxes, n_outside, n_steady, n_held, n_too_small, n_told;
+
+/* Tiles of directional lights in a frame. */
+static int list_views(const fixture *f, const ref_picture *p, ref_light_view *out)
+{
+    int n = 0;
+    for (size_t l = 0; l < p->n_lights; l++)
+        for (int i = 0; f->s.lights[l].kind == SCENE_LIGHT_DIRECTIONAL && i < p->grant[l].n_tiles; i++)
+            out[n++] = p->view[l][i];
+    return n;
+}
+
+static void compare_views(const ref_light_view *a, const ref_light_view *b, int n)
+{
+    for (int i = 0; i < n; i++) {
+        n_held++;
+        n_steady += memcmp(a[i].origin, b[i].origin, sizeof a[i].origin) == 0 && !(fabs(a[i].texel - b[i].texel) > 0) &&
+                    a[i].tile_texels == b[i].tile_texels && a[i].tile_rows == b[i].tile_rows;
+    }
+}
+
+static void draw(engine_picture *out, const fixture *f, const settings *set)
+{
+    char error[200];
+    CHECK_EQ_INT(engine_fixed(out, &f->s, set, WIDTH, HEIGHT, ENGINE_COLOUR_ONLY, error, sizeof error), 0);
+}
+
+/* Boxes that are too small in one direction. */
+static void check_outside(fixture *f, const settings *set)
+{
+    engine_picture outside, without;
+    const int n_fits = f->s.n_fixed_fits;
+    for (int i = 0; i < n_fits; i++) f->s.fixed_fits[i].lo[i % 3] = f->s.fixed_fits[i].hi[i % 3] - 0.01;
+    draw(&outside, f, set);
+    f->s.n_fixed_fits = 0;
+    draw(&without, f, set);
+    CHECK_EQ_INT(without.stats.n_outside_fixed_fit, 0);
+    n_too_small += n_fits;
+    n_told += outside.stats.n_outside_fixed_fit; /* but where nothing is seen */
+    CHECK(memcmp(outside.rgb8, without.rgb8, 3 * WIDTH * HEIGHT) == 0);
+    engine_free(&outside);
+    engine_free(&without);
+}
+
+/* The camera takes a step; both frames see the boxes of both. */
+static void check_boxes(fixture *f, const settings *set, const ref_options *options)
+{
+    static engine_fits fits;
+    static ref_light_view views[2][REF_MAX_LIGHTS];
+    const scene_affine at[2] = {f->s.camera.to_world, f->s.camera.to_world};
+    const double step[3] = {random_between(-1, 1), random_between(0, 0.5), random_between(-1, 1)};
+    char error[200];
+    engine_picture p;
+    int n[2];
+    memset(&fits, 0, sizeof fits);
+    for (int i = 0; i < 2; i++) {
+        f->s.camera.to_world = at[i];
+        for (int k = 0; k < 3; k++) f->s.camera.to_world.m[k][3] += i * step[k];
+        CHECK_EQ_INT(engine_fits_add(&fits, &f->s, &f->s, set, WIDTH, HEIGHT, error, sizeof error), 0);
+    }
+    CHECK_EQ_INT(engine_fits_take(&fits, &f->s, error, sizeof error), 0);
+    n_boxes += f->s.n_fixed_fits;
+    for (int i = 1; i >= 0; i--) {
+        f->s.camera.to_world = at[i];
+        for (int k = 0; k < 3; k++) f->s.camera.to_world.m[k][3] += i * step[k];
+        ref_picture compiled = render_with(f, options);
+        check_choices(f, set, &compiled);
+        draw(&p, f, set);
+        n_outside += p.stats.n_outside_fixed_fit;
+        engine_free(&p);
+        n[i] = list_views(f, &compiled, views[i]);
+        check_coverage(f, options);
+        ref_free(&compiled);
+    }
+    if (n[0] == n[1] && n[0] == f->s.n_fixed_fits) compare_views(views[0], views[1], n[0]);
+    if (n[0] == f->s.n_fixed_fits) check_outside(f, set);
+    f->s.n_fixed_fits = 0;
+}
+
 /* ---- Shadows ----------------------------------------------------------------------------------------------------- */
 
 static long n_off[2]; /* tight, stable */
@@ -263,6 +346,7 @@ static void check_scene(fixture *f)
     ref_picture tight = render_with(f, &options);
     check_choices(f, &set, &tight);
     check_coverage(f, &options);
+    check_boxes(f, &set, &options);
     f->s.shadow.fit = SCENE_FIT_STABLE;
     f->s.shadow.tiles = SCENE_TILES_EQUAL;
     ref_picture stable = render_with(f, &options), fine = render_with(f, &finer);
@@ -289,6 +373,10 @@ int main(void)
     CHECK(n_dark > 100L * N_SCENES && n_beyond > n_dark / 50);
     CHECK_EQ_INT(n_lost, 0);
     CHECK(200 * n_other_choice <= n_views);
+    printf("%ld boxes, %ld times something is outside; %ld of %ld tiles in them are the same in both frames\n", n_boxes,
+           n_outside, n_steady, n_held);
+    CHECK(200 * n_outside <= n_boxes && n_told <= n_too_small && 10 * n_told > 9 * n_too_small);
+    CHECK(n_boxes > N_SCENES && 100 * n_steady >= 99 * n_held);
     CHECK(4 * n_off[0] < 3 * n_off[1]);
     CHECK(n_flat > 10000 && 50 * n_not_flat < n_flat);
     if (check_n_failed) printf("%ld texels are not flattened alike\n", n_not_flat);

@@ -10,7 +10,7 @@
 #include "knobs.h"
 
 enum { RANDOM_VERTICES = 9, RANDOM_TRIANGLES = 14, RANDOM_OBJECTS = 4, RANDOM_MESHES = 2, RANDOM_JOINTS = 5 };
-enum { RANDOM_TEXTURES = 4, RANDOM_MASK_TEXTURES = 2 }; /* mask images are the first ones */
+enum { RANDOM_TEXTURES = 4, RANDOM_MASK_TEXTURES = 2, RANDOM_FITS = 5 }; /* mask images are the first ones */
 enum { RANDOM_TEXELS_LOG2 = 12, RANDOM_LIMIT_Q16 = 8192 << 16 };
 
 typedef struct {
@@ -20,6 +20,7 @@ typedef struct {
     uint16_t rgb[RANDOM_VERTICES * 3], mask_uv[RANDOM_VERTICES * 2], idx[RANDOM_TRIANGLES * 3],
         baked[RANDOM_VERTICES * 3];
     uint8_t mask[RANDOM_VERTICES * 4];
+    gn_fixed_fit fit[RANDOM_FITS];
     uint8_t *texels[RANDOM_TEXTURES], *palette[RANDOM_TEXTURES];
     gn_texture texture[RANDOM_TEXTURES];
     gn_mesh mesh[RANDOM_MESHES];
@@ -398,6 +399,24 @@ static void random_light(random_scene *g, gn_light *l)
     if (one_in(300)) spoil_words(l, 0, sizeof *l);
 }
 
+/* Boxes that hold all that is seen, some of it, or nothing. */
+static void random_fits(random_scene *g)
+{
+    gn_shadow_settings *s = &g->scene.shadow;
+    s->fixed_fits = g->fit;
+    s->n_fixed_fits = one_in(3) ? rnd() % (RANDOM_FITS + 1) : 0;
+    for (uint32_t i = 0; i < s->n_fixed_fits; i++) {
+        gn_fixed_fit *fit = &g->fit[i];
+        *fit = (gn_fixed_fit){
+            .light_idx = rnd() % 4, .cascade_idx = rnd() % 4, .turn = rnd() % 8, .worth_px = rnd() >> rnd() % 32};
+        for (int k = 0; k < 3; k++) {
+            fit->lo_q16[k] = -pick(0, one_in(4) ? 1 << 24 : 1 << 29);
+            fit->hi_q16[k] = pick(0, one_in(4) ? 1 << 24 : 1 << 29);
+        }
+        if (one_in(20)) spoil_words(fit, 0, sizeof *fit);
+    }
+}
+
 static void random_camera(gn_camera *camera)
 {
     random_rotation(&camera->to_world);
@@ -469,6 +488,7 @@ static void random_scene_make(random_scene *g)
     if (one_in(60)) random_bytes(&s->camera, sizeof s->camera);
     s->objects = g->object;
     s->lights = g->light;
+    random_fits(g);
     s->draw_behind = !absent(GN_TILE_DRAWING) && one_in(8) ? draw_nothing : NULL;
     s->draw_over = !absent(GN_TILE_DRAWING) && one_in(8) ? draw_nothing : NULL;
 }

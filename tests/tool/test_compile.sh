@@ -59,6 +59,14 @@ same snake docs/scenes/snake.gltf "1 5 0" "--frames 0-5" --size 96x64 # [R12]
 same mixed host/scenes/mixed.gltf "1 0" "--frames 0-1" --size 96x64 --set preset=tiny
 same compact host/scenes/sundial.gltf "1 0 4" "--frames 0-4" --size 160x120 --set compact=1
 same compact-avenue host/scenes/avenue.gltf 0 "--simplify none" --size 96x64 --set compact=1 --set srgb=0 --set atlas_size=64
+# [D12] boxes for the whole animation; what is open has none
+same cube-fits host/scenes/cube.gltf "9 0 48" "" --size 96x64 --set fit=compiled
+same mixed-fits host/scenes/mixed.gltf "24 0" "--simplify none" --size 96x64 --set preset=tiny --set fit=compiled
+"$tool" compile host/scenes/cube.gltf --open -o "$tmp/open-fits" --size 96x64 --set fit=compiled >/dev/null 2>&1
+for name in cube:1 mixed:2; do
+    grep -q "gn_fixed_fit fixed_fits\[${name#*:}\]" "$tmp/${name%:*}-fits/scene.c" && pass || fail "${name%:*}: there are not ${name#*:} boxes"
+done
+grep -q gn_fixed_fit "$tmp/open-fits/scene.c" && fail "an open scene has boxes" || pass
 grep -q '^#define GN_COMPACT  *1 ' "$tmp/compact/gn_scene_config.h" && ! grep -q GN_COMPACT "$tmp/sundial/gn_scene_config.h" && pass || fail "GN_COMPACT is not where it was set"
 
 # vertices in half the bytes: the tool quantises alike
@@ -99,14 +107,14 @@ takes() {
         nm -S -t d "$tmp/takes.o" | awk '{ size[$4] = $2 + 0 } END { print size["renderer_bytes"], size["state_bytes"] }'
 }
 # to the byte, on targets whose enumerations are words, and on Arm
-for name in sundial desk room mixed-tiny fence avenue-accurate compact; do
+for name in sundial desk room mixed-tiny fence avenue-accurate compact cube-fits; do
     said=$(sed -n 's/^ \* RAM, bytes: gn_renderer \([0-9]*\), scene_state \([0-9]*\); on Arm, .*, \([0-9]*\) and \([0-9]*\)\..*/\1 \2 \3 \4/p' "$tmp/$name/gn_scene_config.h")
     is="$(takes "$name" gcc -m32 -malign-double) $(takes "$name" arm-none-eabi-gcc -mcpu=cortex-m0 -mthumb)"
     if [ -n "$said" ] && [ "$said" = "$is" ]; then pass; else fail "$name: RAM is said to be $said, is $is"; fi
 done
 
 # flash: the scene's data to its alignment, the library's code within a fifth
-for name in sundial room mixed-tiny short compact compact-avenue; do
+for name in sundial room mixed-tiny short compact compact-avenue mixed-fits; do
     arm="arm-none-eabi-gcc -mcpu=cortex-m0 -mthumb -std=c99 -Os -ffreestanding -isystem boards/common/include -Ilib -I$tmp/$name"
     $arm '-DGN_USER_CONFIG="gn_scene_config.h"' -c -o "$tmp/data.o" "$tmp/$name/scene.c" 2>"$tmp/log"
     data=$(arm-none-eabi-size -A "$tmp/data.o" | awk '$1 ~ /^\.rodata/ { n += $2 } END { print n + 0 }')

@@ -149,7 +149,8 @@ typedef enum {
 typedef enum { SCENE_KERNEL_TENT, SCENE_KERNEL_LINEAR } scene_kernel;                      /* F3, F6 */
 typedef enum { SCENE_MIX_NONE, SCENE_MIX_ALWAYS, SCENE_MIX_DISTANCE } scene_mixing;        /* M6 */
 typedef enum { SCENE_TILES_EQUAL, SCENE_TILES_IMPORTANCE, SCENE_TILES_WORTH } scene_tiles; /* A2, A7 */
-typedef enum { SCENE_FIT_STABLE, SCENE_FIT_TIGHT } scene_fit;                              /* D2, D12 */
+/* D2, D12; compiled: tight, in boxes that the tool finds for the whole animation once the scene is loaded. */
+typedef enum { SCENE_FIT_STABLE, SCENE_FIT_TIGHT, SCENE_FIT_COMPILED } scene_fit;
 
 typedef enum { SCENE_BLEND_HARD, SCENE_BLEND_SOFT, SCENE_BLEND_DITHER } scene_blend;
 typedef enum { SCENE_DISTANCE_DEPTH, SCENE_DISTANCE_RADIUS } scene_distance_mode;
@@ -177,6 +178,16 @@ typedef struct {
     scene_blend blend;       /* D7, default hard */
     scene_distance_mode distance_mode; /* D5 or D11, default depth */
 } scene_shadow;
+
+/* A box of a directional view that stands still in the world (D12): along u, v, w of a turn about the light, from the
+ * origin. */
+typedef struct {
+    size_t light_idx;
+    int cascade_idx, turn;
+    double lo[3], hi[3], worth_px;
+} scene_fixed_fit;
+
+enum { SCENE_FIXED_FITS_MAX = 32 };
 
 /* Nodes as the file has them, and the clips that move them: for tools that pose a model themselves. */
 typedef struct {
@@ -241,6 +252,8 @@ typedef struct {
     double background_bottom[3]; /* at its lower edge */
     bool gradient;               /* R11 */
     scene_shadow shadow;
+    scene_fixed_fit fixed_fits[SCENE_FIXED_FITS_MAX];
+    int n_fixed_fits;
     scene_added added; /* what the file lacked */
     scene_stage stage;
     scene_rig *rig;    /* if scene_options.rig requested it, of glTF; else NULL */
@@ -249,6 +262,7 @@ typedef struct {
     size_t n_notes;
     char **notes;        /* one line each: what the file has and Gnomon ignores, and why */
     size_t n_file_notes; /* those of the file; behind them are those of settings */
+    size_t n_ignored;    /* up to here they tell what is ignored, behind what was found */
     size_t n_remarks;    /* notes of the file again: those about what the picture lacks, for every command to say */
     char **remarks;
     size_t n_files; /* that it was read from, the scene file first */

@@ -1,5 +1,5 @@
 /* What the commands share. */
-#include "tool.h"
+#include "fits.h"
 
 #include <math.h>
 #include <stdarg.h>
@@ -85,7 +85,10 @@ int tool_load_with(const tool_options *o, const char *const *sets, int n_sets, s
         scene_free(s);
         return -1;
     }
-    return 0;
+    s->n_ignored = s->n_notes;
+    if (s->shadow.fit != SCENE_FIT_COMPILED || !fits_compile(o, sets, n_sets, s, error, error_bytes)) return 0;
+    scene_free(s);
+    return -1;
 }
 
 int tool_load(const tool_options *o, scene *s, settings *set)

@@ -21,7 +21,6 @@ typedef struct {
 typedef struct {
     const tool_options *options;
     const scene *scene;
-    size_t n_ignored; /* of its notes; the rest are about lights that do not do what they are set to */
     const engine_picture *picture;
     counts counts;
     settings_ram_parts ram[SETTINGS_PRESETS];
@@ -175,6 +174,7 @@ static void print_json(const report *r)
            "\"lights_left_out\": %u, \"clamped_views\": %u, \"casters_culled\": %u",
            demand->shadow_tiles, demand->other_tiles, demand->surface_lights, stats->n_lights_without_room,
            stats->n_lights_left_out, stats->n_reach_clamped, stats->n_casters_culled);
+    printf(", \"fixed_fits\": %d, \"outside_fixed_fit\": %u", s->n_fixed_fits, stats->n_outside_fixed_fit);
     printf(", \"ram_bytes\": {");
     for (int i = 0; i < SETTINGS_PRESETS; i++)
         printf("%s\"%s\": %ld", i ? ", " : "", settings_preset_name[i], r->ram[i].total);
@@ -319,10 +319,11 @@ static void print_text(const report *r)
            stats->n_caster_triangles);
     if (stats->n_lights_left_out) printf("  lights left out of objects' lists: %u\n", stats->n_lights_left_out);
     if (stats->n_reach_clamped) printf("  views whose filter does not fit their tile: %u\n", stats->n_reach_clamped);
+    if (stats->n_outside_fixed_fit) printf("  views that see more than their box: %u\n", stats->n_outside_fixed_fit);
     info_settings_text(s, o);
     text_ram(r);
     info_memory_text(&r->memory);
-    for (size_t i = 0; i < s->n_notes; i++) printf("  %s%s\n", i < r->n_ignored ? "ignored: " : "note: ", s->notes[i]);
+    for (size_t i = 0; i < s->n_notes; i++) printf("  %s%s\n", i < s->n_ignored ? "ignored: " : "note: ", s->notes[i]);
 }
 
 int tool_info(const tool_options *o)
@@ -331,7 +332,6 @@ int tool_info(const tool_options *o)
     scene s;
     settings set, unlimited;
     if (tool_load(o, &s, &set)) return TOOL_FAILED;
-    const size_t n_ignored = s.n_notes;
     unlimited = set;
     unlimited.capacity.max_triangles = unlimited.capacity.max_tile_refs = unlimited.capacity.max_lights = 0;
     unlimited.capacity.surface_lights = unlimited.capacity.max_objects = 0;
@@ -340,7 +340,7 @@ int tool_info(const tool_options *o)
                  remarks_on_shadows(&s, o->width, o->height, error, sizeof error) ||
                  engine_fixed(&p, &s, &unlimited, o->width, o->height, ENGINE_COLOUR_ONLY, error, sizeof error);
     if (!failed) {
-        report r = {.options = o, .scene = &s, .n_ignored = n_ignored, .picture = &p};
+        report r = {.options = o, .scene = &s, .picture = &p};
         count(&s, &r.counts);
         failed = preset_ram(&set, &p.demand, &s, r.ram, error, sizeof error) ||
                  info_memory_find(&r.memory, o, error, sizeof error);

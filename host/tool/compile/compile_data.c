@@ -288,7 +288,33 @@ static const emit_field shadow_fields[] = {EMIT_FIELD(gn_shadow_settings, FIELD_
                                            EMIT_FIELD(gn_shadow_settings, FIELD_U32, cascades_unused),
                                            EMIT_VECTOR(gn_shadow_settings, FIELD_U32, cascade_ratio_uq16, 3),
                                            EMIT_ENUM(gn_shadow_settings, blend, gn_blend),
-                                           EMIT_ENUM(gn_shadow_settings, distance_mode, gn_distance_mode)};
+                                           EMIT_ENUM(gn_shadow_settings, distance_mode, gn_distance_mode),
+                                           EMIT_FIELD(gn_shadow_settings, FIELD_POINTER, fixed_fits),
+                                           EMIT_FIELD(gn_shadow_settings, FIELD_U32, n_fixed_fits)};
+
+static const emit_field fit_fields[] = {
+    EMIT_FIELD(gn_fixed_fit, FIELD_U16, light_idx),  EMIT_FIELD(gn_fixed_fit, FIELD_U8, cascade_idx),
+    EMIT_FIELD(gn_fixed_fit, FIELD_U8, turn),        EMIT_VECTOR(gn_fixed_fit, FIELD_I32, lo_q16, 3),
+    EMIT_VECTOR(gn_fixed_fit, FIELD_I32, hi_q16, 3), EMIT_FIELD(gn_fixed_fit, FIELD_U32, worth_px)};
+
+static void write_fits(FILE *f, const compiled *c)
+{
+    const gn_shadow_settings *s = &c->fixed.scene.shadow;
+    if (!s->n_fixed_fits) return;
+    fprintf(f, "\nstatic const gn_fixed_fit fixed_fits[%" PRIu32 "] = {\n", s->n_fixed_fits);
+    for (uint32_t i = 0; i < s->n_fixed_fits; i++) {
+        write_name(f, c->light_name[s->fixed_fits[i].light_idx]);
+        emit_struct(f, c, fit_fields, EMIT_COUNT(fit_fields), &s->fixed_fits[i], i, NULL);
+        fprintf(f, ",\n");
+    }
+    fprintf(f, "};\n");
+}
+
+static void write_fits_pointer(FILE *f, const compiled *c, const emit_field *field, const void *at, size_t idx)
+{
+    (void)c, (void)field, (void)idx;
+    fprintf(f, "%s", at ? "fixed_fits" : "0");
+}
 
 static void write_vector(FILE *f, const char *name, const uint32_t v[3])
 {
@@ -310,7 +336,7 @@ static void write_scene(FILE *f, const compiled *c)
     fprintf(f, "    F(background_gradient) %" PRIu32 ", F(draw_behind) 0, F(draw_over) 0, F(draw_user) 0,\n",
             s->background_gradient);
     fprintf(f, "    F(shadow)\n");
-    emit_struct(f, c, shadow_fields, EMIT_COUNT(shadow_fields), &s->shadow, 0, NULL);
+    emit_struct(f, c, shadow_fields, EMIT_COUNT(shadow_fields), &s->shadow, 0, write_fits_pointer);
     fprintf(f, "};\n");
 }
 
@@ -332,6 +358,7 @@ void emit_data(FILE *f, const compiled *c)
     write_textures(f, c);
     write_objects(f, c);
     write_lights(f, c);
+    write_fits(f, c);
     write_scene(f, c);
     if (c->symbol) write_cameras(f, c);
 }

@@ -225,9 +225,27 @@ void compile_drop_objects(compiled *c, const bool *gone)
     c->fixed.scene.n_objects = n;
 }
 
+/* Fits of lights that stay, under their new numbers. */
+static void renumber_fits(compiled *c, const bool *gone)
+{
+    gn_shadow_settings *s = &c->fixed.scene.shadow;
+    uint32_t n = 0;
+    for (uint32_t i = 0; i < s->n_fixed_fits; i++) {
+        gn_fixed_fit fit = c->fixed.fixed_fits[i];
+        if (gone[fit.light_idx]) continue;
+        uint16_t before = 0;
+        for (uint32_t l = 0; l < fit.light_idx; l++) before += gone[l];
+        fit.light_idx -= before;
+        c->fixed.fixed_fits[n++] = fit;
+    }
+    s->n_fixed_fits = n;
+    if (!n) s->fixed_fits = NULL;
+}
+
 void compile_drop_lights(compiled *c, const bool *gone)
 {
     uint32_t n = 0;
+    renumber_fits(c, gone);
     renumber_tracks(c, COMPILE_OF_LIGHT, gone);
     for (uint32_t i = 0; i < c->fixed.scene.n_lights; i++) {
         if (gone[i]) continue;

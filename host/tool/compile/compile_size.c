@@ -2,7 +2,7 @@
  */
 #include "rig.h"
 
-enum { MESH_BYTES = 32, TEXTURE_BYTES = 16, CAMERA_BYTES = 68, SKIN_BYTES = 16, JOINT_BYTES = 52 };
+enum { MESH_BYTES = 32, TEXTURE_BYTES = 16, CAMERA_BYTES = 68, SKIN_BYTES = 16, JOINT_BYTES = 52, FIT_BYTES = 32 };
 
 static long padded(long bytes)
 {
@@ -22,7 +22,7 @@ static long light_bytes(bool short_enums)
 
 static long scene_bytes(bool short_enums)
 {
-    return short_enums ? 220 : 240;
+    return short_enums ? 228 : 248;
 }
 
 static long mesh_bytes(const gn_mesh *m, const gn_knobs *knobs)
@@ -49,7 +49,8 @@ long compile_flash_bytes(const compiled *c, bool short_enums)
 {
     const gn_scene *s = &c->fixed.scene;
     long bytes = scene_bytes(short_enums) + (long)s->n_objects * object_bytes(short_enums) +
-                 (long)s->n_lights * light_bytes(short_enums) + CAMERA_BYTES * (long)c->n_cameras;
+                 (long)s->n_lights * light_bytes(short_enums) + CAMERA_BYTES * (long)c->n_cameras +
+                 FIT_BYTES * (long)s->shadow.n_fixed_fits;
     for (size_t i = 0; i < c->fixed.n_meshes; i++) bytes += mesh_bytes(&c->fixed.meshes[i], &c->set.quality);
     for (size_t i = 0; i < c->n_textures; i++)
         bytes += TEXTURE_BYTES + padded((long)quantise_texture_bytes(&c->fixed.textures[i])) +

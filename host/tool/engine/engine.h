@@ -62,6 +62,18 @@ typedef int (*engine_each)(void *user, size_t frame, const uint8_t *rgb8, const 
 int engine_play(const scene *frames, size_t n, const settings *set, int width, int height, engine_each each, void *user,
                 char *error, size_t error_bytes);
 
+/* What directional views see in the frames of an animation, in which a box that stands still holds it all. */
+typedef struct {
+    ref_sight all, frame;
+    bool moves[REF_MAX_LIGHTS]; /* lights that turn: their axes do, too */
+    bool rescaled;              /* frames differ in the library's unit of length */
+} engine_fits;
+/* Zeroed before the first frame, of which all others are the same scene. -1 with one line in error. */
+int engine_fits_add(engine_fits *fits, const scene *first, const scene *s, const settings *set, int width, int height,
+                    char *error, size_t error_bytes);
+/* Gives the scene the boxes, and notes of views that get one or none. -1: out of memory. */
+int engine_fits_take(const engine_fits *fits, scene *s, char *error, size_t error_bytes);
+
 /* What the engines in double precision share: options for a configuration, and their picture after the same
  * quantisation as the library's. Takes the arrays of ref, which is empty afterwards; -1: out of memory. */
 ref_options engine_ref_options(const scene *s, const settings *set, int width, int height);

@@ -242,6 +242,25 @@ static void quantise_shadow(gn_shadow_settings *out, const scene_shadow *shadow,
     out->distance_mode = (gn_distance_mode)shadow->distance_mode;
 }
 
+/* The boxes that the tool found are whole units. */
+static void quantise_fixed_fits(fixed_scene *f, const scene *s)
+{
+    f->scene.shadow.fixed_fits = s->n_fixed_fits ? f->fixed_fits : NULL;
+    f->scene.shadow.n_fixed_fits = (uint32_t)s->n_fixed_fits;
+    for (int i = 0; i < s->n_fixed_fits; i++) {
+        const scene_fixed_fit *fit = &s->fixed_fits[i];
+        gn_fixed_fit *out = &f->fixed_fits[i];
+        out->light_idx = (uint16_t)fit->light_idx;
+        out->cascade_idx = (uint8_t)fit->cascade_idx;
+        out->turn = (uint8_t)fit->turn;
+        out->worth_px = (uint32_t)fixed(fit->worth_px, 0);
+        for (int k = 0; k < 3; k++) {
+            out->lo_q16[k] = (int32_t)fixed(fit->lo[k], 16 + f->world_exp);
+            out->hi_q16[k] = (int32_t)fixed(fit->hi[k], 16 + f->world_exp);
+        }
+    }
+}
+
 static int allocate(fixed_scene *f, const scene *s)
 {
     f->meshes = calloc(s->n_meshes + 1, sizeof *f->meshes);
@@ -249,13 +268,14 @@ static int allocate(fixed_scene *f, const scene *s)
     f->skins = calloc(s->n_objects + 1, sizeof *f->skins);
     f->lights = calloc(s->n_lights + 1, sizeof *f->lights);
     f->textures = calloc(s->n_textures + 1, sizeof *f->textures);
+    f->fixed_fits = calloc((size_t)s->n_fixed_fits + 1, sizeof *f->fixed_fits);
     f->n_meshes = s->n_meshes;
     f->n_textures = s->n_textures;
     f->scene.objects = f->objects;
     f->scene.lights = f->lights;
     f->scene.n_objects = (uint32_t)s->n_objects;
     f->scene.n_lights = (uint32_t)s->n_lights;
-    return f->meshes && f->objects && f->skins && f->lights && f->textures ? 0 : -1;
+    return f->meshes && f->objects && f->skins && f->lights && f->textures && f->fixed_fits ? 0 : -1;
 }
 
 int quantise_scene(fixed_scene *out, const scene *s, char *error, size_t error_bytes)
@@ -284,6 +304,7 @@ int quantise_scene_for(fixed_scene *out, const scene *s, const gn_knobs *knobs, 
         failed = quantise_light(&out->lights[i], &s->lights[i], out->world_exp, error, error_bytes);
     quantise_view(&out->scene, s, out->world_exp);
     quantise_shadow(&out->scene.shadow, &s->shadow, out->world_exp);
+    if (!failed) quantise_fixed_fits(out, s);
     free(plan);
     if (failed) quantise_free(out);
     return failed ? -1 : 0;
@@ -324,6 +345,7 @@ void quantise_free(fixed_scene *f)
     free(f->skins);
     free(f->lights);
     free(f->textures);
+    free(f->fixed_fits);
     memset(f, 0, sizeof *f);
 }
 

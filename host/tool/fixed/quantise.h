@@ -18,6 +18,7 @@ typedef struct {
     gn_light *lights;
     size_t n_textures;
     gn_texture *textures;
+    gn_fixed_fit *fixed_fits;
 } fixed_scene;
 
 /* Texels along u (0) and v (1), bytes of them all and of the palette. */

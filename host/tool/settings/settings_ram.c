@@ -158,7 +158,7 @@ static void put_work(layout *out, const settings *s)
     if (s->quality.transparent_layers) put(&all, 4, 4, 4);                        /* mixture */
     if (s->quality.persp_step > 1) put(&all, 1, lattice_bytes(s), 8);
     pad(&all, all.align);
-    const long casting = casting_bytes(s), clipping = 264, seen = s->feature.punctual_lights ? 1000 : 980;
+    const long casting = casting_bytes(s), clipping = 264, seen = s->feature.punctual_lights ? 1008 : 988;
     long largest = casting > clipping ? casting : clipping;
     if (s->feature.shadows && s->feature.tight_fit && seen > largest) largest = seen;
     put(out, 1, all.size > largest ? all.size : largest, 8);
@@ -202,7 +202,8 @@ settings_ram_parts settings_ram(const settings *s)
     long offset = s->capacity.max_tile_refs > 65535 ? 4 : 2;
     int punctual = s->feature.punctual_lights;
     const long groups = s->quality.triangle_groups;
-    put(&frame, 1, (s->feature.orthographic ? 252 : 244) + (groups ? 4 : 0), 8); /* scene to detail */
+    const int fits = s->feature.shadows && s->feature.tight_fit;
+    put(&frame, 1, (s->feature.orthographic ? 252 : 244) + (groups ? 4 : 0) + (fits ? 4 : 0), 8); /* scene to detail */
     if (s->feature.shadows) {
         put(&frame, 1, 8, 4);  /* n_cascades to frame_count */
         put(&frame, 4, 40, 8); /* cascade */

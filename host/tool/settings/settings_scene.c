@@ -13,7 +13,7 @@ static const char *const kernel_names[] = {"tent", "linear", NULL};
 static const char *const distance_names[] = {"depth", "radius", NULL};
 static const char *const mixing_names[] = {"none", "always", "distance", NULL};
 static const char *const tiles_names[] = {"equal", "importance", "worth", NULL};
-static const char *const fit_names[] = {"stable", "tight", NULL};
+static const char *const fit_names[] = {"stable", "tight", "compiled", NULL};
 static const char *const softness_names[] = {"default", "hard", "soft", NULL};
 static const char *const auto_names[] = {"off", "depth", "normal", NULL};
 static const char *const mode_names[] = {"realtime", "mixed", "baked", NULL};
@@ -90,7 +90,8 @@ static const scene_knob scene_knobs[] = {
     {"tiles", OF_SHADOW, WORD, offsetof(scene_shadow, tiles), 0, 0, tiles_names,
      "sizes of shadow tiles (A2); worth: by the pixels that are looked up in each (A7)"},
     {"fit", OF_SHADOW, WORD, offsetof(scene_shadow, fit), 0, 0, fit_names,
-     "tiles of directional lights cover their cascade's sphere (D2), or what is visible where something casts (D12)"},
+     "tiles of directional lights cover their cascade's sphere (D2), or what is visible where something casts (D12); "
+     "compiled: in boxes for the whole animation"},
     SHADOW_("main_light", SWITCH, main_light, 0, 1,
             "only the brightest directional light has cascades, others one tile each (D10); also the feature"),
     SHADOW_("caster_culling", SWITCH, caster_culling, 0, 1, "as the feature (D8)"),
