@@ -257,7 +257,7 @@ static void add_lamp(gltf_document *d)
                                                           .rgb = {1, 0.88, 0.7},
                                                           .intensity = 7.5,
                                                           .range = 8,
-                                                          .knobs = "\"near\": 0.05"});
+                                                          .knobs = "\"near\": 0.05, \"bias_normal\": 0.4"});
     gltf_add_node(d, "hanging lamp", "\"mesh\": %zu, \"translation\": [%g, %g, %g], \"children\": [%zu]",
                   gltf_add_mesh(d, "hanging lamp", (gltf_surface[]){{&hood, tin}, {&bulb, glow}}, 2), bulb_at.x,
                   bulb_at.y, bulb_at.z, light);
