@@ -113,6 +113,10 @@ static void flatten(scene *s)
         if (o->caster > SCENE_CASTER_ON) o->caster = SCENE_CASTER_ON;
         for (int k = 0; k < 3; k++) o->specular[k] = 0;
     }
+    for (size_t i = 0; i < s->n_lights; i++) { /* the automatic one: on random scenes */
+        s->lights[i].auto_bias = SCENE_AUTO_BIAS_OFF;
+        s->lights[i].bias_normal = 0.5;
+    }
 }
 
 /* View n: the scene's camera swung round the point it looks at, and rolled. */

@@ -70,7 +70,7 @@ refused "light '.*': bias_caster\|'caster_bias': 0" sundial --set bias_caster=1
 refused "'compact': '2' is not a whole number from 0 to 1" sundial --set compact=2
 build/gnomon sweep host/scenes/sundial.gltf --size 64x48 --set compact=1 >"$tmp/log" 2>&1 && fail "it is swept, and nothing counts" || pass
 # and is the general arithmetic again
-for sets in "" "--set compact=1 --set compact=0 --set output=rgb888 --set preset=balanced --set filter=3x3 --set cascades=4"; do
+for sets in "" "--set compact=1 --set compact=0 --set output=rgb888 --set preset=balanced --set filter=3x3 --set cascades=4 --set auto_bias=depth"; do
     build/gnomon render host/scenes/sundial.gltf -o "$tmp/again${sets:+2}.png" --size 64x48 --set filter=3x3 --set cascades=4 $sets >"$tmp/log" 2>&1
 done
 cmp -s "$tmp/again.png" "$tmp/again2.png" && pass || fail "compact=0 leaves something of compact=1"

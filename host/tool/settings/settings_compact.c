@@ -21,12 +21,19 @@ static void switch_feature(void *user, const char *name, int *value)
     if (!has_feature(name)) *value = user ? settings_feature(user, name) : 0;
 }
 
+/* Presets that have other depths have these in compact arithmetic: as GN_DEPTH_BITS. */
+void settings_compact_depth(settings *s)
+{
+    if (s->build.compact) s->quality.depth_bits = 16;
+}
+
 void settings_compact_features(settings *s)
 {
     settings all;
     settings_init(&all);
     settings_each_feature(s, switch_feature, s->build.compact ? NULL : &all);
     if (s->build.compact && s->output == GN_FORMAT_RGB888) s->output = GN_FORMAT_RGB565;
+    settings_compact_depth(s);
 }
 
 void settings_compact_scene(scene *s)
@@ -36,6 +43,8 @@ void settings_compact_scene(scene *s)
     s->shadow.n_cascades = 1;
     s->shadow.fit = SCENE_FIT_STABLE;
     s->shadow.tiles = SCENE_TILES_EQUAL;
+    for (size_t i = 0; i < s->n_lights; i++)
+        if (s->lights[i].auto_bias == SCENE_AUTO_BIAS_DEPTH) s->lights[i].auto_bias = SCENE_AUTO_BIAS_NORMAL;
 }
 
 /* NUMERICS 4.15: 8 fraction bits of pixels and texels; a tap is one texel */

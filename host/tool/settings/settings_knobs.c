@@ -83,6 +83,7 @@ void settings_each_feature(settings *set, settings_each each, void *user)
 void settings_preset(settings *out, int preset)
 {
     for (size_t i = 0; i < groups[QUALITY].n; i++) *field(out, &quality_knobs[i]) = quality_knobs[i].preset[preset];
+    settings_compact_depth(out);
 }
 
 /* As gn_scene_default. */

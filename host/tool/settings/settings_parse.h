@@ -33,6 +33,7 @@ void settings_near_knobs(nearest *n);
 /* settings_compact.c: compact arithmetic, of which what is set afterwards may be refused: features that it has not are
  * off, or all are on again; and the shadows of a scene are those that it has. */
 void settings_compact_features(settings *s);
+void settings_compact_depth(settings *s);
 void settings_compact_scene(scene *s);
 void settings_compact_quality(settings *s); /* what is fixed in it, whatever was set */
 int settings_compact_check(const settings *set, const scene *s, int width, int height, char *error, size_t error_bytes);
