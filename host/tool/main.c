@@ -66,6 +66,7 @@ static int run(int argc, char **argv)
                       .width = 320,
                       .height = 240,
                       .last_frame = -1,
+                      .first_frame = -1,
                       .margin = 10,
                       .simplify = TOOL_SIMPLIFY_PATH,
                       .texels = TOOL_TEXELS_AUTO};

@@ -383,12 +383,20 @@ static gn_field wrong_fade(const gn_shadow_settings *shadow)
     return fade_ok(shadow->cascade_fade_uq16) ? GN_FIELD_NONE : GN_AT(GN_FIELD_SHADOW_CASCADE_FADE);
 }
 
+static int is_fixed_fit(const gn_fixed_fit *fit)
+{
+    for (int k = 0; k < 3; k++)
+        if (fit->lo_q16[k] > fit->hi_q16[k]) return 0;
+    return fit->turn <= 7;
+}
+
 static gn_status check_fixed_fits(gn_frame *frame, const gn_shadow_settings *shadow)
 {
     if (!GN_TIGHT_FIT || !shadow->n_fixed_fits) return GN_OK;
     if (!shadow->fixed_fits) return GN_FAIL_AT(frame, GN_ERR_NULL, 0, GN_FIELD_SHADOW_FIXED_FITS);
     for (uint32_t i = 0; i < shadow->n_fixed_fits; i++)
-        if (shadow->fixed_fits[i].turn > 7) return GN_FAIL_AT(frame, GN_ERR_SHADOW_MODE, i, GN_FIELD_SHADOW_FIXED_FITS);
+        if (!is_fixed_fit(&shadow->fixed_fits[i]))
+            return GN_FAIL_AT(frame, GN_ERR_SHADOW_MODE, i, GN_FIELD_SHADOW_FIXED_FITS);
     return GN_OK;
 }
 

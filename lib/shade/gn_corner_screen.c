@@ -51,7 +51,7 @@ GN_HOT static int add_over_depth(const gn_slope *w, int32_t length_q16, uint32_t
 }
 
 /* A row of the matrix, f * axis + c * axis of depth, times what points are from the light: on the screen, and at the
- * eye, Q16. Returns 0 if that is too far. */
+ * eye, below 2^30, Q16. Returns 0 if that is too far. */
 GN_HOT static int find_form(const gn_frame *frame, const gn_screen_plane *p, const gn_light_view *view, int i,
                             const int32_t by_q27[2], wide_slope *out, int32_t *eye_q16)
 {
@@ -71,7 +71,7 @@ GN_HOT static int find_form(const gn_frame *frame, const gn_screen_plane *p, con
     out->dx = dx >> 20;
     out->dy = dy >> 20;
     *eye_q16 = (int32_t)(eye >> 27);
-    return eye >> 27 == *eye_q16;
+    return !(gn_abs64(eye) >> 57);
 }
 
 /* How bias moves points of a surface along a normal: by a share of their distance along the view's axis, by a share of

@@ -247,9 +247,9 @@ GN_HOT static int begin_look(gn_lattice *lattice, const gn_frame *frame, const g
 {
     gn_lattice_look *look = &lattice->look;
     gn_lattice_cell *cell = &lattice->by.look.cell;
-    *cell =
-        (gn_lattice_cell){lattice, frame, surface, corner, size_log2, {0, 0}, fading_of(corner), 0, 0, 0, look, ask};
+    *cell = (gn_lattice_cell){lattice, frame, surface, corner, size_log2, {0, 0}, 1, 0, 0, 0, look, ask};
     if (!gn_cell_find_bend(cell) || !gn_cell_textures_hold(cell) || !gn_cell_masks_hold(cell)) return 0;
+    if (surface->n_lights) cell->near = fading_of(corner);
     look->n_edges = 0;
     look->spacing_log2 = size_log2;
     for (int i = 0; i < 4; i++)

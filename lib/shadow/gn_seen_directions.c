@@ -92,7 +92,7 @@ uint32_t gn_seen_pick_turn(const gn_seen_job *job)
     return best;
 }
 
-/* A point of the world along u, v and w of a turn. |.| <= sqrt(3) * 2^30 */
+/* A point of the world along u, v and w of a turn. |.| <= sqrt(3) * 2^29 */
 static void along_turn(const gn_seen_job *job, const int32_t p_q16[3], uint32_t turn, int32_t out[3])
 {
     int32_t at[3], all[GN_SEEN_DIRECTIONS];

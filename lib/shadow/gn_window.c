@@ -293,6 +293,13 @@ GN_HOT static uint32_t dark_texels(const gn_frame *frame, const window_rows *row
 }
 
 #if GN_FILTER_MAX >= 2
+/* Whether one of the texels that a lookup reads is in doubt. */
+GN_HOT static inline uint32_t in_doubt_3x3(const gn_window *window, int32_t j, int32_t s)
+{
+    const uint32_t *doubt = &window->doubt[j];
+    return (doubt[0] | doubt[1] | doubt[2] | doubt[3]) >> s & 15U;
+}
+
 /* 3x3, positions to 1/32 texel. */
 GN_HOT static void row_3x3(const gn_frame *frame, const window_rows *rows, int32_t u, int32_t v, int32_t depth_q30,
                            const gn_receiver_step *step, int32_t n, uint32_t *out)
@@ -305,12 +312,12 @@ GN_HOT static void row_3x3(const gn_frame *frame, const window_rows *rows, int32
     v += 1024;
     for (uint32_t *end = out + n; out < end; out++, u += step->u_q16, v += step->v_q16,
                   depth_q30 = (int32_t)((uint32_t)depth_q30 + (uint32_t)step->depth_q31)) {
-        const uint32_t *row = &first[v >> 16], *doubt = row + (rows->doubt - rows->dark);
+        const uint32_t *row = &first[v >> 16];
         int32_t s = u >> 16;
         uint32_t a = row[0] >> s & 15U, b = row[1] >> s & 15U, c = row[2] >> s & 15U, d = row[3] >> s & 15U;
         *out = 65536;
         if (!(a | b | c | d)) continue;
-        if (doubts >> s & 15U && (doubt[0] | doubt[1] | doubt[2] | doubt[3]) >> s & 15U) {
+        if (doubts >> s & 15U && in_doubt_3x3(window, v >> 16, s)) {
             uint8_t near[4], dark[4]; /* the one in registers */
             if (GN_SIZE_FIRST || !texels) {
                 if (!(dark_texels(frame, rows, s, v >> 16, 4, depth_q30, dark) & 15U)) continue;

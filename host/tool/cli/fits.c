@@ -26,7 +26,8 @@ int fits_compile(const tool_options *o, const char *const *sets, int n_sets, sce
 {
     const double end = ceil(s->duration * s->fps - 1e-6);
     const bool chosen = o->last_frame >= 0;
-    const int last = chosen ? o->last_frame : (int)fmin(end, FRAMES_MAX), first = chosen || last < 1 ? o->frame : 0;
+    const int last = chosen ? o->last_frame : (int)fmin(end, FRAMES_MAX);
+    const int first = o->first_frame >= 0 ? o->first_frame : chosen || last < 1 ? o->frame : 0;
     s->shadow.fit = SCENE_FIT_TIGHT;
     if (o->asset || o->open || o->posed) return 0;
     engine_fits *j = calloc(1, sizeof *j);

@@ -32,8 +32,9 @@ typedef struct {
     int texels, still;          /* bake: side of the mask image, 0: per vertex, TOOL_TEXELS_AUTO */
     int ram;                    /* advise, compile, info: bytes; 0: not given */
     int instructions_per_pixel; /* 0: no limit */
-    int last_frame; /* of --frames, whose first is frame; -1: compile: to the end of the animation, others: that frame
-                     */
+    int last_frame;  /* of --frames, whose first is frame; -1: compile: to the end of the animation, others: that frame
+                      */
+    int first_frame; /* of them, while frame goes through them; else -1 */
     int margin;     /* compile: per cent */
     const char *optimise; /* compile: -Os, -O2: how the library is built; NULL: as the board says */
     int simplify;         /* compile */

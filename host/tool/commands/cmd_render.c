@@ -87,6 +87,7 @@ static int render_frames(const tool_options *o)
     char what[200];
     int w = 0, h = 0, status = TOOL_OK;
     tool_options now = *o;
+    now.first_frame = o->frame;
     png_animation animation = {0};
     for (; now.frame <= o->last_frame && !status; now.frame++) {
         uint8_t *rgb = draw_frame(&now, now.frame == o->frame && !o->json, &w, &h, what, sizeof what);
