@@ -503,7 +503,7 @@ static void check_persp(gn_lattice *l, const gn_surface *s, gn_corner *c, uint32
 static double least_depth(const gn_light_view *view, const double m[3], double h, double u, double v, double reach)
 {
     const double texel = 2 / (view->fit.persp.focal2_q16 * LSB16), near = view->fit.persp.near_q16 * LSB16;
-    double least = INFINITY;
+    double least = HUGE_VAL;
     for (int k = 0; k < 4; k++) {
         const double x = (u + (k & 1 ? reach : -reach) - view->tile_texels / 2.0) * texel;
         const double y = (v + (k & 2 ? reach : -reach) - view->tile_texels / 2.0) * texel;
