@@ -42,7 +42,7 @@
 #define GN_PRESETS_ATLAS_SIZE           64, 128, 128, 256
 #define GN_PRESETS_OTHER_ATLAS_SIZE     64, 128, 128, 256
 #define GN_PRESETS_DEPTH_BITS           8, 16, 16, 16
-#define GN_PRESETS_OTHER_DEPTH_BITS     8, 16, 16, 32
+#define GN_PRESETS_OTHER_DEPTH_BITS     16, 16, 16, 32
 #define GN_PRESETS_TILE_WIDTH           32, 128, 64, 64
 #define GN_PRESETS_TILE_HEIGHT          8, 16, 16, 16
 #define GN_PRESETS_SRGB                 1, 1, 1, 1

@@ -249,13 +249,18 @@ static int ends_with_any(const char *path, const char *const *endings)
 static int check_out_path(const tool_options *o, int command, const char *name)
 {
     static const char *const pictures[] = {".jpg", ".jpeg", ".gif", ".bmp", ".ppm", ".tga", ".webp", ".svg", NULL},
-                             *const scenes[] = {".gltf", ".glb", NULL};
-    if (!o->out_path) return TOOL_OK;
-    if (command == BY_RENDER && ends_with_any(o->out_path, pictures))
-        return options_usage_error(name, "pictures are PNG files, so the name must not be", o->out_path);
-    if (command == BY_BAKE && !ends_with_any(o->out_path, scenes))
-        return options_usage_error(name, "a scene is written, so the name must end in .gltf or .glb, unlike",
-                                   o->out_path);
+                             *const scenes[] = {".gltf", ".glb", NULL}, *const models[] = {".gltf", ".glb", ".bin",
+                                                                                           ".obj",  ".mtl", NULL},
+                             *const files[] = {".png", ".c", ".h", NULL};
+    const char *path = o->out_path;
+    const bool misnamed = path && (ends_with_any(path, models) || ends_with_any(path, pictures));
+    if (!path) return TOOL_OK;
+    if (command == BY_RENDER && misnamed)
+        return options_usage_error(name, "pictures are PNG files, so the name must not be", path);
+    if (command == BY_BAKE && !ends_with_any(path, scenes))
+        return options_usage_error(name, "a scene is written, so the name must end in .gltf or .glb, unlike", path);
+    if (command & (BY_COMPILE | BY_COMPARE) && (misnamed || ends_with_any(path, files)))
+        return options_usage_error(name, "a folder is written, so the name must not be", path);
     return TOOL_OK;
 }
 

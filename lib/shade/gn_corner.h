@@ -36,8 +36,8 @@ void gn_corner_begin_part(gn_lattice *lattice, const gn_frame *frame, const gn_s
 void gn_corner_cascade(const gn_lattice *lattice, const gn_frame *frame, const gn_surface *surface, int32_t x,
                        int32_t y, gn_sample *sample);
 
-/* A point of which only gn_corner_place() of one light may be asked. Returns 0 where the plane, or its normal, cannot be
- * sampled. */
+/* A point of which only gn_corner_place() of one light may be asked. Returns 0 where the plane, or its normal, cannot
+ * be sampled. */
 int gn_corner_locate(const gn_lattice *lattice, const gn_frame *frame, const gn_surface *surface, uint32_t slot,
                      int32_t x, int32_t y, gn_corner *corner);
 

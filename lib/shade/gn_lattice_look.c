@@ -134,6 +134,15 @@ GN_HOT static int is_faint(const gn_lattice_cell *cell, uint32_t strongest_uq16,
     return gn_corner_times(strongest_uq16, most_q24) < gn_max32(1 << 13, gn_min32(least, 1 << 22) >> 5);
 }
 
+/* Whether a shadow that begins or ends to fade is seen: in the shadow, or by masks that it fades to. */
+GN_HOT static int fades(const gn_contribution *light, int shadow)
+{
+    uint32_t differ = 0;
+    for (int i = 1; i < 4; i++)
+        differ |= (light->dark_uq16[i] + light->more_uq16[i]) ^ (light->dark_uq16[0] + light->more_uq16[0]);
+    return shadow != GN_CELL_LIT || differ;
+}
+
 /* Adds a light. Returns 0 if the cell is to be split. */
 GN_HOT static int add_light(gn_lattice_cell *cell, uint32_t slot)
 {
@@ -157,7 +166,7 @@ GN_HOT static int add_light(gn_lattice_cell *cell, uint32_t slot)
     int faint = is_faint(cell, strongest_of(colour), most);
     int realtime = find_shares(cell, slot, light),
         shadow = realtime > 0 && !faint ? gn_cell_shadow(cell, slot, light) : GN_CELL_LIT;
-    if (realtime < 0 || shadow == GN_CELL_SPLIT || (shadow != GN_CELL_LIT && cell->near < 0)) return 0;
+    if (realtime < 0 || shadow == GN_CELL_SPLIT || (cell->near < 0 && fades(light, shadow))) return 0;
     if (shadow != GN_CELL_DARK && !faint) {
         uint32_t kink, strongest = strongest_of(colour);
         uint32_t error = gn_cell_unevenness_q24(cell, slot, least, most, &kink);

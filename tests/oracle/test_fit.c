@@ -291,6 +291,15 @@ static void check_outside(fixture *f, const settings *set)
     engine_free(&without);
 }
 
+/* That boxes were taken is noted. */
+static void forget_notes(scene *s)
+{
+    for (size_t i = 0; i < s->n_notes; i++) free(s->notes[i]);
+    free(s->notes);
+    s->notes = NULL;
+    s->n_notes = 0;
+}
+
 /* The camera takes a step; both frames see the boxes of both. */
 static void check_boxes(fixture *f, const settings *set, const ref_options *options)
 {
@@ -324,6 +333,7 @@ static void check_boxes(fixture *f, const settings *set, const ref_options *opti
     if (n[0] == n[1] && n[0] == f->s.n_fixed_fits) compare_views(views[0], views[1], n[0]);
     if (n[0] == f->s.n_fixed_fits) check_outside(f, set);
     f->s.n_fixed_fits = 0;
+    forget_notes(&f->s);
 }
 
 /* ---- Shadows ----------------------------------------------------------------------------------------------------- */

@@ -1,5 +1,6 @@
 /* Shadows that fade over depth, in cells and pixel by pixel: a ground under a roof, all in shadow up to where that
- * ends. By NUMERICS 4.12 cells are off by 1/32 at kinks and by a quarter of 1/4 along each axis of a ramp. */
+ * ends; without a roof, dark by a mask from there on. By NUMERICS 4.12 cells are off by 1/32 at kinks and by a quarter
+ * of 1/4 along each axis of a ramp. */
 #include <math.h>
 
 #include "canvas.h"
@@ -15,16 +16,31 @@ static rng random_state = {11};
 
 static const uint16_t baked_uq12[12]; /* none: surfaces with baked light are shaded in cells */
 
-static void begin_roof(rng *r)
+static void add_roof(void)
+{
+    gn_object *roof = ls_add_object(&ls, &ls.demo.box);
+    ls_place(roof, 0, GN_Q16(12), 0, 0, 0, 12);
+    roof->flags = GN_OBJECT_CASTS | GN_OBJECT_HIDDEN;
+}
+
+static void add_masks(gn_light *light)
+{
+    static const uint8_t masks_u8[4 * 4]; /* none of the light arrives */
+    ls.object[0].mask_u8 = masks_u8;
+    ls.scene.shadow.mixing = GN_MIXING_DISTANCE;
+    light->mode = GN_LIGHT_MIXED;
+    light->mask_channel = 0;
+}
+
+static void begin_ground(rng *r, int masked)
 {
     ls_begin(&ls);
     ls.scene.n_objects = 1;
     ls.object[0].baked_uq12 = GN_BAKED_LIGHT ? baked_uq12 : NULL;
-    gn_object *roof = ls_add_object(&ls, &ls.demo.box);
-    ls_place(roof, 0, GN_Q16(12), 0, 0, 0, 12);
-    roof->flags = GN_OBJECT_CASTS | GN_OBJECT_HIDDEN;
+    if (!masked) add_roof();
     gn_light *light = ls_add_light(&ls, GN_LIGHT_DIRECTIONAL);
     light->direction[0] = light->direction[2] = 0;
+    if (masked) add_masks(light);
     for (int k = 0; k < 3; k++) {
         ls.object[0].albedo_uq16[k] = light->colour_uq16[k] = 65536;
         ls.scene.ambient_uq16[k] = ls.scene.background_uq20[k] = 0;
@@ -77,7 +93,7 @@ int main(void)
     long n_between = 0;
     double worst = 0;
     for (int i = 0; i < N_SCENES; i++) {
-        begin_roof(&random_state);
+        begin_ground(&random_state, i % 2 && GN_MASKS);
         for (int k = 0; k < 3; k++) worst = fmax(worst, worst_of(steps[k], &n_between));
     }
     printf("%ld pixels of ramps; off by %.4f\n", n_between, worst);

@@ -78,6 +78,21 @@ for word in ROBOT_OBJECT_ROBOT_BASE ROBOT_LIGHT_TORCH ROBOT_CAMERA_ABOVE ROBOT_M
 done
 grep -q DESK_OBJECT_MUG_2 "$tmp/desk.h" && pass || fail "the second mug has no name of its own"
 
+# objects of an OBJ: by o, or else by g; one name may come twice; a byte order mark is no statement
+three() { # three FILE NAMES...
+    file=$1
+    shift
+    "$tool" asset "$tmp/$file.obj" -o "$tmp/$file" --set ground=0 >"$tmp/log" 2>&1
+    for name in "$@"; do grep -q "^    $name, " "$tmp/$file.h" && pass || fail "$file.obj: no $name: $(head -n 1 "$tmp/log")"; done
+    grep -q "_OBJECTS = $#" "$tmp/$file.h" && pass || fail "$file.obj: $(grep '_OBJECTS = ' "$tmp/$file.h")"
+    gcc -std=c99 -w -Ilib -I"$tmp" -fsyntax-only "$tmp/$file.c" 2>"$tmp/log" && pass || fail "$file.c: $(head -n 1 "$tmp/log")"
+}
+corners='v 0 0 0\nv 1 0 0\nv 0 1 0\nv 1 1 1\n'
+printf '\357\273\277v 0 0 0\nv 1 0 0\nv 0 1 0\nv 1 1 1\nf 1 2 3\no Left door\nf 1 2 4\nusemtl red\nf 4 3 2\no Hull\nf 1 3 4\no Left door\nf 4 2 1\n' >"$tmp/car.obj"
+three car CAR_OBJECT_DEFAULT CAR_OBJECT_LEFT_DOOR CAR_OBJECT_LEFT_DOOR_2 CAR_OBJECT_HULL
+printf "${corners}g A\nf 1 2 3\ng B\nf 1 2 4\n" >"$tmp/parts.obj"
+three parts PARTS_OBJECT_A PARTS_OBJECT_B
+
 # what a configuration lacks is said when it is compiled
 gcc -std=c99 -w -Ilib -I"$tmp" -DGN_SPECULAR=0 -fsyntax-only "$tmp/desk.c" 2>"$tmp/log"
 grep -q "DGN_SPECULAR=1: specular of object" "$tmp/log" && pass || fail "without specular: $(head -n 1 "$tmp/log")"
@@ -92,6 +107,8 @@ refused() { # refused STATUS WORD ARGUMENTS...
     [ $? = "$status" ] && grep -q "$word" "$tmp/log" && pass || fail "$*: $(head -n 1 "$tmp/log")"
 }
 refused 2 "lower-case letters" asset host/scenes/cube.gltf -o "$tmp/9x"
+refused 2 "not the library's" asset host/scenes/cube.gltf -o "$tmp/gn"
+refused 2 "not the library's" asset host/scenes/cube.gltf -o "$tmp/gn_cube"
 refused 2 "missing" asset host/scenes/cube.gltf
 refused 1 "No such file" asset host/scenes/cube.gltf -o "$tmp/none/cube"
 refused 2 "does not use" asset host/scenes/cube.gltf -o "$tmp/cube" --board microbit

@@ -383,13 +383,16 @@ static void test_shrink(void)
 {
     uint8_t rgba[12] = {0, 0, 0, 255, 255, 255, 255, 255, 255, 255, 0, 0};
     scene_texture t = {.name = name, .width = 3, .height = 1, .rgba = rgba};
-    CHECK(texture_shrink(&t, 4, false) && t.width == 3);
-    CHECK(texture_shrink(&t, 2, false) && t.width == 2 && t.height == 1);
-    CHECK_EQ_INT(rgba[0], 156); /* a third in linear light */
+    texture_error off;
+    CHECK(texture_shrink(&t, 4, false, NULL) && t.width == 3);
+    CHECK(texture_shrink(&t, 2, false, &off) && t.width == 2 && t.height == 1);
+    CHECK(off.max > 169.99 && off.max < 170.01); /* white of which a third is left */
+    CHECK(off.rms > 134.62 && off.rms < 134.64); /* 3 * 156^2 + 4 * 170^2 + 4 * 85^2 of twelve */
+    CHECK_EQ_INT(rgba[0], 156);                  /* a third in linear light */
     CHECK_EQ_INT(rgba[3], 255);
     CHECK_EQ_INT(rgba[6], 255); /* blue: the clear one has none */
     CHECK_EQ_INT(rgba[7], 85);
-    CHECK(texture_shrink(&t, 1, true) && t.width == 1);
+    CHECK(texture_shrink(&t, 1, true, NULL) && t.width == 1);
     CHECK_EQ_INT(rgba[0], 206); /* plain numbers */
 }
 

@@ -370,7 +370,7 @@ cp "$cube" "$tmp/noise.glb"
 bad 1 noise.glb info "$tmp/noise.glb"
 bad 1 'no/such' render "$cube" -o "$tmp/no/such/a.png" --size 8x8
 bad 1 "$tmp/new" render "$cube" -o "$tmp/new" --size 8x8
-bad 1 'cube.obj' compare "$cube" -o "$cube" --size 8x8
+bad 2 "cube.obj" compare "$cube" -o "$cube" --size 8x8
 bad 1 'no/such' compare "$cube" -o "$tmp/no/such" --size 8x8
 if [ -w /dev/full ]; then bad 1 /dev/full render "$cube" -o /dev/full --size 8x8; fi
 bad 1 light render "$cube" -o "$tmp/a.png" --size 8x8 --view atlas --light 3
@@ -791,6 +791,24 @@ grep -q -a acTL "$tmp/still.png" && fail "one frame is an animation" || pass
 good render "$cube" --size 40x30 --frames 2-2 -o "$tmp/one.png"
 bad 1 "cannot be written\|No such file" render "$cube" --size 8x8 --frames 0-1 -o "$tmp/no/x.png"
 bad 2 "bad value" render "$cube" --frames 3-1 -o "$tmp/x.png"
+
+# ---- Names of what is written ----------------------------------------------------------------------------------------------
+
+cp host/scenes/cube.gltf "$tmp/own.gltf"
+bad 2 "must not be" render "$tmp/own.gltf" -o "$tmp/own.gltf"
+bad 2 "must not be" render "$cube" -o "$tmp/x.mtl"
+for name in a.png a.c a.glb; do
+    bad 2 "a folder is written" compile "$cube" -o "$tmp/$name"
+    bad 2 "a folder is written" compare "$cube" -o "$tmp/$name"
+done
+bad 1 "overwrite what the scene is read from" bake "$tmp/own.gltf" -o "$tmp/own.gltf"
+cmp -s host/scenes/cube.gltf "$tmp/own.gltf" && pass || fail "the scene was overwritten"
+good render "$cube" --size 16x12 -o "$tmp/skin.png"
+printf 'newmtl a\nmap_Kd skin.png\n' >"$tmp/skin.mtl"
+printf 'mtllib skin.mtl\nusemtl a\nv 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\nf 1/1 2/1 3/1\n' >"$tmp/skin.obj"
+bad 1 "overwrite what the scene is read from" render "$tmp/skin.obj" --size 16x12 -o "$tmp/../$(basename "$tmp")/skin.png"
+good render "$tmp/own.gltf" --size 16x12 --orbit 0,0,1 -o "$tmp/x.png"
+grep -q "sees none" "$tmp/err" && fail "an orbit that sees all is said to see nothing" || pass
 
 # ---- Help and version --------------------------------------------------------------------------------------------------------
 

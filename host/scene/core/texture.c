@@ -13,7 +13,7 @@ static bool fit_sides(loader *l, rgba8_picture *picture, const texture_use *use,
     texture->rgba = picture->rgba;
     picture->rgba = NULL;
     if (picture->w <= MAX_TEXTURE_SIDE && picture->h <= MAX_TEXTURE_SIDE) return true;
-    if (!texture_shrink(texture, MAX_TEXTURE_SIDE, use->is_data))
+    if (!texture_shrink(texture, MAX_TEXTURE_SIDE, use->is_data, NULL))
         return budget_fail_memory(l, (size_t)MAX_TEXTURE_SIDE * MAX_TEXTURE_SIDE * 4);
     return loader_note(l, "texture '%s' of %dx%d is resampled to %dx%d: sides are at most %d", texture->name,
                        picture->w, picture->h, texture->width, texture->height, (int)MAX_TEXTURE_SIDE);

@@ -290,7 +290,27 @@ bool texture_set_levels(scene_texture *t, bool mipmapped)
     return convert_means(t);
 }
 
-bool texture_shrink(scene_texture *t, int side, bool is_data)
+/* Of a picture of w by h texels in place of the texture's first level. */
+static texture_error scaling_error(const scene_texture *t, int w, int h, const uint8_t *small)
+{
+    texture_error out = {0, 0};
+    for (int y = 0; y < t->height; y++)
+        for (int x = 0; x < t->width; x++) {
+            const size_t column = (size_t)((2 * (int64_t)x + 1) * w / (2 * t->width)),
+                         row = (size_t)((2 * (int64_t)y + 1) * h / (2 * t->height));
+            const uint8_t *a = t->rgba + 4 * ((size_t)y * (size_t)t->width + (size_t)x),
+                          *b = small + 4 * (row * (size_t)w + column);
+            for (int c = 0; c < 4; c++) {
+                const double off = c < 3 ? (a[c] * a[3] - b[c] * b[3]) / 255.0 : a[3] - b[3];
+                out.max = fmax(out.max, fabs(off));
+                out.rms += off * off;
+            }
+        }
+    out.rms = sqrt(out.rms / (4.0 * t->width * t->height));
+    return out;
+}
+
+bool texture_shrink(scene_texture *t, int side, bool is_data, texture_error *error)
 {
     int longest = t->width > t->height ? t->width : t->height;
     if (longest <= side) return true;
@@ -300,6 +320,7 @@ bool texture_shrink(scene_texture *t, int side, bool is_data)
     uint8_t *small = malloc((size_t)w * (size_t)h * 4);
     if (!small) return false;
     scale(t, w, h, is_data, small);
+    if (error) *error = scaling_error(t, w, h, small);
     memcpy(t->rgba, small, (size_t)w * (size_t)h * 4);
     t->width = w;
     t->height = h;

@@ -26,8 +26,14 @@ bool texture_set_levels(scene_texture *texture, bool mipmapped);
  * noted in the texture, in steps of 255. False: out of memory. */
 bool texture_convert(scene_texture *texture, scene_texture_format format);
 
+/* What texels are off by, in steps of 255. */
+typedef struct {
+    double max, rms;
+} texture_error;
+
 /* Shrinks the texture, and makes its levels anew, so that no side has more texels than that: means in linear light,
- * colours weighed by alpha; of data, plain numbers. False: out of memory. */
-bool texture_shrink(scene_texture *texture, int side, bool is_data);
+ * colours weighed by alpha; of data, plain numbers. *error, or NULL: how far each of the texels before is from the one
+ * that its middle lies in now, both as what their alpha leaves. False: out of memory. */
+bool texture_shrink(scene_texture *texture, int side, bool is_data, texture_error *error);
 
 #endif

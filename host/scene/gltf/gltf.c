@@ -39,7 +39,7 @@ static bool check_extensions(gltf *g, const char *key, bool required)
         if (required)
             return gltf_fail(g, name, "the required extension %s is not supported%s", name->string,
                              remedy_of(name->string));
-        if (!loader_note(g->l, "extension %s ignored: it is not supported", name->string)) return false;
+        if (!loader_remark(g->l, "extension %s ignored: it is not supported", name->string)) return false;
     }
     return true;
 }

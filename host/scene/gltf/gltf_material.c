@@ -44,10 +44,10 @@ static bool read_texture(gltf *g, const json_value *info, const char *what, gltf
     if (idx == GLTF_NONE) return gltf_fail(g, info, "index is missing");
     const bool first = material->uv_set == GLTF_NONE;
     if (set > 1 || (!first && material->uv_set != set))
-        return loader_note(g->l, "%s texture of material '%s' ignored: it takes TEXCOORD_%zu", what, name, set);
+        return loader_remark(g->l, "%s texture of material '%s' ignored: it takes TEXCOORD_%zu", what, name, set);
     if (!first && !lies_alike(&uv, &material->uv))
-        return loader_note(g->l, "%s texture of material '%s' ignored: it lies otherwise than the base colour's", what,
-                           name);
+        return loader_remark(g->l, "%s texture of material '%s' ignored: it lies otherwise than the base colour's",
+                             what, name);
     if (!gltf_load_texture(g, idx, false, out)) return false;
     if (*out == SCENE_NONE) return true;
     material->uv_set = set;
@@ -106,8 +106,8 @@ static bool wraps_alike(gltf *g, const scene_object *o, const char *name, size_t
     const scene_texture *a = &g->l->s->textures[o->texture_idx], *b = &g->l->s->textures[*texture_idx];
     if (a->clamp_u == b->clamp_u && a->clamp_v == b->clamp_v) return true;
     *texture_idx = SCENE_NONE;
-    return loader_note(g->l, "emissive texture of material '%s' ignored: it wraps otherwise than the base colour's",
-                       name);
+    return loader_remark(g->l, "emissive texture of material '%s' ignored: it wraps otherwise than the base colour's",
+                         name);
 }
 
 /* A texture is the most of what glows: where it is ignored, the factor alone would light up everything. [M10] */

@@ -80,13 +80,13 @@ static bool read_primitive(gltf *g, const json_value *primitive, const char *nam
     if (!attributes) return gltf_fail(g, primitive, "attributes is missing");
     if (mode > MODE_FAN) return gltf_fail(g, json_get(primitive, "mode"), "mode %zu is unknown", mode);
     if (mode < MODE_TRIANGLES)
-        return loader_note(g->l, "points and lines of mesh '%s' ignored: only triangles are drawn", name);
+        return loader_remark(g->l, "points and lines of mesh '%s' ignored: only triangles are drawn", name);
     if (json_get(json_get(primitive, "extensions"), "KHR_draco_mesh_compression") && !has_data(g, attributes))
         return gltf_fail(g, primitive, "mesh '%s' is compressed, which is not supported%s", name, GLTF_COMPRESSED);
     if (!json_get(attributes, "POSITION"))
-        return loader_note(g->l, "primitive of mesh '%s' ignored: it has no POSITION", name);
+        return loader_remark(g->l, "primitive of mesh '%s' ignored: it has no POSITION", name);
     if (json_get(primitive, "targets") &&
-        !loader_note(g->l, "morph targets of mesh '%s' ignored: they are not supported", name))
+        !loader_remark(g->l, "morph targets of mesh '%s' ignored: they are not supported", name))
         return false;
     return gltf_read_attributes(g, attributes, wants, out, light) && assemble(g, primitive, mode, out) &&
            (out->n_triangles == 0 || mesh_prepare_normals(g->l, out));
@@ -123,10 +123,10 @@ static bool check_coordinates(gltf *g, const json_value *json, const scene_mesh 
     if (mesh->uv) return true;
     object->texture_idx = object->emissive_texture_idx = SCENE_NONE;
     for (int i = 0; glows && i < 3; i++) object->emissive[i] = 0;
-    return (!coloured ||
-            loader_note(g->l, "base colour texture of mesh '%s' ignored: it has no texture coordinates", mesh->name)) &&
+    return (!coloured || loader_remark(g->l, "base colour texture of mesh '%s' ignored: it has no texture coordinates",
+                                       mesh->name)) &&
            (!glows ||
-            loader_note(g->l, "emissive texture of mesh '%s' ignored: it has no texture coordinates", mesh->name));
+            loader_remark(g->l, "emissive texture of mesh '%s' ignored: it has no texture coordinates", mesh->name));
 }
 
 /* Where the object is; a skinned one is where its joints take it, and its node does not count. */

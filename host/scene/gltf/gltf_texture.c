@@ -102,7 +102,7 @@ static bool load_texture(gltf *g, const json_value *json, bool is_data, gltf_tex
         wanted.use = (texture_use){.clamp_u = true, .clamp_v = true, .bilinear = true, .is_data = true}; /* MODEL 9 */
     const gltf_texture *loaded = find_loaded(g, &wanted);
     if (loaded) wanted.scene_idx = loaded->scene_idx;
-    else if (!image && !loader_note(g->l, "texture '%s' ignored: it has no image of the core format", name))
+    else if (!image && !loader_remark(g->l, "texture '%s' ignored: it has no image of the core format", name))
         return false;
     else if (image && !load_image(g, image, name, &wanted.use, &wanted.scene_idx)) return false;
     wanted.loaded = true;

@@ -95,9 +95,12 @@ static bool add_triangle(obj_file *o, const obj_corner *a, const obj_corner *b, 
 {
     obj_corner *corner = loader_grow(o->l, o->corner, o->n_triangles, 3 * sizeof *corner);
     uint32_t *material_of = loader_grow(o->l, o->material_of, o->n_triangles, sizeof *material_of);
-    if (!corner || !material_of) return false;
+    uint32_t *object_of = loader_grow(o->l, o->object_of, o->n_triangles, sizeof *object_of);
+    if (!corner || !material_of || !object_of) return false;
     o->corner = corner;
     o->material_of = material_of;
+    o->object_of = object_of;
+    object_of[o->n_triangles] = o->current_object;
     corner[3 * o->n_triangles] = *a;
     corner[3 * o->n_triangles + 1] = *b;
     corner[3 * o->n_triangles + 2] = *c;
@@ -137,7 +140,7 @@ static bool read_face(obj_file *o, obj_text *t)
         if (!read_corner(o, t, word, &corners[n++])) return false;
     }
     if (n < 3) return loader_remark(t->l, "faces of less than 3 corners are left out");
-    if (n > 3 && fan_folds(o, corners, n) && !obj_note(t, "a concave polygon is cut into a fan: it may look wrong"))
+    if (n > 3 && fan_folds(o, corners, n) && !obj_remark(t, "a concave polygon is cut into a fan: it may look wrong"))
         return false;
     for (size_t i = 1; i + 1 < n; i++) {
         if (!add_triangle(o, &corners[0], &corners[i], &corners[i + 1])) return false;
@@ -151,9 +154,36 @@ static bool use_material(obj_file *o, obj_text *t)
     const char *name = obj_rest(t);
     if (!*name) {
         o->current_material = 0;
-        return obj_note(t, "usemtl without a name: from there on it is as before any usemtl");
+        return obj_remark(t, "usemtl without a name: from there on it is as before any usemtl");
     }
     return obj_find_material(o, t, name, &o->current_material);
+}
+
+/* One name may come several times. */
+static bool begin_object(obj_file *o, const char *name)
+{
+    uint32_t *bucket = obj_bucket(o->object_bucket, name);
+    for (uint32_t at = *bucket; at; at = o->object[at - 1].next) {
+        o->current_object = at - 1;
+        if (strcmp(o->object[at - 1].name, name) == 0) return true;
+    }
+    obj_object *object = loader_grow(o->l, o->object, o->n_objects, sizeof *object);
+    if (!object) return false;
+    o->object = object;
+    o->current_object = (uint32_t)o->n_objects;
+    object[o->n_objects] = (obj_object){loader_format(o->l, "%s", name), *bucket};
+    *bucket = (uint32_t)++o->n_objects;
+    return object[o->n_objects - 1].name != NULL;
+}
+
+/* Objects are told apart for those who move them. */
+static char find_object_word(const loader *l, const uint8_t *bytes, size_t n_bytes)
+{
+    if (!l->options->rig) return 0;
+    for (size_t i = 0; i + 1 < n_bytes; i++)
+        if (bytes[i] == 'o' && (bytes[i + 1] == ' ' || bytes[i + 1] == '\t') && (i == 0 || bytes[i - 1] == '\n'))
+            return 'o';
+    return 'g';
 }
 
 static bool read_statement(obj_file *o, obj_text *t)
@@ -166,10 +196,11 @@ static bool read_statement(obj_file *o, obj_text *t)
     if (strcmp(word, "f") == 0) return read_face(o, t);
     if (strcmp(word, "usemtl") == 0) return use_material(o, t);
     if (strcmp(word, "mtllib") == 0) return obj_read_libraries(o, t);
+    if (word[0] == o->object_word && !word[1]) return begin_object(o, obj_rest(t));
     for (size_t i = 0; i < sizeof silent / sizeof *silent; i++) {
         if (strcmp(word, silent[i]) == 0) return true;
     }
-    return loader_note(o->l, "'%.40s' statements ignored: only v, vt, vn, f, usemtl and mtllib count", word);
+    return loader_remark(o->l, "'%.40s' statements ignored: only v, vt, vn, f, usemtl and mtllib count", word);
 }
 
 bool obj_load(loader *l)
@@ -179,6 +210,8 @@ bool obj_load(loader *l)
     uint8_t *bytes;
     size_t n_bytes;
     if (!loader_read_file(l, l->path, &bytes, &n_bytes) || !obj_open(&t, l, l->path, bytes, n_bytes)) return false;
+    o.object_word = find_object_word(l, bytes, n_bytes);
+    if (!begin_object(&o, "")) return false;
     if (!obj_find_material(&o, &t, "default", &o.current_material)) return false;
     memset(o.bucket, 0, sizeof o.bucket); /* one that the file calls so is another */
     while (obj_next_line(&t)) {

@@ -26,7 +26,7 @@ char *obj_rest(obj_text *t);
 /* Up to n_max numbers; *n tells how many the line has. Anything else on the line is an error. */
 bool obj_numbers(obj_text *t, double *out, size_t n_max, size_t *n);
 bool obj_fail(obj_text *t, const char *format, ...) LOADER_PRINTF(2, 3);
-bool obj_note(obj_text *t, const char *format, ...) LOADER_PRINTF(2, 3);
+bool obj_remark(obj_text *t, const char *format, ...) LOADER_PRINTF(2, 3);
 bool obj_spend(obj_text *t, budget_kind kind, size_t n);
 
 typedef struct {
@@ -36,6 +36,11 @@ typedef struct {
     bool defined;       /* by a material library */
     uint32_t next;      /* of its bucket, 1 + index; 0: none */
 } obj_material;
+
+typedef struct {
+    const char *name;
+    uint32_t next; /* as above */
+} obj_object;
 
 enum { OBJ_BUCKETS = 1024 };
 
@@ -55,17 +60,24 @@ typedef struct {
     uint32_t *material_of;  /* per triangle */
     obj_material *material; /* in order of first use or definition; [0]: triangles before any usemtl */
     uint32_t current_material;
+    obj_object *object;  /* [0]: what is before any, or all of a file whose objects are not told apart */
+    uint32_t *object_of; /* per triangle */
+    size_t n_objects;
+    uint32_t current_object;
+    char object_word; /* of the statements that begin objects: 'o', of files without them 'g'; 0: none does */
     uint32_t bucket[OBJ_BUCKETS]; /* materials by name: the first of each, 1 + index */
-    const char **library;         /* paths of the material libraries that were read */
+    uint32_t object_bucket[OBJ_BUCKETS];
+    const char **library; /* paths of the material libraries that were read */
     size_t n_libraries;
 } obj_file;
 
 /* obj_mtl.c */
+uint32_t *obj_bucket(uint32_t bucket[OBJ_BUCKETS], const char *name);
 bool obj_find_material(obj_file *o, obj_text *t, const char *name, uint32_t *out); /* makes it if need be */
 bool obj_read_libraries(obj_file *o, obj_text *t);
 bool obj_note_undefined_materials(obj_file *o);
 
-/* obj_mesh.c: one object and mesh (more if too large) per used material. */
+/* obj_mesh.c: one object and mesh (more if too large) per object and its material. */
 bool obj_emit(obj_file *o);
 
 #endif

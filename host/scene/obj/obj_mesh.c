@@ -126,10 +126,18 @@ static bool fill_vertices(vertex_table *table)
     return true;
 }
 
-static bool emit_material(obj_file *o, mesh_splitter *splitter, const obj_material *material, const uint32_t *idx,
-                          size_t n_triangles)
+/* Triangles of one object and material. */
+typedef struct {
+    const char *object;
+    const obj_material *material;
+    const uint32_t *idx;
+    size_t n_triangles;
+} obj_part;
+
+static bool emit_part(obj_file *o, mesh_splitter *splitter, const obj_part *part)
 {
     size_t first, n_meshes;
+    const obj_material *material = part->material;
     scene_object object = object_defaults();
     memcpy(object.albedo, material->albedo, sizeof object.albedo);
     object.texture_idx = material->texture_idx;
@@ -138,44 +146,52 @@ static bool emit_material(obj_file *o, mesh_splitter *splitter, const obj_materi
         object.visible_alpha = SCENE_ALPHA_BLEND;
         object.caster = SCENE_CASTER_DITHER;
     }
-    object.name = loader_format(o->l, "%s", material->name);
-    return object.name && mesh_split(splitter, object.name, idx, n_triangles, false, &first, &n_meshes) &&
+    object.name = loader_format(o->l, "%s", *part->object ? part->object : material->name);
+    return object.name && mesh_split(splitter, object.name, part->idx, part->n_triangles, false, &first, &n_meshes) &&
            loader_add_objects(o->l, &object, first, n_meshes);
 }
 
-/* start[m]: first triangle of material m after sorting by material, in file order within one (a counting sort). */
-static uint32_t *sort_by_material(obj_file *o, const scene_mesh *mesh, size_t *start)
+/* A counting sort of triangles by a key, which keeps the order of equal ones. */
+static uint32_t *sort_by(loader *l, const uint32_t *order, const uint32_t *key, size_t n, size_t n_keys)
 {
-    uint32_t *sorted = loader_alloc(o->l, 3 * mesh->n_triangles, sizeof *sorted);
-    size_t *next = loader_alloc(o->l, o->n_materials, sizeof *next);
+    uint32_t *sorted = loader_alloc(l, n, sizeof *sorted);
+    size_t *next = loader_alloc(l, n_keys + 1, sizeof *next);
     if (!sorted || !next) return NULL;
-    for (size_t i = 0; i < mesh->n_triangles; i++) start[o->material_of[i] + 1]++;
-    for (size_t m = 0; m < o->n_materials; m++) {
-        start[m + 1] += start[m];
-        next[m] = start[m];
-    }
-    for (size_t i = 0; i < mesh->n_triangles; i++) {
-        memcpy(sorted + 3 * next[o->material_of[i]]++, mesh->idx + 3 * i, 3 * sizeof *sorted);
+    for (size_t i = 0; i < n; i++) next[key[i] + 1]++;
+    for (size_t k = 0; k < n_keys; k++) next[k + 1] += next[k];
+    for (size_t i = 0; i < n; i++) {
+        const uint32_t triangle = order ? order[i] : (uint32_t)i;
+        sorted[next[key[triangle]]++] = triangle;
     }
     return sorted;
+}
+
+static bool emit_parts(obj_file *o, const scene_mesh *mesh)
+{
+    mesh_splitter splitter;
+    const size_t n = mesh->n_triangles;
+    scene_mesh plain = *mesh;
+    plain.uv = NULL;
+    uint32_t *idx = loader_alloc(o->l, 3 * n, sizeof *idx),
+             *order = idx ? sort_by(o->l, NULL, o->material_of, n, o->n_materials) : NULL;
+    if (order) order = sort_by(o->l, order, o->object_of, n, o->n_objects);
+    if (!order || !mesh_splitter_init(&splitter, o->l, mesh)) return false;
+    for (size_t first = 0, end; first < n; first = end) {
+        const uint32_t object = o->object_of[order[first]], material = o->material_of[order[first]];
+        for (end = first; end < n && o->object_of[order[end]] == object && o->material_of[order[end]] == material;
+             end++)
+            memcpy(idx + 3 * end, mesh->idx + 3 * (size_t)order[end], 3 * sizeof *idx);
+        const obj_part part = {o->object[object].name, &o->material[material], idx + 3 * first, end - first};
+        splitter.input = part.material->texture_idx != SCENE_NONE ? mesh : &plain;
+        if (!emit_part(o, &splitter, &part)) return false;
+    }
+    return true;
 }
 
 bool obj_emit(obj_file *o)
 {
     vertex_table table = {.o = o};
-    mesh_splitter splitter;
-    if (!join_corners(&table) || !fill_vertices(&table)) return false;
-    /* Before the split by material, so that smooth normals have no seam between materials. */
-    if (!mesh_prepare_normals(o->l, &table.mesh) || !mesh_splitter_init(&splitter, o->l, &table.mesh)) return false;
-    size_t *start = loader_alloc(o->l, o->n_materials + 1, sizeof *start);
-    uint32_t *sorted = start ? sort_by_material(o, &table.mesh, start) : NULL;
-    if (!sorted) return false;
-    scene_mesh plain = table.mesh;
-    plain.uv = NULL;
-    for (size_t m = 0; m < o->n_materials; m++) {
-        size_t n = start[m + 1] - start[m];
-        splitter.input = o->material[m].texture_idx != SCENE_NONE ? &table.mesh : &plain;
-        if (n > 0 && !emit_material(o, &splitter, &o->material[m], sorted + 3 * start[m], n)) return false;
-    }
-    return true;
+    /* Before the split into parts, so that smooth normals have no seam between them. */
+    return join_corners(&table) && fill_vertices(&table) && mesh_prepare_normals(o->l, &table.mesh) &&
+           emit_parts(o, &table.mesh);
 }

@@ -5,16 +5,16 @@
 #include <stdio.h>
 #include <string.h>
 
-static uint32_t *find_bucket(obj_file *o, const char *name)
+uint32_t *obj_bucket(uint32_t bucket[OBJ_BUCKETS], const char *name)
 {
     uint32_t hash = 2166136261;
     for (; *name; name++) hash = (hash ^ (unsigned char)*name) * 16777619;
-    return &o->bucket[(hash ^ hash >> 16) % OBJ_BUCKETS];
+    return &bucket[(hash ^ hash >> 16) % OBJ_BUCKETS];
 }
 
 bool obj_find_material(obj_file *o, obj_text *t, const char *name, uint32_t *out)
 {
-    uint32_t *bucket = find_bucket(o, name);
+    uint32_t *bucket = obj_bucket(o->bucket, name);
     for (uint32_t at = *bucket; at; at = o->material[at - 1].next) {
         *out = at - 1;
         if (strcmp(o->material[at - 1].name, name) == 0) return true;
@@ -39,14 +39,14 @@ static bool read_kd(obj_text *t, obj_material *material)
     size_t n;
     char *rest = obj_rest(t);
     if (strncmp(rest, "spectral", 8) == 0 || strncmp(rest, "xyz", 3) == 0)
-        return obj_note(t, "Kd of material '%s' ignored: not RGB", material->name);
+        return obj_remark(t, "Kd of material '%s' ignored: not RGB", material->name);
     t->at = rest;
     if (!obj_numbers(t, rgb, 3, &n)) return false;
     if (n != 1 && n != 3) return obj_fail(t, "Kd takes 3 numbers");
     if (n == 1) rgb[1] = rgb[2] = rgb[0];
     memcpy(material->albedo, rgb, sizeof rgb);
     return loader_clamp_colour(material->albedo, 3) ||
-           obj_note(t, "Kd of material '%s' outside 0..1 is clamped", material->name);
+           obj_remark(t, "Kd of material '%s' outside 0..1 is clamped", material->name);
 }
 
 /* d is opacity, Tr is what lacks of it. */
@@ -67,7 +67,7 @@ static bool read_opacity(obj_text *t, obj_material *material, const char *word)
             t->line, material->name);
     }
     return loader_clamp_colour(&material->alpha, 1) ||
-           obj_note(t, "%s of material '%s' outside 0..1 is clamped", word, material->name);
+           obj_remark(t, "%s of material '%s' outside 0..1 is clamped", word, material->name);
 }
 
 static bool is_number(const char *word)
@@ -101,7 +101,7 @@ static bool read_map_options(obj_text *t, const obj_material *material, texture_
         }
         other = other || !clamp;
     }
-    return !other || obj_note(t, "options of map_Kd of material '%s' ignored: only -clamp counts", material->name);
+    return !other || obj_remark(t, "options of map_Kd of material '%s' ignored: only -clamp counts", material->name);
 }
 
 /* A texture that is not there, or damaged, is a remark: the shape is worth showing without its colours. */
@@ -169,7 +169,7 @@ static bool read_statement(obj_file *o, obj_text *t, const char *word, uint32_t 
     if (kd) return read_kd(t, material);
     if (d || tr) return read_opacity(t, material, word);
     if (map) return read_map(o, t, material);
-    return loader_note(t->l, "opacity texture of material '%s' ignored: it is not supported", material->name);
+    return loader_remark(t->l, "opacity texture of material '%s' ignored: it is not supported", material->name);
 }
 
 /* A missing library is a remark: the shape is worth showing without its colours. */
@@ -226,7 +226,7 @@ bool obj_note_undefined_materials(obj_file *o)
 {
     for (size_t i = 1; i < o->n_materials; i++) {
         if (o->material[i].defined) continue;
-        if (!loader_note(o->l, "material '%s' is not defined: it is drawn grey", o->material[i].name)) return false;
+        if (!loader_remark(o->l, "material '%s' is not defined: it is drawn grey", o->material[i].name)) return false;
     }
     return true;
 }

@@ -17,14 +17,14 @@ bool obj_fail(obj_text *t, const char *format, ...)
     return loader_fail(t->l, "%s:%zu: %s", t->path, t->line, what);
 }
 
-bool obj_note(obj_text *t, const char *format, ...)
+bool obj_remark(obj_text *t, const char *format, ...)
 {
     char what[400];
     va_list arguments;
     va_start(arguments, format);
     vsnprintf(what, sizeof what, format, arguments);
     va_end(arguments);
-    return loader_note(t->l, "line %zu: %s", t->line, what);
+    return loader_remark(t->l, "line %zu: %s", t->line, what);
 }
 
 bool obj_spend(obj_text *t, budget_kind kind, size_t n)
@@ -35,7 +35,8 @@ bool obj_spend(obj_text *t, budget_kind kind, size_t n)
 
 bool obj_open(obj_text *t, loader *l, const char *path, uint8_t *bytes, size_t n_bytes)
 {
-    *t = (obj_text){.l = l, .path = path, .next = (char *)bytes, .end = (char *)bytes + n_bytes};
+    const size_t mark = n_bytes >= 3 && memcmp(bytes, "\xEF\xBB\xBF", 3) == 0 ? 3 : 0; /* of UTF-8 */
+    *t = (obj_text){.l = l, .path = path, .next = (char *)bytes + mark, .end = (char *)bytes + n_bytes};
     const char *zero = memchr(bytes, 0, n_bytes);
     if (!zero) return true;
     for (const char *c = t->next; c < zero; c++) t->line += *c == '\n';

@@ -6,7 +6,7 @@
 
 #include "tool.h"
 
-enum { NAMES_BYTES = 200, NOTE_BYTES = 300, MAX_COMPARED = 1024 };
+enum { NAMES_BYTES = 200, NOTE_BYTES = 300, MAX_COMPARED = 1024, MAX_PAIRS = 32 };
 
 static const double degrees_per_turn = 360;
 
@@ -24,6 +24,41 @@ void remarks_on_settings(const scene *s)
     remark_on_cones(s);
     for (size_t i = 0; i < s->n_remarks; i++) tool_error("%s", s->remarks[i]);
     for (size_t i = s->n_file_notes; i < s->n_notes; i++) tool_error("%s", s->notes[i]);
+}
+
+/* Bits: the sides of the camera's frustum that a point lies beyond. */
+static unsigned sides_beyond(const scene_camera *c, double aspect, const double p[3])
+{
+    double at[3];
+    for (int k = 0; k < 3; k++) {
+        at[k] = 0;
+        for (int i = 0; i < 3; i++) at[k] += c->to_world.m[i][k] * (p[i] - c->to_world.m[i][3]);
+    }
+    const double half = c->half_height > 0 ? c->half_height : -at[2] / c->focal, x = at[0], y = at[1];
+    return (unsigned)((x > half * aspect) | (x < -half * aspect) << 1 | (y > half) << 2 | (y < -half) << 3 |
+                      (-at[2] < c->near) << 4);
+}
+
+static bool is_beyond(const scene *s, const scene_object *o, double aspect)
+{
+    const scene_mesh *mesh = &s->meshes[o->mesh_idx];
+    unsigned all = ~0U;
+    for (size_t v = 0; v < mesh->n_vertices && all; v++) {
+        double p[3];
+        scene_vertex(p, s, o, v);
+        all &= sides_beyond(&s->camera, aspect, p);
+    }
+    return all != 0;
+}
+
+void remarks_on_view(const scene *s, int width, int height)
+{
+    if (s->added.camera) return;
+    for (size_t i = 0; i < s->n_objects; i++) {
+        const bool is_ground = s->added.ground && i + 1 == s->n_objects;
+        if (!s->objects[i].hidden && !is_ground && !is_beyond(s, &s->objects[i], (double)width / height)) return;
+    }
+    tool_error("the camera sees none of the objects: --orbit 30,25,1 looks at them all");
 }
 
 void remarks_on_frame(const scene *s, int frame)
@@ -76,20 +111,22 @@ static bool is_masked(const scene_light *l)
     return l->mode == SCENE_MIXED && l->mask_channel >= 0;
 }
 
-/* Of a light and the first that it meets: a file of ten thousand has ten thousand remarks, not their square. */
-static int note_shared_channel(scene *s, size_t first, char *error, size_t bytes)
+/* Of a light and those after it, up to *left pairs: a file of ten thousand lights has no remark on each of their pairs.
+ */
+static int note_shared_channels(scene *s, size_t first, int *left, char *error, size_t bytes)
 {
     char note[NOTE_BYTES];
     const scene_light *a = &s->lights[first];
     if (!is_masked(a)) return 0;
     const size_t end = s->n_lights - first < MAX_COMPARED ? s->n_lights : first + MAX_COMPARED;
-    for (size_t i = first + 1; i < end; i++) {
+    for (size_t i = first + 1; i<end && * left> 0; i++) {
         const scene_light *b = &s->lights[i];
         if (!is_masked(b) || a->mask_channel != b->mask_channel || !ranges_overlap(a, b)) continue;
         snprintf(note, sizeof note,
                  "mixed lights %zu '%.64s' and %zu '%.64s' share mask channel %d, and their ranges overlap", first,
                  a->name, i, b->name, a->mask_channel);
-        return scene_add_note(s, note, error, bytes);
+        if (scene_add_note(s, note, error, bytes)) return -1;
+        --*left;
     }
     return 0;
 }
@@ -112,7 +149,9 @@ static int note_useless_baked(scene *s, size_t light, char *error, size_t bytes)
 
 int remarks_on_lights(scene *s, char *error, size_t error_bytes)
 {
+    int left = MAX_PAIRS;
     for (size_t i = 0; i < s->n_lights; i++)
-        if (note_shared_channel(s, i, error, error_bytes) || note_useless_baked(s, i, error, error_bytes)) return -1;
+        if (note_shared_channels(s, i, &left, error, error_bytes) || note_useless_baked(s, i, error, error_bytes))
+            return -1;
     return 0;
 }

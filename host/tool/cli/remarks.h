@@ -8,6 +8,7 @@
 /* To stderr, a line each: what settings came to nothing, which cones had to be others; what the library left out of a
  * picture of its own. */
 void remarks_on_settings(const scene *s);
+void remarks_on_view(const scene *s, int width, int height); /* of the file's camera, which sees nothing */
 void remarks_on_frame(const scene *s, int frame); /* that lies beyond the end of the animation */
 void remarks_on_picture(const scene *s, const engine_picture *p);
 

@@ -5,6 +5,7 @@
 #include <stdarg.h>
 #include <stdio.h>
 #include <string.h>
+#include <sys/stat.h>
 
 #include "../../base/utf8.h"
 #include "../../scene/core/reduce.h"
@@ -54,6 +55,19 @@ static int reduce(scene *s, int n_triangles, char *error, size_t error_bytes)
     return scene_add_note(s, note, error, error_bytes);
 }
 
+/* What is written must not be one of the files that it is made of. */
+static int check_out_path(const tool_options *o, const scene *s, char *error, size_t bytes)
+{
+    struct stat from, out;
+    if (!o->out_path || stat(o->out_path, &out) || !S_ISREG(out.st_mode)) return 0;
+    for (size_t i = 0; i < s->n_files; i++) {
+        if (stat(s->files[i], &from) || from.st_dev != out.st_dev || from.st_ino != out.st_ino) continue;
+        snprintf(error, bytes, "-o %s would overwrite what the scene is read from", o->out_path);
+        return -1;
+    }
+    return 0;
+}
+
 int tool_load_with(const tool_options *o, const char *const *sets, int n_sets, scene *s, settings *set, char *error,
                    size_t error_bytes)
 {
@@ -79,7 +93,7 @@ int tool_load_with(const tool_options *o, const char *const *sets, int n_sets, s
     }
     if (scene_load(s, o->scene_path, &options, error, error_bytes)) return -1;
     settings_init(set);
-    if ((o->triangles && reduce(s, o->triangles, error, error_bytes)) ||
+    if (check_out_path(o, s, error, error_bytes) || (o->triangles && reduce(s, o->triangles, error, error_bytes)) ||
         settings_apply_all(set, s, sets, n_sets, error, error_bytes) ||
         settings_enforce(set, s, o->width, o->height, error, error_bytes)) {
         scene_free(s);

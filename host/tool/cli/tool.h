@@ -35,7 +35,7 @@ typedef struct {
     int last_frame;  /* of --frames, whose first is frame; -1: compile: to the end of the animation, others: that frame
                       */
     int first_frame; /* of them, while frame goes through them; else -1 */
-    int margin;     /* compile: per cent */
+    int margin;      /* compile: per cent */
     const char *optimise; /* compile: -Os, -O2: how the library is built; NULL: as the board says */
     int simplify;         /* compile */
     const char *board;    /* compile, info: or NULL */

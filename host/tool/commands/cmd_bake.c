@@ -193,6 +193,7 @@ static int read_back(job *j, char *error, size_t bytes)
     tool_options o = *j->o;
     settings set;
     o.scene_path = j->o->out_path;
+    o.out_path = NULL;
     o.frame = 0;
     return tool_load_with(&o, NULL, 0, &j->baked, &set, error, bytes) ||
                    draw(&j->after, &j->baked, &set, &o, error, bytes)

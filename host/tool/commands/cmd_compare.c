@@ -243,6 +243,7 @@ static int compare(comparison *c, const tool_options *o)
                  remarks_on_shadows(&s, o->width, o->height, error, sizeof error);
     if (!failed && !o->json) {
         remarks_on_settings(&s);
+        remarks_on_view(&s, o->width, o->height);
         remarks_on_frame(&s, o->frame);
         remarks_on_picture(&s, &c->picture[FIXED]);
     }

@@ -23,6 +23,7 @@ static int draw(engine_picture *p, const tool_options *o, const scene *s, const 
 static void say_remarks(const tool_options *o, const scene *s, const engine_picture *p)
 {
     remarks_on_settings(s);
+    remarks_on_view(s, o->width, o->height);
     if (o->last_frame < 0) remarks_on_frame(s, o->frame);
     if (strcmp(o->engine, "fixed") == 0) remarks_on_picture(s, p);
 }

@@ -6,6 +6,7 @@
 
 #include "compile_emit.h"
 #include "rig.h"
+#include "../../scene/core/texture_format.h"
 #include "../cli/remarks.h"
 
 enum { PATH_BYTES = 4096, SYMBOL_BYTES = 64 };
@@ -101,14 +102,15 @@ static int write_file(const compiled *c, const char *ending, void (*write)(FILE 
     return fclose(f) || failed ? -1 : 0;
 }
 
-/* The last part of the path: names in C begin with it, and NAME.c includes it. */
+/* The last part of the path: names in C begin with it, and NAME.c includes it. Those of the library begin with gn. */
 static int find_symbol(const char *path, char *out)
 {
     static const char letters[] = "abcdefghijklmnopqrstuvwxyz";
     const char *slash = strrchr(path, '/'), *name = slash ? slash + 1 : path;
     const size_t n = strlen(name);
     if (!n || n >= SYMBOL_BYTES || !strchr(letters, name[0]) ||
-        name[strspn(name, "abcdefghijklmnopqrstuvwxyz0123456789_")])
+        name[strspn(name, "abcdefghijklmnopqrstuvwxyz0123456789_")] || strcmp(name, "gn") == 0 ||
+        strncmp(name, "gn_", 3) == 0)
         return -1;
     memcpy(out, name, n + 1);
     return 0;
@@ -124,6 +126,26 @@ static void print_clips(const compiled *c)
                c->rig->clips[i].duration_q16 / 65536.0, c->rig->clips[i].n_channels, e->n_keys, e->n_keys_before,
                e->moved, e->turned);
     }
+}
+
+static long texture_bytes(const scene_texture *t, int w, int h)
+{
+    return (long)((double)w * h * texture_format_bits(t->format) / 8 * (t->mipmapped ? 4 / 3.0 : 1));
+}
+
+/* Where most of the flash goes to textures, what smaller ones would take. */
+static void hint_at_size(const compiled *c)
+{
+    enum { SIDE = 64, LITTLE = 65536 };
+    long now = 0, small = 0;
+    for (size_t i = 0; i < c->scene.n_textures; i++) {
+        const scene_texture *t = &c->scene.textures[i];
+        const int longest = t->width > t->height ? t->width : t->height, side = longest < SIDE ? longest : SIDE;
+        now += texture_bytes(t, t->width, t->height);
+        small += texture_bytes(t, t->width * side / longest, t->height * side / longest);
+    }
+    if (now > LITTLE && now > compile_flash_bytes(c, true) / 2 && small < now)
+        tool_error("textures take %ld bytes of that: --set texture_size=%d leaves %ld", now, (int)SIDE, small);
 }
 
 static void print_summary(const compiled *c)
@@ -148,7 +170,9 @@ int tool_asset(const tool_options *given)
     tool_options o = *given;
     compiled c;
     if (find_symbol(o.out_path, symbol)) {
-        tool_error("-o %s: the name must be one in C, of lower-case letters, digits and _, such as fox", o.out_path);
+        tool_error("-o %s: the name must be one in C, of lower-case letters, digits and _, such as fox, and not the "
+                   "library's gn",
+                   o.out_path);
         return TOOL_USAGE;
     }
     o.asset = o.open = 1;
@@ -161,6 +185,7 @@ int tool_asset(const tool_options *given)
     else {
         print_summary(&c);
         if (!o.json) print_clips(&c);
+        if (!o.json) hint_at_size(&c);
     }
     compile_free(&c);
     return failed ? tool_fail(o.out_path, error) : TOOL_OK;

@@ -329,6 +329,22 @@ static int apply_format(scene *s, int format, char *error, size_t bytes)
     return 1;
 }
 
+static int apply_size(scene *s, int side, char *error, size_t bytes)
+{
+    for (size_t i = 0; i < s->n_textures; i++) {
+        scene_texture *t = &s->textures[i];
+        const int w = t->width, h = t->height;
+        texture_error off;
+        char note[256];
+        if (!is_shown(s, i) || (w <= side && h <= side)) continue;
+        if (!texture_shrink(t, side, false, &off)) return settings_fail(error, bytes, "texture_size", "", "memory");
+        snprintf(note, sizeof note, "texture '%.64s' of %dx%d as %dx%d: off by at most %.0f of 255, %.2f in the mean",
+                 t->name, w, h, t->width, t->height, off.max, off.rms);
+        if (scene_add_note(s, note, error, bytes)) return -1;
+    }
+    return 1;
+}
+
 static int apply_levels(scene *s, const char *value, char *error, size_t bytes)
 {
     const bool wanted = strcmp(value, "1") == 0;
@@ -355,10 +371,7 @@ static int apply_textures(scene *s, const char *key, const char *value, char *er
     long side = strtol(value, &end, 10);
     if (*end || side < 1 || side > 4096)
         return settings_fail(error, bytes, key, value, "a whole number from 1 to 4096");
-    for (size_t i = 0; i < s->n_textures; i++)
-        if (is_shown(s, i) && !texture_shrink(&s->textures[i], (int)side, false))
-            return settings_fail(error, bytes, key, value, "memory");
-    return 1;
+    return apply_size(s, (int)side, error, bytes);
 }
 
 int settings_apply_scene(scene *s, const char *key, size_t light, const char *value, char *error, size_t error_bytes)
