@@ -9,7 +9,7 @@
  * picture of its own. */
 void remarks_on_settings(const scene *s);
 void remarks_on_view(const scene *s, int width, int height); /* of the file's camera, which sees nothing */
-void remarks_on_frame(const scene *s, int frame); /* that lies beyond the end of the animation */
+void remarks_on_frame(const scene *s, int frame);            /* that lies beyond the end of the animation */
 void remarks_on_picture(const scene *s, const engine_picture *p);
 
 /* Adds a note for every pair of lights that one mask channel cannot serve (M5), and for baked lights without anything
