@@ -16,6 +16,16 @@ keywords() { # functions KEYWORD2, types KEYWORD1, constants LITERAL1: a tab bet
             print substr($0, RSTART, RLENGTH) "\tLITERAL1"; $0 = substr($0, RSTART + RLENGTH) } }' | sort -u
 }
 
+# What the archive is and what is in it; pictures, tools and documents stay behind.
+readme() {
+    awk '/^## / { exit } !/^!\[/' "$1" | cat -s
+    echo "## What is where"
+    echo
+    awk '/^## / { on = $2 == "Packages" } on && /^\|/' docs/FIRMWARE.md
+    echo
+    echo "Knobs must be the same for library and program: \`gn_init\` refuses otherwise. \`lib/gnomon.h\` says what the calls do, \`CHANGELOG.md\` what stays. Documents, the host tool and boards are in the sources that this archive is made of."
+}
+
 grep -v '^#' boards/packages/list | while read -r how from to; do
     mkdir -p "$(dirname "$out/$name/$to")"
     case $how in
@@ -23,6 +33,7 @@ grep -v '^#' boards/packages/list | while read -r how from to; do
     fill) sed "s/@VERSION@/$version/g" "$from" >"$out/$name/$to" ;;
     one) awk -f boards/packages/one_file.awk -v root=lib "$from" >"$out/$name/$to" ;;
     options | header | wizard) sh boards/packages/kconfig.sh "$how" >"$out/$name/$to" ;;
+    readme) readme "$from" >"$out/$name/$to" ;;
     keywords) keywords >"$out/$name/$to" ;;
     *) false ;;
     esac || { echo "list: $how $from $to" >&2; exit 1; }

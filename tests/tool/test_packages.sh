@@ -259,6 +259,92 @@ cmp -s "$idf/36600" "$idf/36660" && fail "the clock at 10:10 and at 10:11 is the
 grep -q 'SRCS "clock.c" "st7789.c" REQUIRES gnomon' "$clock/main/CMakeLists.txt" && [ -e "$clock/$(sed -n 's/^set(EXTRA_COMPONENT_DIRS \(.*\))/\1/p' "$clock/CMakeLists.txt")/idf_component.yml" ] && pass ||
     fail "the project of the clock does not name its sources and the component"
 
+# ---- Pico SDK: its example by CMake on a stand-in of the SDK, whose second core is a thread; it ends after three pictures ---------------
+
+pico=$tmp/pico
+mkdir -p "$pico/hardware" "$pico/pico"
+cat >"$pico/sdk.h" <<'C'
+#pragma once
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdint.h>
+typedef struct spi_inst spi_inst_t;
+enum gpio_function { GPIO_FUNC_SPI = 1 };
+#define spi0 ((spi_inst_t *)16)
+unsigned spi_init(spi_inst_t *spi, unsigned hz);
+int spi_write_blocking(spi_inst_t *spi, const uint8_t *bytes, size_t n);
+void gpio_init(unsigned pin);
+void gpio_set_dir(unsigned pin, bool out);
+void gpio_put(unsigned pin, bool value);
+void gpio_set_function(unsigned pin, enum gpio_function function);
+void sleep_ms(uint32_t ms);
+bool stdio_init_all(void);
+uint32_t time_us_32(void);
+void multicore_launch_core1(void (*entry)(void));
+void multicore_fifo_push_blocking(uint32_t data);
+uint32_t multicore_fifo_pop_blocking(void);
+C
+for header in hardware/gpio.h hardware/spi.h pico/multicore.h pico/stdlib.h; do echo '#include "sdk.h"' >"$pico/$header"; done
+cat >"$pico/sdk.c" <<'C'
+#include <pthread.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <unistd.h>
+#include "sdk.h"
+static int fifo[2][2], is_data, is_command, is_out[32], n_shown;
+static uint8_t command;
+static void (*second)(void);
+static _Thread_local int core;
+unsigned spi_init(spi_inst_t *spi, unsigned hz) { return spi == spi0 ? hz : 0; }
+void gpio_init(unsigned pin) { is_out[pin] = 0; }
+void gpio_set_dir(unsigned pin, bool out) { is_out[pin] = out; }
+void gpio_set_function(unsigned pin, enum gpio_function function) { (void)pin, (void)function; }
+void gpio_put(unsigned pin, bool value) { if (!is_out[pin]) exit(3); if (pin == 16) is_data = value; if (pin == 17) is_command = !value; }
+int spi_write_blocking(spi_inst_t *spi, const uint8_t *bytes, size_t n)
+{
+    if (spi != spi0 || !is_command) exit(4);
+    if (!is_data) command = bytes[0];
+    else if (command == 0x2C && (n != 115200 || fwrite(bytes, 1, n, stderr) != n || ++n_shown == 3)) exit(n != 115200);
+    return (int)n;
+}
+void sleep_ms(uint32_t ms) { (void)ms; }
+bool stdio_init_all(void) { return pipe(fifo[0]) == 0 && pipe(fifo[1]) == 0; }
+uint32_t time_us_32(void) { return 0; }
+static void *run(void *user) { core = 1; second(); return user; }
+void multicore_launch_core1(void (*entry)(void)) { pthread_t t; second = entry; if (pthread_create(&t, NULL, run, NULL)) exit(5); }
+void multicore_fifo_push_blocking(uint32_t data) { if (write(fifo[!core][1], &data, 4) != 4) exit(6); }
+uint32_t multicore_fifo_pop_blocking(void) { uint32_t data; if (read(fifo[core][0], &data, 4) != 4) exit(7); return data; }
+C
+cat >"$pico/pico_sdk_init.cmake" <<'C'
+macro(pico_sdk_init)
+  find_package(Threads REQUIRED)
+  foreach(part pico_stdlib pico_multicore hardware_spi)
+    add_library(${part} INTERFACE)
+  endforeach()
+  target_sources(pico_stdlib INTERFACE ${PICO_SDK_PATH}/sdk.c)
+  target_include_directories(pico_stdlib INTERFACE ${PICO_SDK_PATH})
+  target_compile_options(pico_stdlib INTERFACE -Wall -Wextra -Werror -D_GNU_SOURCE)
+  target_link_libraries(pico_stdlib INTERFACE Threads::Threads)
+endmacro()
+macro(pico_enable_stdio_usb)
+endmacro()
+macro(pico_add_extra_outputs)
+endmacro()
+C
+if command -v cmake >/dev/null 2>&1; then
+    ok cmake -S "$package/examples/pico-sdk" -B "$pico/build" -DPICO_SDK_PATH="$pico"
+    ok cmake --build "$pico/build"
+else
+    ok gcc -std=c99 -D_GNU_SOURCE -w -pthread -I"$pico" -I"$package/single" -o "$pico/build-turn" "$package/examples/pico-sdk/turn.c" "$package/examples/pico-sdk/st7789.c" \
+        "$pico/sdk.c" "$tmp/single.o" && mkdir -p "$pico/build" && mv "$pico/build-turn" "$pico/build/turn"
+fi
+for run in 1 2; do "$pico/build/turn" >"$pico/said" 2>"$pico/shown$run" && [ "$(wc -c <"$pico/shown$run")" = 345600 ] && pass || fail "pico-sdk: no three pictures: $(head -n 1 "$pico/said")"; done
+cmp -s "$pico/shown1" "$pico/shown2" && pass || fail "pico-sdk: two cores draw other pictures in other runs"
+head -c 115200 "$pico/shown1" | cmp -s - "$pico/shown1" && fail "pico-sdk: one picture" || pass
+[ "$(head -c 115200 "$pico/shown1" | cksum)" != "$(tail -c 115200 "$pico/shown1" | cksum)" ] && pass || fail "pico-sdk: nothing turns"
+for word in single/ examples/pico-sdk/ micropython/; do grep -q "$word" "$package/README.md" && pass || fail "the archive's README does not tell of $word"; done
+grep -o '](\([^)]*\))' "$package/README.md" | grep -v '](http' && fail "the archive's README has links to what is not there" || pass
+
 # ---- CMSIS-Pack: the description, the header of the Configuration Wizard, the example with two buttons -----------------------------
 
 pdsc=$package/cmsis/Gnomon.Gnomon.pdsc

@@ -558,7 +558,7 @@ static void test_obj_lacks(void)
     CHECK_NEAR(s.objects[0].albedo[0], 0.8, 0);
     for (size_t i = 0; i < 3; i++) CHECK_NEAR(a->nrm[3 * i + 2], 1, 0); /* of the face */
     CHECK_NEAR(a->nrm[3 * a->idx[4]], 1, 0);
-    CHECK(has_note("line 8: usemtl without a name") && has_note("line 12: usemtl without") && s.n_remarks == 0);
+    CHECK(has_note("line 8: usemtl without a name") && has_note("line 12: usemtl without") && s.n_remarks == 3);
     scene_free(&s);
     if (!CHECK_EQ_INT(load_text(TMP ".obj", "v 0 0 0\nv 2 0 0\nv 0 2 0\nf 1// 2// 3//\n"), 0)) return (void)puts(error);
     CHECK(!s.meshes[0].nrm);
