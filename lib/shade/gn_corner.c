@@ -41,16 +41,58 @@ GN_HOT static int form_on_screen(gn_slope *out, const gn_frame *frame, const gn_
     return gn_abs32(out->at) < 1U << 30 && (dx | dy) < 1U << 26 && (uint64_t)dx * w + (uint64_t)dy * h < 1U << 30;
 }
 
+#if GN_ORTHOGRAPHIC
+GN_HOT static void times_per_w(int32_t *v, uint32_t recip, int32_t clz)
+{
+    *v = (int32_t)((*v * (int64_t)recip) >> (35 - clz)); /* 2^30 * 2^32 */
+}
+
+/* Barycentrics of parallel rays, whose n . ray is the same everywhere: below 2^29 within `rect`. */
+GN_HOT static int find_flat_plane(gn_screen_plane *p, const gn_frame *frame, const gn_surface *s, const gn_rect *rect)
+{
+    const int64_t w = gn_plane_at(s->screen.n, 0, 0, frame->cam.focal2_px_q16);
+    if (w < (int64_t)1 << 45) return 0;
+    const int32_t shift = 37 - gn_clz64((uint64_t)w);
+    const uint32_t w_q27 = (uint32_t)(w >> shift);
+    const int32_t clz = gn_clz32(w_q27);
+    const uint32_t recip = gn_recip_norm(w_q27 << clz, 2);
+    for (int k = 0; k < 2; k++) {
+        gn_slope *b = &p->b[k];
+        if (!form_on_screen(b, frame, p, s->bary.form[k], shift - s->bary.exp[k], rect)) return 0;
+        times_per_w(&b->at, recip, clz);
+        times_per_w(&b->dx, recip, clz);
+        times_per_w(&b->dy, recip, clz);
+    }
+    return 1;
+}
+
+GN_HOT int32_t gn_corner_flat_depth(const gn_screen_plane *p, const gn_surface *s, int32_t x, int32_t y,
+                                    int32_t b_q28[2])
+{
+    int64_t z = 0; /* 2^29 * 2^31, twice */
+    for (int k = 0; k < 2; k++) {
+        b_q28[k] = along(&p->b[k], x - p->x, y - p->y);
+        if (gn_abs32(b_q28[k]) >> 29) return 0;
+        z += (int64_t)b_q28[k] * s->depth_q16[k + 1];
+    }
+    z = s->depth_q16[0] + (z >> 28);
+    return z > 0 && z >> 30 == 0 ? (int32_t)z : 0;
+}
+#endif
+
 /* Forms of the surface at a common scale, at which n . ray is below 2^27 on the triangle. */
 GN_HOT static int find_plane(gn_screen_plane *p, const gn_frame *frame, const gn_surface *s, const gn_rect *rect)
 {
     if (s->plane.det <= 0) return 0;
-    int32_t shift = s->depth_scale.exp + 32 - (31 - gn_clz32((uint32_t)s->z_min_q16)) - 27;
-    p->z_shift = 31 + shift - s->depth_scale.exp;
     p->x = (rect->x0 + rect->x1) >> 1;
     p->y = (rect->y0 + rect->y1) >> 1;
     p->w_px = ((rect->x1 - rect->x0) >> 1) + 17;
     p->h_px = ((rect->y1 - rect->y0) >> 1) + 17;
+#if GN_ORTHOGRAPHIC
+    if (GN_FLAT_Q16(frame)) return find_flat_plane(p, frame, s, rect);
+#endif
+    int32_t shift = s->depth_scale.exp + 32 - (31 - gn_clz32((uint32_t)s->z_min_q16)) - 27;
+    p->z_shift = 31 + shift - s->depth_scale.exp;
     if (!form_on_screen(&p->w, frame, p, s->plane.n, shift, rect)) return 0;
     for (int k = 0; GN_HAS_BARY(s) && k < 2; k++)
         if (!form_on_screen(&p->b[k], frame, p, s->bary.form[k], shift - s->bary.exp[k], rect)) return 0;
@@ -115,7 +157,6 @@ GN_HOT int gn_corner_begin(gn_lattice *l, const gn_frame *frame, const gn_surfac
 
 /* A point of the plane. */
 typedef struct {
-    int32_t px, py;   /* the pixel's ray */
     int32_t b_q28[2]; /* barycentrics */
     int32_t n_q30[3], unit_q30[3];
 } corner_point;
@@ -124,9 +165,13 @@ GN_HOT static int find_point(const gn_lattice *l, const gn_frame *frame, const g
                              corner_point *p)
 {
     const gn_screen_plane *plane = &l->plane;
+#if GN_ORTHOGRAPHIC
+    if (GN_FLAT_Q16(frame)) {
+        c->z_q16 = gn_corner_flat_depth(plane, s, c->x, c->y, p->b_q28);
+        return c->z_q16 != 0;
+    }
+#endif
     int32_t dx = c->x - plane->x, dy = c->y - plane->y, w = along(&plane->w, dx, dy);
-    p->px = 2 * c->x + 1 - frame->picture.width;
-    p->py = frame->picture.height - 1 - 2 * c->y;
     if (w < 1 << 10 || w >= 1 << 30) return 0;
     int32_t clz = gn_clz32((uint32_t)w), shift = plane->z_shift - clz;
     uint32_t recip = gn_recip_norm((uint32_t)w << clz, GN_K(frame, newton_steps));
@@ -238,18 +283,35 @@ GN_HOT static uint32_t mask_at(const gn_surface *s, const corner_point *p, const
 /* ---- Lights ------------------------------------------------------------------------------------------------------ */
 
 #if GN_PUNCTUAL_LIGHTS
+/* A length along a ray, saturated: times 2^shift / 2^32. */
+GN_HOT static int32_t ray_length(int32_t length, int32_t a, int32_t shift)
+{
+    int32_t v = gn_mul_high(length, a);
+    if (shift <= 0) return v >> gn_min32(-shift, 31);
+    return (int32_t)gn_clamp64(v * ((int64_t)1 << gn_min32(shift, 31)), -INT32_MAX, INT32_MAX);
+}
+
 /* From the eye to the point, along the world's axes: the same for all lights. Returns 0 if it is 2^30 away. */
-GN_HOT static int find_ray(const gn_light_state *any, gn_corner *c, const corner_point *p)
+GN_HOT static int find_ray(const gn_frame *frame, const gn_light_state *any, gn_corner *c)
 {
     uint32_t beyond = 0;
-    int32_t up = gn_clz32((uint32_t)c->z_q16) - 1, z = c->z_q16 * (1 << up), down = any->ray_shift + up - 32;
-    const int32_t wide = gn_min32(gn_max32(-down, 0), 31), narrow = gn_min32(gn_max32(down, 0), 31);
+    gn_corner_ray ray;
+    gn_corner_ray_begin(&ray, frame, any->ray_shift, c->x, c->y, c->z_q16);
+    int32_t z_shift = 33 - any->ray_shift - gn_clz32((uint32_t)c->z_q16);
     for (int i = 0; i < 3; i++) {
         const gn_ray_plane *r = &any->from_light[i];
-        int32_t a = (int32_t)((uint32_t)r->a0 + (uint32_t)r->ax * (uint32_t)p->px + (uint32_t)r->ay * (uint32_t)p->py);
-        int32_t v = gn_mul_high(z, a);
-        if (wide) v = (int32_t)gn_clamp64(v * ((int64_t)1 << wide), -INT32_MAX, INT32_MAX);
-        c->ray_q16[i] = v >> narrow;
+        uint32_t across = (uint32_t)r->ax * (uint32_t)ray.px + (uint32_t)r->ay * (uint32_t)ray.py;
+        int32_t more = 0;
+#if GN_ORTHOGRAPHIC
+        if (ray.flat) {
+            more = ray_length(ray.flat, (int32_t)across, 33 - any->ray_shift - gn_clz32((uint32_t)GN_FLAT_Q16(frame)));
+            beyond |= (uint32_t)more + (1U << 30);
+            across = 0;
+        }
+#endif
+        int32_t at = ray_length(ray.z, (int32_t)((uint32_t)r->a0 + across), z_shift);
+        beyond |= (uint32_t)at + (1U << 30);
+        c->ray_q16[i] = (int32_t)((uint32_t)at + (uint32_t)more);
         beyond |= (uint32_t)c->ray_q16[i] + (1U << 30);
     }
     return !(beyond >> 31);
@@ -353,13 +415,14 @@ GN_HOT static void light_at(const gn_lattice *l, const gn_frame *frame, const gn
 }
 
 /* Strength of shadows, cascade, and its share in a blend. */
-GN_HOT static void find_cascade(const gn_lattice *l, const gn_frame *frame, const gn_surface *s, const corner_point *p,
-                                gn_sample *sample, gn_corner *c)
+GN_HOT static void find_cascade(const gn_lattice *l, const gn_frame *frame, const gn_surface *s, gn_sample *sample,
+                                gn_corner *c)
 {
     c->cascade = (uint8_t)l->cascade;
     c->g_uq16 = c->fade_uq16 = 65536;
     if (l->cascade >= 0 || !s->shadowed) return;
-    gn_sample_find_cascade(frame, p->px, p->py, c->z_q16, sample);
+    gn_sample_find_cascade(frame, 2 * c->x + 1 - frame->picture.width, frame->picture.height - 1 - 2 * c->y, c->z_q16,
+                           sample);
     c->cascade = (uint8_t)sample->cascade;
     c->fade_uq16 = (uint32_t)sample->value[GN_VALUE_FADE];
     c->g_uq16 = gn_shadow_distance(frame, s, sample);
@@ -375,12 +438,12 @@ GN_HOT void gn_corner_find(const gn_lattice *l, const gn_frame *frame, const gn_
     c->y = (int16_t)y;
     if (!find_point(l, frame, s, c, &p)) return;
 #if GN_PUNCTUAL_LIGHTS
-    if (s->n_punctual && !find_ray(s->light[s->n_lights - 1].state, c, &p)) return;
+    if (s->n_punctual && !find_ray(frame, s->light[s->n_lights - 1].state, c)) return;
 #endif
     c->state = GN_CORNER_KNOWN;
     attributes_at(s, &p, c);
     if (!s->n_lights) return;
-    find_cascade(l, frame, s, &p, sample, c);
+    find_cascade(l, frame, s, sample, c);
     if (!find_normal(frame, s, c, &p)) {
         c->state = GN_CORNER_UNSEEN;
         return;
@@ -411,7 +474,7 @@ GN_HOT int gn_corner_locate(const gn_lattice *l, const gn_frame *frame, const gn
     c->light[slot].placed = GN_VIEW_NONE;
 #if GN_PUNCTUAL_LIGHTS
     const gn_light_state *light = s->light[slot].state;
-    if (light->kind != GN_LIGHT_DIRECTIONAL) return find_ray(light, c, &p);
+    if (light->kind != GN_LIGHT_DIRECTIONAL) return find_ray(frame, light, c);
 #endif
     return 1;
 }

@@ -19,6 +19,11 @@ int gn_corner_begin(gn_lattice *lattice, const gn_frame *frame, const gn_surface
 void gn_corner_find(const gn_lattice *lattice, const gn_frame *frame, const gn_surface *surface, int32_t x, int32_t y,
                     gn_sample *sample, gn_corner *corner);
 
+/* View depth of the plane at a pixel, and barycentrics there, both linear on the screen: of an orthographic camera
+ * alone. Returns 0 far off the triangle. */
+int32_t gn_corner_flat_depth(const gn_screen_plane *plane, const gn_surface *surface, int32_t x, int32_t y,
+                             int32_t b_q28[2]);
+
 /* View depth of the plane at a pixel, up to its largest on the triangle. */
 int32_t gn_corner_depth(const gn_lattice *lattice, const gn_frame *frame, const gn_surface *surface, int32_t x,
                         int32_t y);
@@ -55,12 +60,49 @@ int gn_corner_place_flat(gn_lattice *lattice, const gn_frame *frame, const gn_su
 void gn_corner_uv(const gn_lattice *lattice, const gn_frame *frame, const gn_surface *surface,
                   const gn_light_view *view, int32_t x, int32_t y, const int32_t offset_q16[3], int32_t uv_q16[2]);
 
-#if GN_SHADOWS
-/* A coordinate of a point in a directional view, without bias: z, its depth in 31 bits, along the pixel's ray. */
-GN_HOT static inline int32_t gn_corner_ortho(const gn_ray_plane *r, int32_t px, int32_t py, int32_t z, int32_t down)
+/* A point of a pixel's ray: what gn_ray_plane's axes are multiplied by, 31 bits, and how far products go down. */
+typedef struct {
+    int32_t px, py, z, down;
+#if GN_ORTHOGRAPHIC
+    int32_t flat, flat_down; /* of parallel rays: the same of ax and ay; 0: perspective */
+#endif
+} gn_corner_ray;
+
+/* Returns 0 if 32 bits are not enough: shifts are limited then. */
+GN_HOT static inline int gn_corner_ray_begin(gn_corner_ray *ray, const gn_frame *frame, int32_t ray_shift, int32_t x,
+                                             int32_t y, int32_t z_q16)
 {
-    int32_t a = (int32_t)((uint32_t)r->a0 + (uint32_t)r->ax * (uint32_t)px + (uint32_t)r->ay * (uint32_t)py);
-    return (int32_t)((uint32_t)(gn_mul_high(z, a) >> down) + (uint32_t)r->d_q16);
+    int32_t up = gn_clz32((uint32_t)z_q16) - 1, down = ray_shift + up - 32, all = down;
+    ray->px = 2 * x + 1 - frame->picture.width;
+    ray->py = frame->picture.height - 1 - 2 * y;
+    ray->z = z_q16 * (1 << up);
+    ray->down = gn_min32(gn_max32(down, 0), 31);
+#if GN_ORTHOGRAPHIC
+    ray->flat = frame->cam.flat_q16;
+    if (ray->flat) {
+        up = gn_clz32((uint32_t)ray->flat) - 1;
+        down = ray_shift + up - 32;
+        ray->flat *= 1 << up;
+        ray->flat_down = gn_min32(gn_max32(down, 0), 31);
+        all |= down;
+    }
+#endif
+    return (uint32_t)all < 32;
+}
+
+#if GN_SHADOWS
+/* A coordinate of a point in a directional view, without bias. */
+GN_HOT static inline int32_t gn_corner_ortho(const gn_ray_plane *r, const gn_corner_ray *ray)
+{
+    uint32_t across = (uint32_t)r->ax * (uint32_t)ray->px + (uint32_t)r->ay * (uint32_t)ray->py,
+             at = (uint32_t)r->d_q16;
+#if GN_ORTHOGRAPHIC
+    if (ray->flat) {
+        at += (uint32_t)(gn_mul_high(ray->flat, (int32_t)across) >> ray->flat_down);
+        across = 0;
+    }
+#endif
+    return (int32_t)(at + (uint32_t)(gn_mul_high(ray->z, (int32_t)((uint32_t)r->a0 + across)) >> ray->down));
 }
 
 /* Sets u, v, depth in whichever way there is; once per corner, until another view is asked for. */

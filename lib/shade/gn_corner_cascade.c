@@ -13,11 +13,19 @@ typedef struct {
     uint64_t tan2_lo_q24, tan2_hi_q24;
 } extent;
 
-/* Square of the distance from the cascade's centre at a depth and a tangent; 0 to 2^32 too little. */
-GN_HOT static uint64_t distance2_q32(const gn_cascade_state *cascade, int32_t z_q16, uint64_t tan2_q24)
+/* Square of the distance from the view axis at a depth and a tangent; 0 to 2^32 too little. */
+GN_HOT static uint64_t across2_of_q32(const gn_frame *frame, int32_t z_q16, uint64_t tan2_q24)
 {
-    int64_t z = z_q16, dz = z - cascade->centre_q16;
-    return ((uint64_t)(z * z) >> 24) * tan2_q24 + (uint64_t)(dz * dz);
+    int64_t z = GN_FLAT_Q16(frame) ? GN_FLAT_Q16(frame) : z_q16;
+    return ((uint64_t)(z * z) >> 24) * tan2_q24;
+}
+
+/* The same from the cascade's centre. */
+GN_HOT static uint64_t distance2_q32(const gn_frame *frame, const gn_cascade_state *cascade, int32_t z_q16,
+                                     uint64_t tan2_q24)
+{
+    int64_t dz = (int64_t)z_q16 - cascade->centre_q16;
+    return across2_of_q32(frame, z_q16, tan2_q24) + (uint64_t)(dz * dz);
 }
 
 /* The cascade of all points, if none of them fades or blends there; -1 if it is not certain. */
@@ -27,18 +35,18 @@ GN_HOT static int32_t certain_cascade(const gn_frame *frame, const extent *e)
     if (frame->scene->shadow.distance_mode != GN_DISTANCE_DEPTH || (uint32_t)e->z_hi_q16 > frame->fade_start_q16)
         return -1;
     if (!frame->has_cascades) return GN_CASCADE_NONE;
-    if (e->z_hi_q16 >> 27 || e->tan2_hi_q24 >> 28) return -1; /* and distance2_q32 fits */
+    if ((e->z_hi_q16 | GN_FLAT_Q16(frame)) >> 27 || e->tan2_hi_q24 >> 28) return -1; /* and distance2_q32 fits */
     for (int32_t i = 0; i < GN_N_CASCADES(frame); i++) {
         const gn_cascade_state *c = &frame->cascade[i];
         if (!c->radius2_q32) continue; /* empty */
         uint64_t within = blends || i == GN_LAST_CASCADE(frame) ? c->inner2_q32 : c->radius2_q32;
         uint64_t rounding = e->tan2_hi_q24 + 1;
-        if (distance2_q32(c, e->z_lo_q16, e->tan2_hi_q24) + rounding < within &&
-            distance2_q32(c, e->z_hi_q16, e->tan2_hi_q24) + rounding < within)
+        if (distance2_q32(frame, c, e->z_lo_q16, e->tan2_hi_q24) + rounding < within &&
+            distance2_q32(frame, c, e->z_hi_q16, e->tan2_hi_q24) + rounding < within)
             return i;
         int32_t nearest = gn_max32(e->z_lo_q16, gn_min32(c->centre_q16, e->z_hi_q16));
-        int64_t dz = (int64_t)nearest - c->centre_q16, z = e->z_lo_q16;
-        if (((uint64_t)(z * z) >> 24) * e->tan2_lo_q24 + (uint64_t)(dz * dz) < c->radius2_q32) return -1;
+        int64_t dz = (int64_t)nearest - c->centre_q16;
+        if (across2_of_q32(frame, e->z_lo_q16, e->tan2_lo_q24) + (uint64_t)(dz * dz) < c->radius2_q32) return -1;
     }
     return -1;
 }

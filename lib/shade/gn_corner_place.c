@@ -31,14 +31,12 @@ GN_HOT static const int32_t *flat_offset(gn_lattice *l, const gn_frame *frame, c
 }
 
 /* Tile coordinates in texels, Q16, of what is moved along its normal. */
-GN_HOT static void coords_directional(const gn_frame *frame, const gn_surface *s, const gn_corner *c,
+GN_HOT static void coords_directional(const gn_corner_ray *ray, const gn_surface *s, const gn_corner *c,
                                       const gn_light_view *view, const int32_t *flat_q16, int32_t coord_q16[3])
 {
-    int32_t px = 2 * c->x + 1 - frame->picture.width, py = frame->picture.height - 1 - 2 * c->y;
-    int32_t up = gn_clz32((uint32_t)c->z_q16) - 1, z = c->z_q16 * (1 << up), down = view->fit.ortho.ray_shift + up - 32;
     const int32_t *n = normal_of(s, c);
     for (int i = 0; i < 3; i++) {
-        int32_t at = gn_corner_ortho(&view->fit.ortho.ray[i], px, py, z, down);
+        int32_t at = gn_corner_ortho(&view->fit.ortho.ray[i], ray);
         if (flat_q16) coord_q16[i] = gn_sat32((int64_t)at + flat_q16[i]); /* automatic bias may say: lit */
         else
             coord_q16[i] =
@@ -52,6 +50,10 @@ GN_HOT static GN_SHARED int32_t plane_depth(const gn_lattice *l, const gn_frame 
                                             int32_t y)
 {
     const gn_screen_plane *p = &l->plane;
+#if GN_ORTHOGRAPHIC
+    int32_t b_q28[2];
+    if (GN_FLAT_Q16(frame)) return gn_max32(1, gn_min32(gn_corner_flat_depth(p, s, x, y, b_q28), s->z_max_q16));
+#endif
     int32_t w = gn_max32(p->w.at + p->w.dx * (x - p->x) + p->w.dy * (y - p->y), 1 << 10), clz = gn_clz32((uint32_t)w);
     uint32_t z = gn_umul_high(s->depth_scale.mant, gn_recip_norm((uint32_t)w << clz, GN_K(frame, newton_steps)));
     int32_t shift = p->z_shift - clz;
@@ -68,12 +70,10 @@ GN_HOT int32_t gn_corner_depth(const gn_lattice *l, const gn_frame *frame, const
 GN_HOT void gn_corner_uv(const gn_lattice *l, const gn_frame *frame, const gn_surface *s, const gn_light_view *view,
                          int32_t x, int32_t y, const int32_t offset_q16[3], int32_t uv_q16[2])
 {
-    int32_t px = 2 * x + 1 - frame->picture.width, py = frame->picture.height - 1 - 2 * y;
-    int32_t z = plane_depth(l, frame, s, x, y), up = gn_clz32((uint32_t)z) - 1;
-    int32_t down = gn_min32(gn_max32(view->fit.ortho.ray_shift + up - 32, 0), 31);
-    z *= 1 << up;
-    uv_q16[0] = gn_corner_ortho(&view->fit.ortho.ray[0], px, py, z, down) + offset_q16[0];
-    uv_q16[1] = gn_corner_ortho(&view->fit.ortho.ray[1], px, py, z, down) + offset_q16[1];
+    gn_corner_ray ray;
+    gn_corner_ray_begin(&ray, frame, view->fit.ortho.ray_shift, x, y, plane_depth(l, frame, s, x, y));
+    uv_q16[0] = gn_corner_ortho(&view->fit.ortho.ray[0], &ray) + offset_q16[0];
+    uv_q16[1] = gn_corner_ortho(&view->fit.ortho.ray[1], &ray) + offset_q16[1];
 }
 
 GN_HOT static GN_NOINLINE void place_directional(gn_lattice *l, const gn_frame *frame, const gn_surface *s,
@@ -81,9 +81,10 @@ GN_HOT static GN_NOINLINE void place_directional(gn_lattice *l, const gn_frame *
 {
     gn_corner_light *at = &c->light[slot];
     int32_t coord[3], up = 14 - view->tile_log2 - view->depth_log2; /* texels, Q16, to a share of the range, Q30 */
-    int32_t down = view->fit.ortho.ray_shift + gn_clz32((uint32_t)c->z_q16) - 33;
+    gn_corner_ray ray;
+    const int fits = gn_corner_ray_begin(&ray, frame, view->fit.ortho.ray_shift, c->x, c->y, c->z_q16);
     const int32_t *flat = GN_SMOOTH(s) ? NULL : flat_offset(l, frame, s, slot, view);
-    if ((flat || l->light[slot].lifts) && down >= 0 && down < 32) coords_directional(frame, s, c, view, flat, coord);
+    if (fits && (flat || l->light[slot].lifts)) coords_directional(&ray, s, c, view, flat, coord);
     else gn_sample_in_view(frame, s, slot, view, c->x, c->y, c->z_q16, normal_of(s, c), coord);
     at->u_q16 = coord[0];
     at->v_q16 = coord[1];
@@ -109,7 +110,8 @@ GN_HOT static GN_NOINLINE int place_carefully(const gn_frame *frame, const gn_su
     gn_arrival place;
     gn_corner_from(c, light, from);
     if (!(GN_AUTO_BIAS && light->auto_bias && !GN_CURVED(s)))
-        gn_bias_punctual(frame, light, gn_sample_lifted(s, light, n, lifted), c->z_q16, from, offset);
+        gn_bias_punctual(frame, light, gn_sample_lifted(s, light, n, lifted), c->z_q16 + GN_FLAT_Q16(frame), from,
+                         offset);
     at->seen = (uint8_t)gn_arrival_place(frame, s, view, c->z_q16, from, offset, &place);
     if (!at->seen) return 0;
     at->u_q16 = place.u_q16;

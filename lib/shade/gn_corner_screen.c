@@ -165,6 +165,7 @@ GN_HOT static GN_NOINLINE int find_move(gn_lattice *l, const gn_frame *frame, co
                                         int32_t x, int32_t y, gn_view_forms *out, point_mover *move)
 {
     const gn_light_view *view = out->view;
+    if (GN_FLAT_Q16(frame)) return 0;
     *move = (point_mover){s->normal_q30[0], view->fit.persp.lift_q31, 0, 0};
     out->less_q30 = out->in_tile = 0;
     out->z_least = 1 << 22;

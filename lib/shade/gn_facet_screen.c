@@ -11,7 +11,8 @@
 /* Half pixels from the picture's centre, as rays have them, Q12. Returns 0 far outside. */
 GN_HOT static int vertex_on_screen(const gn_frame *frame, const int32_t v_q16[3], int32_t p_q12[2])
 {
-    int32_t z = v_q16[2], clz = gn_clz32((uint32_t)z), focal2 = (int32_t)frame->cam.focal2_px_q16;
+    int32_t z = GN_FLAT_Q16(frame) ? GN_FLAT_Q16(frame) : v_q16[2], clz = gn_clz32((uint32_t)z),
+            focal2 = (int32_t)frame->cam.focal2_px_q16;
     if (clz < 2 || gn_abs32(v_q16[0]) >> 1 >= (uint32_t)z || gn_abs32(v_q16[1]) >> 1 >= (uint32_t)z) return 0;
     int32_t half = (int32_t)(gn_recip_norm((uint32_t)z << clz, GN_K(frame, newton_steps)) >> 1);
     GN_KEEP(half); /* signed: one multiplication */
@@ -32,7 +33,8 @@ GN_HOT static GN_NOINLINE int find_screen(gn_facet_screen *out, const gn_frame *
 {
     int32_t p[3][2], d[3][2];
     uint32_t longest = 0;
-    if (s->z_max_q16 - s->z_min_q16 > s->z_min_q16 >> 2 || frame->cam.focal2_px_q16 >> 31) return 0;
+    if (frame->cam.focal2_px_q16 >> 31) return 0;
+    if (!GN_FLAT_Q16(frame) && s->z_max_q16 - s->z_min_q16 > s->z_min_q16 >> 2) return 0;
     for (int k = 0; k < 3; k++) {
         if (s->v_q16[k][2] < frame->cam.near_q16 || !vertex_on_screen(frame, s->v_q16[k], p[k])) return 0;
         for (int i = 0; i < 2; i++) {

@@ -228,6 +228,7 @@ GN_HOT static int judge(const gn_frame *frame, const gn_light_view *view, const 
 GN_HOT static int vertex_places_hold(const gn_frame *frame, const gn_surface *s, const vertex_places *p)
 {
     const int32_t most_log2 = 16 - gn_cell_place_log2(frame);
+    if (GN_FLAT_Q16(frame)) return 1;
     for (int i = 0; i < 2; i++) {
         uint32_t across = gn_cell_spread(p->at[i][0], p->at[i][1], p->at[i][2], p->at[i][2]);
         if (((uint64_t)across * (uint32_t)(s->z_max_q16 - s->z_min_q16)) >> (2 + most_log2) > (uint32_t)s->z_min_q16)

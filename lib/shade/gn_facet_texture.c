@@ -10,14 +10,15 @@
 #if GN_INTERPOLATES && GN_TEXTURES
 
 /* The texture, or the one level of it that the triangle shows; NULL: cells find it. */
-GN_HOT static const gn_texture *texture_of(gn_surface *s)
+GN_HOT static const gn_texture *texture_of(const gn_frame *frame, gn_surface *s)
 {
     const gn_texture *texture = s->object->texture;
     if (!texture || GN_GLOW_TEXTURE(s)) return NULL;
 #if GN_MIPMAPS
     if (gn_texture_has_levels(texture)) {
-        uint32_t level = gn_texture_level_at(texture, s->level_depth2_q32, s->z_min_q16);
-        if (gn_texture_level_ends(texture, s->level_depth2_q32, level, s->z_max_q16)) return NULL;
+        const int32_t flat = GN_FLAT_Q16(frame);
+        uint32_t level = gn_texture_level_at(texture, s->level_depth2_q32, flat ? flat : s->z_min_q16);
+        if (!flat && gn_texture_level_ends(texture, s->level_depth2_q32, level, s->z_max_q16)) return NULL;
         if (s->level_idx != level) gn_texture_use_level(&s->level, texture, level);
         s->level_idx = level;
         return &s->level;
@@ -27,13 +28,14 @@ GN_HOT static const gn_texture *texture_of(gn_surface *s)
 }
 
 /* e at the vertices, by which they are nearer than the middle depth; |e| <= 1/8. */
-GN_HOT static void find_nearness(const gn_surface *s, int32_t e_q30[3])
+/* Parallel rays bend nothing. */
+GN_HOT static void find_nearness(const gn_frame *frame, const gn_surface *s, int32_t e_q30[3])
 {
     int32_t middle = s->z_min_q16 + ((s->z_max_q16 - s->z_min_q16) >> 1);
     for (int k = 0; k < 3; k++) {
         int32_t z = s->v_q16[k][2], nearer = middle - z;
         int32_t e = (int32_t)gn_quotient_q30(gn_abs32(nearer), (uint32_t)z);
-        e_q30[k] = nearer < 0 ? -e : e;
+        e_q30[k] = GN_FLAT_Q16(frame) ? 0 : nearer < 0 ? -e : e;
     }
 }
 
@@ -77,9 +79,9 @@ GN_HOT static int find_coordinate(gn_facet_texture *out, const gn_frame *frame, 
 GN_HOT int gn_facet_texture_begin(gn_facet_texture *out, const gn_frame *frame, gn_surface *s, gn_facet_screen *screen)
 {
     int32_t e_q30[3];
-    out->texture = texture_of(s);
+    out->texture = texture_of(frame, s);
     if (!out->texture) return 0;
-    find_nearness(s, e_q30);
+    find_nearness(frame, s, e_q30);
     gn_facet_slope(screen, &out->e_q30, e_q30);
     if (gn_abs32(out->e_q30.dx) >> (26 - ROW_LOG2)) return 0;
     for (int axis = 0; axis < 2; axis++)

@@ -128,6 +128,13 @@ int gn_cell_find_bend(gn_lattice_cell *cell);
 int gn_cell_textures_hold(const gn_lattice_cell *cell);
 int gn_cell_masks_hold(const gn_lattice_cell *cell);
 
+/* By how much the square of a distance is off between the corners: a quarter of the squares of the cell's sides. */
+uint64_t gn_cell_bend2_q32(const gn_lattice_cell *cell);
+
+/* Whether shadows that fade, or cascades that blend, by the square of a distance are off by more than 1/16 between the
+ * corners: NUMERICS 4.12. */
+int gn_cell_ramp_bends(const gn_lattice_cell *cell);
+
 /* Whether nothing of a light arrives anywhere in the cell if nothing arrives at its corners. The squares of a point's
  * distance, and of its distance along the axis, are those of the corners in the mean, less what they scatter by. */
 int gn_cell_stays_dark(gn_lattice_cell *cell, uint32_t slot);

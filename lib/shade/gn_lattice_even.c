@@ -14,6 +14,7 @@ GN_HOT int gn_cell_find_bend(gn_lattice_cell *cell)
 {
     gn_corner *const *c = cell->corner;
     if ((c[0]->state | c[1]->state | c[2]->state | c[3]->state) != GN_CORNER_KNOWN) return 0;
+    if (GN_FLAT_Q16(cell->frame)) return 1; /* parallel rays bend nothing */
     const int32_t z[4] = {c[0]->z_q16, c[1]->z_q16, c[2]->z_q16, c[3]->z_q16};
     uint32_t least = (uint32_t)gn_min32(gn_min32(z[0], z[1]), gn_min32(z[2], z[3])), more[2];
     gn_cell_changes(z, more);
@@ -38,6 +39,7 @@ GN_HOT static uint8_t find_level(const gn_lattice_cell *cell, const gn_texture *
     if (!texture || !gn_texture_has_levels(texture)) return 0;
     int32_t nearest = gn_min32(gn_min32(c[0]->z_q16, c[1]->z_q16), gn_min32(c[2]->z_q16, c[3]->z_q16)),
             farthest = gn_max32(gn_max32(c[0]->z_q16, c[1]->z_q16), gn_max32(c[2]->z_q16, c[3]->z_q16));
+    if (GN_FLAT_Q16(cell->frame)) nearest = farthest = GN_FLAT_Q16(cell->frame);
     uint32_t level = gn_texture_level_at(texture, depth2_q32, nearest);
     *ends = (uint8_t)gn_texture_level_ends(texture, depth2_q32, level, farthest);
     return (uint8_t)level;
@@ -144,6 +146,39 @@ GN_HOT int gn_cell_masks_hold(const gn_lattice_cell *cell)
     return 1;
 #endif
 }
+
+#if GN_SHADOWS
+/* What one side of a cell adds: the square of its length, from a depth on. */
+GN_HOT static uint64_t side2_q32(const gn_frame *frame, const gn_corner *a, const gn_corner *b, int32_t size_log2)
+{
+    int64_t dz = (int64_t)a->z_q16 - b->z_q16, z = gn_max32(a->z_q16, b->z_q16);
+    if (GN_FLAT_Q16(frame)) z = GN_FLAT_Q16(frame);
+    uint64_t tan2_q24 = ((uint64_t)frame->tan2_per_px2_q44 + 1) << (2 + 2 * size_log2) >> 20; /* 2^8 half pixels */
+    return (uint64_t)(dz * dz) + ((uint64_t)(z * z) >> 24) * (tan2_q24 + 1);
+}
+
+GN_HOT uint64_t gn_cell_bend2_q32(const gn_lattice_cell *cell)
+{
+    gn_corner *const *c = cell->corner;
+    return (side2_q32(cell->frame, c[0], c[1], cell->size_log2) +
+            side2_q32(cell->frame, c[0], c[2], cell->size_log2)) >>
+           2;
+}
+
+GN_HOT int gn_cell_ramp_bends(const gn_lattice_cell *cell)
+{
+    const gn_frame *frame = cell->frame;
+    gn_corner *const *c = cell->corner;
+    if ((c[0]->fade_uq16 & c[1]->fade_uq16 & c[2]->fade_uq16 & c[3]->fade_uq16) == 65536) return 0;
+    uint64_t bend_q32 = gn_cell_bend2_q32(cell);
+    for (int i = 0; i < 4; i++) {
+        if (c[i]->cascade >= GN_CASCADE_NONE) continue;
+        const gn_cascade_state *cascade = &frame->cascade[c[i]->cascade];
+        if (bend_q32 > (cascade->radius2_q32 - cascade->inner2_q32) >> 4) return 1;
+    }
+    return 0;
+}
+#endif
 
 /* ---- How uneven light is ----------------------------------------------------------------------------------------- */
 

@@ -292,26 +292,34 @@ GN_HOT static int64_t inside_face(const gn_lattice_cell *cell, uint32_t slot, in
 }
 
 /* Where the border of two views lies between the corners: what is 0 there, positive in the first view. As a share of
- * the depth, what is linear on the surface is so on the screen. */
-GN_HOT static GN_NOINLINE void find_border(const gn_lattice_cell *cell, uint32_t slot, int32_t one, int32_t other,
-                                           gn_patch *out)
+ * the depth, what is linear on the surface is so on the screen; spheres of cascades are not. Returns 0 if that moves
+ * the border by more than a pixel, and the cell can be split. */
+GN_HOT static GN_NOINLINE int find_border(const gn_lattice_cell *cell, uint32_t slot, int32_t one, int32_t other,
+                                          gn_patch *out)
 {
     int32_t inside[4], nearest = INT32_MAX;
-    int64_t exact[4];
+    int64_t exact[4], lo = INT64_MAX, hi = INT64_MIN;
     uint64_t all = 1;
+    const int cascaded = cell->s->light[slot].state->kind == GN_LIGHT_DIRECTIONAL;
     for (int i = 0; i < 4; i++) {
         const gn_corner *c = cell->corner[i];
-        int cascaded = cell->s->light[slot].state->kind == GN_LIGHT_DIRECTIONAL;
         nearest = gn_min32(nearest, c->z_q16);
         exact[i] = cascaded ? gn_sample_inside_q32(cell->frame, c->x, c->y, c->z_q16, one)
                             : inside_face(cell, slot, one, other, c);
         all |= gn_abs64(exact[i]);
+        if (exact[i] < lo) lo = exact[i];
+        if (exact[i] > hi) hi = exact[i];
     }
+    if (cascaded && cell->size_log2 > gn_cell_finest_log2(cell->frame) &&
+        gn_cell_bend2_q32(cell) > (uint64_t)(hi - lo) >> cell->size_log2)
+        return 0;
     for (int32_t down = gn_max32(36 - gn_clz64(all), 0), i = 0; i < 4; i++) { /* to less than 2^28 */
-        uint32_t share_q30 = gn_quotient_q30((uint32_t)nearest, (uint32_t)cell->corner[i]->z_q16);
+        uint32_t share_q30 =
+            GN_FLAT_Q16(cell->frame) ? 1U << 30 : gn_quotient_q30((uint32_t)nearest, (uint32_t)cell->corner[i]->z_q16);
         inside[i] = (int32_t)((exact[i] >> down) * (int64_t)share_q30 >> 30);
     }
     gn_patch_make(out, inside, cell->size_log2);
+    return 1;
 }
 
 /* Whether forms on the screen tell where the view sees all of the cell: if they do at its corners. */
@@ -349,27 +357,26 @@ GN_HOT static GN_NOINLINE int add_two(const gn_lattice_cell *cell, uint32_t slot
         if (holds == BEND || (holds == BEND_DOWN && !has_forms(cell, slot, p->view))) break;
         add_edge(cell, slot, p, slope, light, light->more_uq16);
     }
-    if (views) {
+    if (views || !find_border(cell, slot, one, other, &out->edge[n_edges + 1].more_q24[0])) {
         out->n_edges = n_edges;
         return 0;
     }
     out->edge[n_edges].bent |= GN_PLACES_OF_TWO;
     out->spacing_log2 = 0;
-    find_border(cell, slot, one, other, &out->edge[n_edges + 1].more_q24[0]);
     return 1;
 }
 #endif
 
-/* Whether the first cascade alone, or the second, has a corner, and both have another. */
+/* Whether a blend begins or ends in the cell: the first cascade alone, or the second, has a corner, and another corner
+ * has both or the other one. */
 GN_HOT static inline int begins_or_ends(const uint32_t share_uq16[4])
 {
-    int alone = 0, both = 0;
+    int alone = 0, differs = 0;
     for (int i = 0; i < 4; i++) {
-        const int ends = share_uq16[i] - 1 >= 65535; /* 0 or 1 */
-        alone |= ends;
-        both |= !ends;
+        alone |= share_uq16[i] - 1 >= 65535; /* 0 or 1 */
+        differs |= share_uq16[i] != share_uq16[0];
     }
-    return alone && both;
+    return alone && differs;
 }
 
 /* Adds an edge in two cascades that blend. Returns 0 if there is no room, or it is to be split. */
@@ -379,7 +386,8 @@ GN_HOT static GN_NOINLINE int add_blend(const gn_lattice_cell *cell, uint32_t sl
     uint32_t first = (uint32_t)first_bit(views), second = (uint32_t)first_bit(views & (views - 1)), share[4];
     if (views & ~(1U << first | 1U << second)) return 0;
     blend_shares(cell, slot, first, share);
-    if (cell->size_log2 > gn_cell_finest_log2(cell->frame) && begins_or_ends(share)) return 0;
+    if (cell->size_log2 > gn_cell_finest_log2(cell->frame) && (begins_or_ends(share) || gn_cell_ramp_bends(cell)))
+        return 0;
     for (int k = 0; k < 2; k++) {
         int32_t slope[2];
         uint32_t view_idx = k ? second : first;

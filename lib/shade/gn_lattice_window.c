@@ -84,6 +84,10 @@ typedef struct {
 GN_HOT static int32_t seen_depth(const gn_lattice *l, const gn_frame *frame, const gn_surface *s, int32_t x, int32_t y)
 {
     const gn_screen_plane *p = &l->plane;
+#if GN_ORTHOGRAPHIC
+    int32_t b_q28[2];
+    if (GN_FLAT_Q16(frame)) return gn_corner_flat_depth(p, s, x, y, b_q28);
+#endif
     int32_t w = p->w.at + p->w.dx * (x - p->x) + p->w.dy * (y - p->y);
     if (w < 1 << 10 || w >= 1 << 30) return 0;
     int32_t clz = gn_clz32((uint32_t)w), shift = p->z_shift - clz;
@@ -98,17 +102,14 @@ GN_HOT static int32_t seen_depth(const gn_lattice *l, const gn_frame *frame, con
 GN_HOT static int see_flat(gn_lattice *l, const gn_frame *frame, const gn_surface *s, uint32_t slot,
                            const gn_light_view *view, int32_t x, int32_t y, int uv, gn_window_place *out)
 {
-    int32_t z = seen_depth(l, frame, s, x, y), px = 2 * x + 1 - frame->picture.width,
-            py = frame->picture.height - 1 - 2 * y;
-    if (z <= 0) return 0;
-    int32_t z_up = gn_clz32((uint32_t)z) - 1, down = view->fit.ortho.ray_shift + z_up - 32;
-    if (down < 0 || down > 31) return 0;
-    z *= 1 << z_up;
+    int32_t z = seen_depth(l, frame, s, x, y);
+    gn_corner_ray at;
+    if (z <= 0 || !gn_corner_ray_begin(&at, frame, view->fit.ortho.ray_shift, x, y, z)) return 0;
     if (l->offset_view != view) gn_sample_offset(frame, s, slot, view, s->normal_q30[0], l->offset_q16);
     l->offset_view = view;
     const gn_ray_plane *ray = view->fit.ortho.ray;
     const int32_t *offset = l->offset_q16;
-    int32_t u = gn_corner_ortho(&ray[0], px, py, z, down), v = gn_corner_ortho(&ray[1], px, py, z, down);
+    int32_t u = gn_corner_ortho(&ray[0], &at), v = gn_corner_ortho(&ray[1], &at);
     const uint32_t quarter = 1U << 30; /* where sums may leave 32 bits */
     if ((((uint32_t)u + quarter) | ((uint32_t)v + quarter) | ((uint32_t)offset[0] + quarter) |
          ((uint32_t)offset[1] + quarter)) >>
@@ -117,7 +118,7 @@ GN_HOT static int see_flat(gn_lattice *l, const gn_frame *frame, const gn_surfac
     out->u_q16 = u + offset[0];
     out->v_q16 = v + offset[1];
     if (uv) return 1;
-    int32_t depth = gn_sat32((int64_t)gn_corner_ortho(&ray[2], px, py, z, down) + offset[2]),
+    int32_t depth = gn_sat32((int64_t)gn_corner_ortho(&ray[2], &at) + offset[2]),
             up = 14 - view->tile_log2 - view->depth_log2;
     if (up < 0) out->depth_q30 = depth >> gn_min32(-up, 31);
     else out->depth_q30 = gn_max32(-(1 << 29) >> up, gn_min32(depth, ((1 << 30) - 1) >> up)) * (1 << up);

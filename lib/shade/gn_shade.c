@@ -39,7 +39,7 @@ GN_HOT static uint32_t constant_pixel(gn_shading *s)
 GN_HOT static int is_exact(const gn_shading *s)
 {
     const gn_picture *picture = &s->frame->picture;
-    if (!GN_INTERPOLATES || GN_K(s->frame, persp_step) == 1 || GN_FLAT_Q16(s->frame)) return 1;
+    if (!GN_INTERPOLATES || GN_K(s->frame, persp_step) == 1) return 1;
     return GN_RAW_VIEWS && picture->format == GN_FORMAT_RAW32 && picture->view != GN_VIEW_SHADOW;
 }
 

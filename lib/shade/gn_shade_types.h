@@ -315,7 +315,8 @@ typedef struct {
     int32_t at, dx, dy;
 } gn_slope;
 
-/* A surface's plane on the screen, 32 bits: n . ray and the barycentrics times it, at one scale. */
+/* A surface's plane on the screen, 32 bits: n . ray and the barycentrics times it, at one scale; orthographic: the
+ * barycentrics themselves, Q28. */
 typedef struct {
     int32_t x, y;       /* the pixel of w, b: the middle of */
     int32_t w_px, h_px; /* so many on each side of it, with what cells go beyond */
