@@ -340,11 +340,11 @@ static void ask_orthographic(void)
 }
 static void ask_skin(void)
 {
-    static const gn_affine joint[1] = {{{{1 << 30, 0, 0}, {0, 1 << 30, 0}, {0, 0, 1 << 30}}, {0, 0, 0}, 0}};
-    static uint8_t joint_idx[DEMO_BALL_VERTICES], weight_u8[DEMO_BALL_VERTICES];
-    static gn_skin skin = {joint, joint_idx, weight_u8, 1, 1};
-    memset(weight_u8, 255, sizeof weight_u8);
-    demo.object[1].skin = &skin;
+    static const gn_affine still[1] = {{{{1 << 30, 0, 0}, {0, 1 << 30, 0}, {0, 0, 1 << 30}}, {0, 0, 0}, 0}};
+    static uint8_t idx[DEMO_BALL_VERTICES], weight[DEMO_BALL_VERTICES];
+    static const gn_skin asked = {still, idx, weight, 1, 1};
+    memset(weight, 255, sizeof weight);
+    demo.object[1].skin = &asked;
 }
 static void ask_emissive(void)
 {
