@@ -165,7 +165,7 @@ tables() {
                     minus(get("ram", "M4", "all"), get("ram", "M4", y)), minus(get("stack", "M4", "all"), get("stack", "M4", y))
             }
             print "\n## What using it costs\n"
-            print "Instructions of one picture of 160×120 pixels on Cortex-M4, -O2, every feature built in (`boards/apps/features.c`: a box, a ball and a ground), per picture pixel, shadow tiles included; what the case takes more than the one that it is over.\n"
+            print "Instructions of one picture of 160×120 pixels on Cortex-M4, -O2, every feature built in (`boards/apps/features.c`: a box, a ball and a ground), per picture pixel, shadow tiles included; what the case takes more than the one that it is over. *ground*: it alone fills the picture; its textures have about a texel per pixel, hardly one like the next, and are bilinear but for *nearest*.\n"
             print "| in use | over | instructions per pixel | more |"
             print "| --- | --- | --- | --- |"
             for (i = 1; i <= n_cases; i++) {
