@@ -19,11 +19,14 @@ trap 'exit 1' HUP INT TERM
 # ---- Configurations -----------------------------------------------------------------------------------------------------------
 
 features=$(sed -n '/GN_FEATURE_KNOBS/,$s/^    X([a-z_0-9]*, \([A-Z_0-9]*\), .*/\1/p' lib/gn_knobs.h | grep -v -e RUNTIME_KNOBS -e RAW_VIEWS)
-most() { case $1 in FILTER_MAX) echo 4 ;; TEXTURE_FORMATS) echo 1023 ;; *) echo 1 ;; esac; }
+most() { case $1 in FILTER_MAX | VERTEX_JOINTS) echo 4 ;; TEXTURE_FORMATS) echo 1023 ;; *) echo 1 ;; esac; }
 # base FEATURE: what must be built for it to have something to do
 base() {
     case $1 in
-    SHADOWS | PUNCTUAL_LIGHTS | TEXTURES | SPECULAR | VERTEX_* | BAKED_LIGHT | VALIDATION | OTHER_FORMATS | VISIBLE_ALPHA | MASKS) echo none ;;
+    SHADOWS | PUNCTUAL_LIGHTS | TEXTURES | SPECULAR | VERTEX_* | BAKED_LIGHT | VALIDATION | OTHER_FORMATS | VISIBLE_ALPHA | MASKS | \
+        EMISSIVE | ORTHOGRAPHIC | TILE_DRAWING | CLIPPING | CLIPS | PICKING) echo none ;;
+    TEXTURE_*) echo textures ;;
+    EMISSIVE_TEXTURES) echo glow ;;
     TILE_LIGHTS) echo lights ;;
     LINEAR_KERNELS) echo filters ;;
     BLENDED_CASCADES | CASTER_CULLING) echo cascades ;;
@@ -42,12 +45,16 @@ configurations() {
     echo "lights $(with PUNCTUAL_LIGHTS=1)"
     echo "filters $(with SHADOWS=1 FILTER_MAX=4)"
     echo "cascades $(with SHADOWS=1 MANY_CASCADES=1)"
+    echo "textures $(with TEXTURES=1 TEXTURE_FORMATS=1)"
+    echo "glow $(with TEXTURES=1 TEXTURE_FORMATS=1 EMISSIVE=1)"
     echo "shadows+lights $(with SHADOWS=1 PUNCTUAL_LIGHTS=1)"
     echo "all $(without nothing)"
     for feature in $features; do
         value=$(most "$feature")
         case $(base "$feature") in
-        none) echo "none+$feature $(with "$feature=$value")" ;;
+        none) echo "none+$feature $(with TEXTURE_FORMATS=1 "$feature=$value")" ;;
+        textures) echo "textures+$feature $(with TEXTURES=1 TEXTURE_FORMATS=1 "$feature=$value")" ;;
+        glow) echo "glow+$feature $(with TEXTURES=1 TEXTURE_FORMATS=1 EMISSIVE=1 "$feature=$value")" ;;
         lights) echo "lights+$feature $(with PUNCTUAL_LIGHTS=1 "$feature=$value")" ;;
         filters) echo "filters+$feature $(with SHADOWS=1 FILTER_MAX=4 "$feature=$value")" ;;
         cascades) echo "cascades+$feature $(with SHADOWS=1 MANY_CASCADES=1 "$feature=$value")" ;;
@@ -129,11 +136,11 @@ tables() {
         }
         function share(a, b) { return a == "" || b == "" ? "·" : sprintf("−%.1f %%", 100 * (1 - a / b)) }
         function alone(f,    b) {
-            for (b = 1; b <= 5; b++) if (get("flash", "M4", base[b] "+" f) != "" || get("flash", "M0", base[b] "+" f) != "") return base[b]
+            for (b = 1; b <= 7; b++) if (get("flash", "M4", base[b] "+" f) != "" || get("flash", "M0", base[b] "+" f) != "") return base[b]
             return "none"
         }
         END {
-            split("none shadows lights filters cascades", base, " ")
+            split("none shadows lights filters cascades textures glow", base, " ")
             head = "| configuration | flash, M0 | flash, M4 | RAM | stack, M0 | stack, M4 |\n| --- | --- | --- | --- | --- | --- |"
             print head
             row("none", "none")
@@ -144,7 +151,7 @@ tables() {
             n = split(scenes, scene, " ")
             for (i = 1; i <= n; i++) row("own-" scene[i], scene[i] ", its own")
             print "\n## What each feature costs\n"
-            print "Bytes; *alone*: more than what it stands on (none of the features; `shadows`; `punctual_lights`; `shadows` with `filter_max` 4, or with `many_cascades`); *of all*: what all of them take more than all but this.\n"
+            print "Bytes; *alone*: more than what it stands on (none of the features; `shadows`; `punctual_lights`; `shadows` with `filter_max` 4, or with `many_cascades`; `textures` of RGBA8888; *glow*: these with `emissive`); *of all*: what all of them take more than all but this.\n"
             print "| feature | alone, over | flash, M0 | flash, M4 | RAM | stack, M4 | of all: flash, M0 | flash, M4 | RAM | stack, M4 |"
             print "| --- | --- | --- | --- | --- | --- | --- | --- | --- | --- |"
             n_features = split(features, feature, " ")
@@ -158,7 +165,7 @@ tables() {
                     minus(get("ram", "M4", "all"), get("ram", "M4", y)), minus(get("stack", "M4", "all"), get("stack", "M4", y))
             }
             print "\n## What using it costs\n"
-            print "Instructions of one picture of 160×120 pixels on Cortex-M4, -O2, every feature built in (`boards/apps/features.c`: a box, a ball and a ground), per picture pixel, shadow tiles included; what the case takes more than the one that it is over.\n"
+            print "Instructions of one picture of 160×120 pixels on Cortex-M4, -O2, every feature built in (`boards/apps/features.c`: a box, a ball and a ground), per picture pixel, shadow tiles included; what the case takes more than the one that it is over. *ground*: it alone fills the picture; its textures have about a texel per pixel, hardly one like the next, and are bilinear but for *nearest*.\n"
             print "| in use | over | instructions per pixel | more |"
             print "| --- | --- | --- | --- |"
             for (i = 1; i <= n_cases; i++) {

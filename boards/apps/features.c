@@ -9,9 +9,12 @@ enum { WIDTH = 160, HEIGHT = 120 };
 static gn_renderer renderer;
 static demo_scene demo;
 static gn_light lights[2];
-static uint8_t texels[4 * 8 * 8], mask[4 * DEMO_BALL_VERTICES];
+static uint8_t texels[4 * 8 * 8], noise[4 * 64 * 64 * 4 / 3 + 4], palette[4 * 256], mask[4 * DEMO_BALL_VERTICES];
 static uint16_t baked[3 * DEMO_BALL_VERTICES];
-static int16_t uv[2 * 8];
+static int16_t uv[2 * 8], wide_uv[2 * 4] = {0, 0, 0, 5120, 5120, 5120, 5120, 0};
+static uint8_t joint_idx[2 * DEMO_BALL_VERTICES], weight[2 * DEMO_BALL_VERTICES];
+static gn_affine joint[2];
+static gn_texture detailed;
 static const gn_texture nearest = {.rgba = texels, .width_log2 = 3, .height_log2 = 3},
                         bilinear = {.rgba = texels, .width_log2 = 3, .height_log2 = 3, .flags = GN_TEXTURE_BILINEAR};
 
@@ -52,6 +55,92 @@ static void texture(void)
 static void smooth_texture(void)
 {
     demo.object[0].texture = demo.object[2].texture = &bilinear;
+}
+/* The ground fills the picture, about a texel of 64 to a pixel, hardly one like the next. */
+static void ground(void)
+{
+    static const int32_t eye_q16[3] = {0, GN_Q16(15), GN_Q16(11)}, target_q16[3] = {0, 0, 0};
+    gn_camera_look_at(&demo.scene.camera.to_world, eye_q16, target_q16);
+    demo.scene.camera.focal_q24 = GN_Q24(6);
+    demo.scene.objects = &demo.object[2];
+    demo.scene.n_objects = 1;
+    demo.ground.uv = wide_uv;
+}
+static void detail(gn_texture_format format, uint8_t flags)
+{
+    detailed = (gn_texture){.rgba = noise,
+                            .palette = palette,
+                            .width_log2 = 6,
+                            .height_log2 = 6,
+                            .format = (uint8_t)format,
+                            .flags = flags};
+    if (format < GN_TEXTURE_PALETTE8 || format > GN_TEXTURE_PALETTE1) detailed.palette = NULL;
+    demo.object[2].texture = &detailed;
+}
+static void nearest_rgba8888(void)
+{
+    detail(GN_TEXTURE_RGBA8888, 0);
+}
+static void levels_rgba8888(void)
+{
+    detail(GN_TEXTURE_RGBA8888, GN_TEXTURE_BILINEAR | GN_TEXTURE_MIPMAPPED);
+}
+static void rgba8888(void)
+{
+    detail(GN_TEXTURE_RGBA8888, GN_TEXTURE_BILINEAR);
+}
+static void rgb565(void)
+{
+    detail(GN_TEXTURE_RGB565, GN_TEXTURE_BILINEAR);
+}
+static void rgb565a1(void)
+{
+    detail(GN_TEXTURE_RGB565A1, GN_TEXTURE_BILINEAR);
+}
+static void palette8(void)
+{
+    detail(GN_TEXTURE_PALETTE8, GN_TEXTURE_BILINEAR);
+}
+static void palette4(void)
+{
+    detail(GN_TEXTURE_PALETTE4, GN_TEXTURE_BILINEAR);
+}
+static void palette1(void)
+{
+    detail(GN_TEXTURE_PALETTE1, GN_TEXTURE_BILINEAR);
+}
+static void grey8(void)
+{
+    detail(GN_TEXTURE_GREY8, GN_TEXTURE_BILINEAR);
+}
+static void grey4(void)
+{
+    detail(GN_TEXTURE_GREY4, GN_TEXTURE_BILINEAR);
+}
+static void emissive(void)
+{
+    for (int i = 0; i < DEMO_OBJECTS; i++) demo.object[i].emissive_uq16[1] = 9000;
+}
+static void emissive_texture(void)
+{
+    emissive();
+    demo.object[2].emissive_texture = &detailed;
+}
+static void orthographic(void)
+{
+    demo.scene.camera.half_height_q16 = GN_Q16(3.5);
+}
+static void gradient(void)
+{
+    demo.scene.background_gradient = 1;
+}
+static void skin(void)
+{
+    static const gn_skin two = {joint, joint_idx, weight, 2, 2};
+    for (size_t i = 0; i < sizeof weight; i++) joint_idx[i] = i % 2, weight[i] = (uint8_t)(i % 2 ? 100 : 155);
+    for (int i = 0; i < 2; i++) gn_affine_identity(&joint[i]);
+    joint[1].t_q16[0] = GN_Q16(0.2);
+    demo.object[1].skin = &two;
 }
 static void cut(void)
 {
@@ -181,6 +270,22 @@ static const struct {
     {"specular", "plain", specular},
     {"textures", "plain", texture},
     {"textures_bilinear", "plain", smooth_texture},
+    {"ground", "plain", ground},
+    {"ground_nearest", "ground", nearest_rgba8888},
+    {"ground_rgba8888", "ground", rgba8888},
+    {"ground_rgb565", "ground", rgb565},
+    {"ground_rgb565a1", "ground", rgb565a1},
+    {"ground_palette8", "ground", palette8},
+    {"ground_palette4", "ground", palette4},
+    {"ground_palette1", "ground", palette1},
+    {"ground_grey8", "ground", grey8},
+    {"ground_grey4", "ground", grey4},
+    {"texture_levels", "ground_rgba8888", levels_rgba8888},
+    {"emissive_textures", "ground_rgba8888", emissive_texture},
+    {"emissive", "plain", emissive},
+    {"orthographic", "plain", orthographic},
+    {"tile_drawing", "plain", gradient},
+    {"vertex_joints", "plain", skin},
     {"visible_alpha", "plain", cut},
     {"transparent_layers", "plain", layers},
     {"baked_light", "plain", baked_light},
@@ -240,6 +345,9 @@ void bench_flush(void *user, int x, int y, int w, int h, const void *pixels)
 static void make_arrays(void)
 {
     for (size_t i = 0; i < sizeof texels; i++) texels[i] = (uint8_t)(40U + 37U * i % 211U);
+    uint32_t seed = 1;
+    for (size_t i = 0; i < sizeof noise; i++) noise[i] = (uint8_t)((seed = seed * 1664525U + 1013904223U) >> 24);
+    for (size_t i = 0; i < sizeof palette; i++) palette[i] = (uint8_t)((seed = seed * 1664525U + 1013904223U) >> 24);
     for (size_t i = 0; i < sizeof mask; i++) mask[i] = (uint8_t)(i * 29U);
     for (size_t i = 0; i < sizeof baked / 2; i++) baked[i] = (uint16_t)(i * 61U % 3000U);
     for (size_t i = 0; i < 16; i++) uv[i] = (int16_t)(i % 3U * 900U);

@@ -1,6 +1,6 @@
-/* The golden frames: six own scenes with every preset, an animation, and settings that take other ways through the
- * library. One line each, with the CRC-32 of the bytes of its tiles as they come, which is the same on every machine,
- * compiler and optimisation. */
+/* The golden frames: six own scenes with every preset, an animation, settings that take other ways through the library,
+ * and what people put into scenes. One line each, with the CRC-32 of the bytes of its tiles as they come, which is the
+ * same on every machine, compiler and optimisation. */
 #include "golden.h"
 
 #include <string.h>
@@ -111,6 +111,42 @@ static void narrow_tiles(gn_scene *s)
     renderer.frame.knobs.srgb = 0;
 }
 
+static void layers(gn_scene *s)
+{
+    (void)s;
+    renderer.frame.knobs.transparent_layers = 3;
+}
+static void groups(gn_scene *s)
+{
+    (void)s;
+    renderer.frame.knobs.triangle_groups = 64;
+}
+
+static void draw_behind(void *user, int x, int y, int w, int h, void *pixels)
+{
+    uint8_t *bytes = pixels;
+    (void)user;
+    for (int i = 0; i < 2 * w * h; i++) bytes[i] = (uint8_t)(17 * (x + i % (2 * w)) + 29 * (y + i / (2 * w)));
+}
+/* Every fourth row: what is there counts. */
+static void draw_over(void *user, int x, int y, int w, int h, void *pixels)
+{
+    uint8_t *bytes = pixels;
+    (void)user, (void)x;
+    for (int i = 0; i < 2 * w * h; i++)
+        if ((y + i / (2 * w)) % 4 == 0) bytes[i] ^= 0x5A;
+}
+static void gradient(gn_scene *s)
+{
+    s->background_gradient = 1;
+    for (int k = 0; k < 3; k++) s->background_bottom_uq20[k] = 300000U * (uint32_t)k;
+}
+static void drawing(gn_scene *s)
+{
+    s->draw_behind = draw_behind;
+    s->draw_over = draw_over;
+}
+
 /* ---- The list ---------------------------------------------------------------------------------------------------- */
 
 typedef struct {
@@ -153,6 +189,17 @@ static const golden_frame frames[] = {
     {&golden_mixed, 24, 0, 0, GN_FORMAT_RGB565, 0, "automatic bias", auto_bias},
     {&golden_sundial, 132, 0, 0, GN_FORMAT_RGB565, 0, "every other bias", biases},
     {&golden_room, 0, 0, 0, GN_FORMAT_RGB565, 0, "24x5 tiles, no sRGB", narrow_tiles},
+    {&golden_isometric, 0, 0, 0, GN_FORMAT_RGB565, 4, NULL, NULL},
+    {&golden_glow, 0, 0, 0, GN_FORMAT_RGB565, 4, NULL, NULL},
+    {&golden_near, 0, 0, 0, GN_FORMAT_RGB565, 4, NULL, NULL},
+    {&golden_cube, 9, 0, 0, GN_FORMAT_RGB565, 4, NULL, NULL},
+    {&golden_snake, 30, 0, 0, GN_FORMAT_RGB565, 4, NULL, NULL},
+    {&golden_snake, 6, 48, 54, GN_FORMAT_RGB565, 0, NULL, NULL},
+    {&golden_glass, 0, 0, 0, GN_FORMAT_RGB565, 4, "layers", layers},
+    {&golden_fence, 0, 0, 0, GN_FORMAT_RGB565, 4, "groups", groups},
+    {&golden_glass, 0, 0, 0, GN_FORMAT_RGB565, 0, NULL, NULL},
+    {&golden_avenue, 0, 0, 0, GN_FORMAT_RGB565, 0, "gradient", gradient},
+    {&golden_avenue, 0, 0, 0, GN_FORMAT_RGB565, 0, "drawing", drawing},
 };
 
 /* ---- Running ----------------------------------------------------------------------------------------------------- */

@@ -117,10 +117,49 @@ GN_HOT static inline int begin_inner(inner_axis *axis, const gn_texture *texture
     return is_inside(texture, curve, i, n);
 }
 
-/* Bytes from a texel's alpha to the next one's; 0: it is not a byte. */
+/* Bytes from a texel's alpha to the next one's; 0: it is none. */
 GN_HOT static inline uint32_t alpha_pitch(const gn_texture *t)
 {
+    if (GN_TEXEL_IS(t, GN_TEXTURE_RGB565A1)) return 2;
     return GN_TEXEL_IS(t, GN_TEXTURE_RGBA8888) ? 4 : GN_TEXEL_IS(t, GN_TEXTURE_ALPHA8) ? 1 : 0;
+}
+
+/* Bytes that alphas are in, `pitch` apart in rows of `stride`. `is_bit`, a constant: their bits 5 alone. */
+typedef struct {
+    const uint8_t *first;
+    uint32_t pitch, stride;
+} alpha_bytes;
+
+/* 65535: 1 */
+GN_INLINE uint32_t alpha_of_byte(uint32_t byte, int is_bit)
+{
+    return is_bit ? (byte << 11) - (byte >> 5) : byte * 257U;
+}
+
+GN_INLINE uint32_t inner_alpha(const alpha_bytes *t, int is_bit, inner_axis *u, inner_axis *v, uint32_t at_u,
+                               uint32_t at_v)
+{
+    const uint32_t part = is_bit ? 32 : 255;
+    const uint32_t left = (at_u >> 20 & u->mask) * t->pitch, right = (((at_u >> 20) + 1) & u->mask) * t->pitch;
+    const uint8_t *upper = t->first + (at_v >> 20 & v->mask) * t->stride,
+                  *lower = t->first + (((at_v >> 20) + 1) & v->mask) * t->stride;
+    const uint32_t a = upper[left] & part, b = upper[right] & part, c = lower[left] & part, d = lower[right] & part;
+    if (a == b && a == c && a == d) return alpha_of_byte(a, is_bit);
+    return blend(at_u >> 4 & 0xFFFFU, at_v >> 4 & 0xFFFFU, alpha_of_byte(a, is_bit), alpha_of_byte(b, is_bit),
+                 alpha_of_byte(c, is_bit), alpha_of_byte(d, is_bit));
+}
+
+GN_INLINE uint32_t inner_pixels(const alpha_bytes *t, int is_bit, inner_axis *u, inner_axis *v, uint32_t bits,
+                                const gn_alpha_test *test)
+{
+    uint32_t passed = 0;
+    for (uint32_t bit = 1; bits; bits >>= 1, bit <<= 1) {
+        const uint32_t at_u = inner_at(u), at_v = inner_at(v);
+        if (!(bits & 1U)) continue;
+        const uint32_t alpha = inner_alpha(t, is_bit, u, v, at_u, at_v);
+        if (gn_alpha_passes(test, 31 - gn_clz32(bit), alpha)) passed |= bit;
+    }
+    return passed;
 }
 
 /* The same as of each alone, but most pixels are in the midst of a texture, and among texels of one alpha. Returns 0 if
@@ -129,25 +168,14 @@ GN_HOT static GN_NOINLINE int inner_keeps(const gn_texture *texture, const gn_te
                                           const gn_alpha_test *test, uint32_t *kept)
 {
     inner_axis u, v;
-    uint32_t pitch = alpha_pitch(texture), stride = gn_texel_stride(texture), passed = 0;
+    const uint32_t pitch = alpha_pitch(texture);
     const int32_t n = 32 - gn_clz32(bits);
-    const uint8_t *first = texture->rgba + (pitch == 4 ? 3 : 0);
     if (!pitch || !(texture->flags & GN_TEXTURE_BILINEAR) || !begin_inner(&u, texture, curve, 0, n) ||
         !begin_inner(&v, texture, curve, 1, n))
         return 0;
-    for (uint32_t bit = 1; bits; bits >>= 1, bit <<= 1) {
-        uint32_t at_u = inner_at(&u), at_v = inner_at(&v);
-        if (!(bits & 1U)) continue;
-        uint32_t left = (at_u >> 20 & u.mask) * pitch, right = (((at_u >> 20) + 1) & u.mask) * pitch;
-        const uint8_t *upper = first + (at_v >> 20 & v.mask) * stride,
-                      *lower = first + (((at_v >> 20) + 1) & v.mask) * stride;
-        uint32_t a = upper[left], b = upper[right], c = lower[left], d = lower[right];
-        uint32_t mixed = a * 257U;
-        if (a != b || a != c || a != d)
-            mixed = blend(at_u >> 4 & 0xFFFFU, at_v >> 4 & 0xFFFFU, a * 257U, b * 257U, c * 257U, d * 257U);
-        if (gn_alpha_passes(test, 31 - gn_clz32(bit), mixed)) passed |= bit;
-    }
-    *kept = passed;
+    const alpha_bytes bytes = {texture->rgba + (pitch == 4 ? 3 : 0), pitch, gn_texel_stride(texture)};
+    if (GN_TEXEL_IS(texture, GN_TEXTURE_RGB565A1)) *kept = inner_pixels(&bytes, 1, &u, &v, bits, test);
+    else *kept = inner_pixels(&bytes, 0, &u, &v, bits, test);
     return 1;
 }
 

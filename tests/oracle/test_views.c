@@ -1,6 +1,6 @@
-/* What people put into scenes (R10, M10, M11, R11, R12, layers of M8), on scenes in which it fills the picture: views
- * from around with roll, the library against the reference. "--list" prints what each line measures. That the rows
- * matter is test_rows' to say. */
+/* What people put into scenes (R10, M10, M11, R11, R12, layers of M8, groups of triangles), on scenes in which it fills
+ * the picture: views from around with roll, the library against the reference. "--list" prints what each line measures.
+ * That the rows matter is test_rows' to say. */
 #include <stdlib.h>
 #include <string.h>
 
@@ -22,10 +22,17 @@ static const row rows[] = {
     {"M11", "docs/scenes/near.gltf", "texture_levels=1", 0},
     {"M11", "host/scenes/cube.gltf", "texture_format=rgb565 texture_size=48", 9},
     {"M11", "host/scenes/cube.gltf", "texture_format=palette4 texture_size=20 texture_levels=1", 9},
+    {"M11", "host/scenes/fence.gltf", "texture_format=rgb565a1", 0},
+    {"M11", "docs/scenes/near.gltf", "texture_format=palette1 texture_levels=1", 0},
+    {"M11", "host/scenes/cube.gltf", "texture_format=palette8 texture_size=37", 9},
+    {"M11", "host/scenes/cube.gltf", "texture_format=grey4", 9},
+    {"M11", "host/scenes/cube.gltf", "texture_format=grey8 texture_size=3", 9},
     {"R11", "host/scenes/avenue.gltf", "background=0.1,0.25,0.7 background_bottom=1,0.75,0.45", 0},
     {"R12", "docs/scenes/snake.gltf", "", 30},
+    {"R12", "docs/scenes/snake.gltf", "lights=point half_height=1.2 triangle_groups=16", 66},
     {"M8", "docs/scenes/glass.gltf", "transparent_layers=3", 0},
     {"M8", "host/scenes/fence.gltf", "transparent_layers=1", 0},
+    {"M8", "docs/scenes/glass.gltf", "transparent_layers=2 triangle_groups=16 half_height=0.25 lights=spot", 0},
 };
 
 /* The medians of a row's views. */

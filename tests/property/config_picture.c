@@ -68,10 +68,16 @@ static uint8_t texels[4 * (64 + 16 + 4 + 1)], mask[4 * DEMO_BALL_VERTICES];
 static uint16_t mask_uv[2 * 8], baked[3 * DEMO_BALL_VERTICES];
 static int16_t uv[2 * 8];
 static gn_texture texture = {.rgba = texels, .width_log2 = 3, .height_log2 = 3};
+static const gn_texture mask_image = {.rgba = texels, .width_log2 = 3, .height_log2 = 3, .flags = GN_TEXTURE_BILINEAR};
+static uint8_t palette[4 * 256];
+static uint8_t joint_idx[4 * DEMO_BALL_VERTICES], weight_u8[4 * DEMO_BALL_VERTICES];
+static gn_affine joint[2];
+static gn_skin skin = {.joint = joint, .joint_idx = joint_idx, .weight_u8 = weight_u8, .n_joints = 2};
 
 static void make_arrays(void)
 {
     for (size_t i = 0; i < sizeof texels; i++) texels[i] = (uint8_t)(40U + 37U * i % 211U);
+    for (size_t i = 0; i < sizeof palette; i++) palette[i] = (uint8_t)(11U + 53U * i % 251U);
     for (size_t i = 0; i < sizeof mask; i++) mask[i] = (uint8_t)(i * 29U);
     for (size_t i = 0; i < sizeof baked / 2; i++) baked[i] = (uint16_t)(i * 61U % 3000U);
     for (size_t i = 0; i < 16; i++) {
@@ -116,6 +122,29 @@ static void use_lights(int variant)
         for (int k = 0; k < 3; k++) lights[i].colour_uq16[k] *= i < 2 ? 1U : 3U;
 }
 
+/* One of those that are built. */
+static void use_format(int variant)
+{
+    int format = variant % GN_TEXTURE_FORMAT_COUNT;
+    while (!(use.texture_formats >> format & 1)) format = (format + 1) % GN_TEXTURE_FORMAT_COUNT;
+    texture.format = (uint8_t)format;
+    texture.palette = format >= GN_TEXTURE_PALETTE8 && format <= GN_TEXTURE_PALETTE1 ? palette : NULL;
+}
+
+/* The ball bends: as many joints per vertex as are built. */
+static void use_skin(void)
+{
+    const size_t n = (size_t)use.vertex_joints;
+    for (size_t i = 0; i < n * DEMO_BALL_VERTICES; i++) {
+        joint_idx[i] = (uint8_t)(i & 1U);
+        weight_u8[i] = (uint8_t)(255U / n + (i % n ? 0 : 255U % n));
+    }
+    for (int i = 0; i < 2; i++) gn_affine_rotation(&joint[i], (uint16_t)(4000 * i), 0, 0);
+    joint[1].t_q16[1] = GN_Q16(0.3);
+    skin.per_vertex = (uint8_t)n;
+    demo.object[1].skin = &skin;
+}
+
 static void use_materials(int variant)
 {
     gn_object *box = &demo.object[0], *ball = &demo.object[1], *ground = &demo.object[2];
@@ -124,6 +153,8 @@ static void use_materials(int variant)
     demo.ground.mask_uv_uq16 = demo.box.mask_uv_uq16 = mask_uv;
     texture.flags = (uint8_t)(variant % 3 == 2 ? GN_TEXTURE_BILINEAR : variant % 3);
     if (use.texture_levels) texture.flags |= GN_TEXTURE_MIPMAPPED;
+    if (use.textures) use_format(3 * variant);
+    if (use.vertex_joints) use_skin();
     gn_alpha cut = variant % 2 ? GN_ALPHA_CLIP : GN_ALPHA_DITHER;
     for (int i = 0; i < DEMO_OBJECTS; i++) {
         demo.object[i].alpha_uq16 = 50000;
@@ -141,7 +172,7 @@ static void use_materials(int variant)
     for (int i = 0; use.emissive && i < DEMO_OBJECTS; i++)
         demo.object[i].emissive_uq16[i % 3] = 9000U * (uint32_t)(i + variant);
     if (use.masks) ball->mask_u8 = mask;
-    if (use.masks) ground->mask_image = &texture;
+    if (use.masks) ground->mask_image = &mask_image;
     if (use.baked_light) ball->baked_uq12 = baked;
     ball->flags |= GN_OBJECT_MOVING;
     /* a build without them does not look at these; this one would */
@@ -309,11 +340,11 @@ static void ask_orthographic(void)
 }
 static void ask_skin(void)
 {
-    static const gn_affine joint[1] = {{{{1 << 30, 0, 0}, {0, 1 << 30, 0}, {0, 0, 1 << 30}}, {0, 0, 0}, 0}};
-    static uint8_t joint_idx[DEMO_BALL_VERTICES], weight_u8[DEMO_BALL_VERTICES];
-    static gn_skin skin = {joint, joint_idx, weight_u8, 1, 1};
-    memset(weight_u8, 255, sizeof weight_u8);
-    demo.object[1].skin = &skin;
+    static const gn_affine still[1] = {{{{1 << 30, 0, 0}, {0, 1 << 30, 0}, {0, 0, 1 << 30}}, {0, 0, 0}, 0}};
+    static uint8_t idx[DEMO_BALL_VERTICES], weight[DEMO_BALL_VERTICES];
+    static const gn_skin asked = {still, idx, weight, 1, 1};
+    memset(weight, 255, sizeof weight);
+    demo.object[1].skin = &asked;
 }
 static void ask_emissive(void)
 {
@@ -329,7 +360,7 @@ static void ask_mask(void)
 }
 static void ask_mask_image(void)
 {
-    demo.object[2].mask_image = &texture;
+    demo.object[2].mask_image = &mask_image;
 }
 static void ask_mixing(void)
 {

@@ -115,6 +115,35 @@ static void test_gltf_base(void)
     CHECK(is_empty());
 }
 
+/* Half the height is ymag; the near plane is the file's, but not nearer than a thousandth of that, wherever far is.
+ * [R10] */
+static void test_orthographic(void)
+{
+    static const struct {
+        const char *lens;
+        double near_distance, far_distance;
+    } cases[] = {{"\"znear\":0.5,\"zfar\":80", 0.5, 80},
+                 {"\"znear\":0.5,\"zfar\":1e12", 0.5, 1e12},
+                 {"\"znear\":0,\"zfar\":1e6", 0.003, 1e6},
+                 {"\"znear\":0,\"zfar\":0.5", 0.0005, 0.5},
+                 {"\"znear\":1e-9,\"zfar\":80", 0.003, 80}};
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        char lens[128];
+        snprintf(lens, sizeof lens, "\"type\":\"orthographic\",\"orthographic\":{\"xmag\":9,\"ymag\":3,%s}",
+                 cases[i].lens);
+        if (!CHECK_EQ_INT(load_text(TMP ".gltf", replaced(base_json,
+                                                          "\"type\":\"perspective\",\"perspective\":{\"yfov\":1."
+                                                          "5707963267948966,\"znear\":0.5,\"zfar\":80}",
+                                                          lens)),
+                          0))
+            continue;
+        CHECK_NEAR(s.camera.half_height, 3, 0);
+        CHECK_NEAR(s.camera.near, cases[i].near_distance, 1e-12);
+        CHECK_NEAR(s.camera.far, cases[i].far_distance, 0);
+        scene_free(&s);
+    }
+}
+
 static void test_gltf_errors(void)
 {
     for (size_t i = 0; i < sizeof gltf_errors / sizeof *gltf_errors; i++) {
@@ -873,6 +902,7 @@ int main(void)
     test_json_depth();
     test_json_values();
     test_gltf_base();
+    test_orthographic();
     test_gltf_errors();
     test_gltf_notes();
     test_animation();

@@ -192,9 +192,9 @@ static void try_lookup(verdict *result, const gn_texture *t)
 static void try_curve(tally *same, const gn_texture *t)
 {
     gn_texture_curve curve;
-    const gn_alpha_test test = {rng_below(&random_state, 65537), rng_below(&random_state, 65537),
-                                rng_below(&random_state, 4) == 0, rng_range(&random_state, 0, 1000),
-                                rng_range(&random_state, 0, 1000)};
+    const uint32_t least = rng_below(&random_state, 4) ? rng_below(&random_state, 65537) : 65535; /* or whole alpha */
+    const gn_alpha_test test = {least, rng_below(&random_state, 65537), rng_below(&random_state, 4) == 0,
+                                rng_range(&random_state, 0, 1000), rng_range(&random_state, 0, 1000)};
     const uint32_t bits = rng_u32(&random_state) >> rng_below(&random_state, 32) & rng_u32(&random_state);
     for (int i = 0; i < 2; i++) {
         curve.from_q20[i] = random_coordinate(side(t, i));

@@ -217,7 +217,7 @@ static bool read_orthographic(gltf *g, const json_value *orthographic, scene_cam
         return gltf_fail(g, orthographic, "zfar %g is not beyond znear %g", far_distance, near_distance);
     out->focal = 1;
     out->half_height = height;
-    out->near = fmax(near_distance, far_distance * 1e-4);
+    out->near = fmax(near_distance, 1e-3 * fmin(height, far_distance));
     out->far = far_distance;
     return true;
 }
