@@ -151,7 +151,8 @@ static bool read_face(obj_file *o, obj_text *t)
         if (!read_corner(o, t, word, &corners[n++])) return false;
     }
     if (n < 3) return loader_remark(t->l, "faces of less than 3 corners are left out");
-    if (n > 3 && fan_folds(o, corners, n) && !obj_remark(t, "a concave polygon is cut into a fan: it may look wrong"))
+    if (n > 3 && fan_folds(o, corners, n) && o->n_concave++ == 0 &&
+        !obj_remark(t, "a concave polygon is cut into a fan: it may look wrong"))
         return false;
     for (size_t i = 1; i + 1 < n; i++) {
         if (!add_triangle(o, &corners[0], &corners[i], &corners[i + 1])) return false;
@@ -230,5 +231,6 @@ bool obj_load(loader *l)
         if (!read_statement(&o, &t)) return false;
     }
     if (o.n_triangles == 0) return loader_fail(l, "%s: the file has no faces", l->path);
+    if (o.n_concave > 1 && !loader_remark(l, "so are %zu more concave polygons", o.n_concave - 1)) return false;
     return obj_note_undefined_materials(&o) && obj_emit(&o);
 }
