@@ -70,6 +70,7 @@ for feature in $features; do
     row $(echo $feature | tr A-Z a-z) "with" $(flags $typical $feature)
 done
 row preset_accurate "quality of preset accurate" $(flags $typical) -DGN_PRESET=GN_PRESET_ACCURATE
+row accurate_unshadowed "the same without shadows" $(flags VERTEX_NORMALS) -DGN_PRESET=GN_PRESET_ACCURATE
 row linear "srgb 0" $(flags $typical) -DGN_SRGB=0
 
 # Compact arithmetic, and what more than that

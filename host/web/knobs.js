@@ -6,7 +6,7 @@ const FILTERS = ['hard', '2x2', '3x3', '5x5', '7x7', 'disk'];
 const OUTPUTS = ['rgb565', 'rgb888', 'rgb565_swapped', 'grey8', 'grey4', 'mono1']; // as gn_format counts them
 const POWERS = (from, to) => Array.from({length: Math.log2(to / from) + 1}, (_, i) => String(from << i));
 
-// words: shown in the place of values. select: a list, not a slider. only: what the scene must have.
+// words: shown in the place of values. usual: where it stands unset, if no picture tells; else the first. select: a list, not a slider. only: what the scene must have.
 const KNOB_GROUPS = [
   ['Picture', [
     {key: 'size', title: 'Resolution', select: true, values: ['96x64', '128x64', '128x128', '160x120', '240x240', '320x240', '480x320', '640x480']},
@@ -17,6 +17,10 @@ const KNOB_GROUPS = [
     {key: 'subpixel_bits', title: 'Subpixel bits', values: ['2', '3', '4', '5', '6', '7', '8']},
     {key: 'compact', title: 'Arithmetic', values: ['0', '1'], words: ['general', 'compact']},
     {key: 'srgb', title: 'sRGB curve', values: ['0', '1'], words: ['off', 'on']},
+  ]],
+  ['The file', [
+    {key: 'up', title: 'Axis that points up', values: ['y', 'z']},
+    {key: 'intensity', title: 'Intensity of lights', values: ['0.01', '0.02', '0.05', '0.1', '0.2', '0.5', '1', '2', '5', '10'], usual: '1'},
   ]],
   ['Shadows', [
     {key: 'filter', title: 'Filter', values: FILTERS},
@@ -35,10 +39,10 @@ const PRESET_WORDS = ['as set', 'tiny', 'fast', 'balanced', 'accurate'];
 
 // What a knob stands at where nobody set it: of the last picture's facts.
 function knobDefault(knob, info) {
-  if (!info) return knob.values[0];
+  if (!info) return knob.usual || knob.values[0];
   if (knob.key === 'filter') return FILTERS[info.filter];
   if (knob.key === 'cascades') return String(info.cascades);
-  return knob.key in info.knobs ? String(info.knobs[knob.key]) : knob.values[0];
+  return knob.key in info.knobs ? String(info.knobs[knob.key]) : knob.usual || knob.values[0];
 }
 
 // Meanings by key, out of the tables that `gnomon knobs` prints.
@@ -47,7 +51,7 @@ function knobMeanings(tables) {
   for (const line of tables.split('\n')) {
     const cells = line.split('|').map((cell) => cell.trim());
     if (!/^`\w+`$/.test(cells[1] || '')) continue;
-    const key = cells[1].slice(1, -1), words = cells.slice(2).filter((cell) => / /.test(cell) && !/^\d/.test(cell));
+    const key = cells[1].slice(1, -1), words = cells.length === 5 ? [cells[3]] : cells.slice(2).filter((cell) => / /.test(cell) && !/^\d/.test(cell));
     if (words.length) meanings.set(key, words[0]);
   }
   return meanings;

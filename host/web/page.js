@@ -438,6 +438,7 @@ function addScene(scene) {
 function choose(scene) {
   for (const other of $('scenes').children) other.setAttribute('aria-pressed', String(other === scene.button));
   Object.assign(state, {scene, yaw: 0, pitch: 0, zoom: 1, hour: -1, frame: scene.frame});
+  for (const key of ['up', 'intensity']) delete state.sets[key]; // of another file
   info = null;
   for (const engine of Object.keys(others)) delete others[engine];
   $('sun').value = $('sun').min;

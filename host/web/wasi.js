@@ -20,6 +20,7 @@ class Wasi {
     this.folders = new Set(['']);
     for (const path of files.keys()) this.addFolders(path);
     this.open = new Map();
+    this.numbers = new Map(); // of paths: the program tells files apart by them
     this.output = ['', '', ''];
     this.decoders = [1, 2].map(() => new TextDecoder());
   }
@@ -51,8 +52,11 @@ class Wasi {
     return parts.join('/');
   }
 
-  writeStat(at, type, size) {
+  // name: a path, or the number of a stream.
+  writeStat(at, name, type, size) {
+    if (!this.numbers.has(name)) this.numbers.set(name, this.numbers.size + 1);
     this.bytes(at, 64).fill(0);
+    this.view.setBigUint64(at + 8, BigInt(this.numbers.get(name)), true);
     this.view.setUint8(at + 16, type);
     this.view.setBigUint64(at + 24, 1n, true);
     this.view.setBigUint64(at + 32, BigInt(size), true);
@@ -126,8 +130,8 @@ class Wasi {
   }
 
   stat(path, out) {
-    if (this.folders.has(path)) this.writeStat(out, WASI_DIRECTORY, 0);
-    else if (this.files.has(path)) this.writeStat(out, WASI_FILE, this.files.get(path).length);
+    if (this.folders.has(path)) this.writeStat(out, path, WASI_DIRECTORY, 0);
+    else if (this.files.has(path)) this.writeStat(out, path, WASI_FILE, this.files.get(path).length);
     else return WASI.NOENT;
     return WASI.OK;
   }
@@ -163,7 +167,7 @@ class Wasi {
       fd_fdstat_set_flags: () => WASI.OK,
       fd_filestat_get: (fd, out) => {
         const file = this.open.get(fd);
-        this.writeStat(out, this.typeOf(fd), file ? this.files.get(file.path).length : 0);
+        this.writeStat(out, file ? file.path : fd, this.typeOf(fd), file ? this.files.get(file.path).length : 0);
         return WASI.OK;
       },
       fd_prestat_get: (fd, out) => {

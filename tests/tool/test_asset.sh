@@ -47,7 +47,7 @@ same() { # same NAME SCENE OPTIONS...
 poses() { # poses NAME SCENE MOST FRAMES...
     name=$1 scene=$2 most=$3
     shift 3
-    shows "$name" "$scene" "" "$@" >"$tmp/differ"
+    shows "$name" "$scene" "$how" "$@" >"$tmp/differ"
     worst=$(sed 's/.*: \([0-9]*\) of .*/\1/; s/.*no picture.*/99999/' "$tmp/differ" | sort -n | tail -n 1)
     [ "${worst:-0}" -le "$most" ] && pass || fail "$name: $worst bytes differ in a frame of $*"
 }
@@ -71,6 +71,13 @@ poses sundial host/scenes/sundial.gltf 300 1 77 144
 poses desk host/scenes/desk.gltf 300 7 30
 poses robot tests/data/robot.gltf 300 0 10 20 30 47 72
 poses snake docs/scenes/snake.gltf 300 0 11 30 66 96
+# up=z: clips of a file that is turned
+how="--set up=z"
+same turned tests/data/robot.gltf $how
+poses turned tests/data/robot.gltf 300 0 20 47 72
+same coiled docs/scenes/snake.gltf $how
+poses coiled docs/scenes/snake.gltf 300 11 66
+how=
 
 # names: of the file, in letters of C, each once; all cameras
 for word in ROBOT_OBJECT_ROBOT_BASE ROBOT_LIGHT_TORCH ROBOT_CAMERA_ABOVE ROBOT_MESH_RED_BOX ROBOT_CLIP_WAVE ROBOT_CLIP_WALK; do

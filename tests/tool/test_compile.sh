@@ -58,6 +58,7 @@ same cube host/scenes/cube.gltf "9 0 48" "" --size 96x64
 same snake docs/scenes/snake.gltf "1 5 0" "--frames 0-5" --size 96x64 # [R12]
 same mixed host/scenes/mixed.gltf "1 0" "--frames 0-1" --size 96x64 --set preset=tiny
 same compact host/scenes/sundial.gltf "1 0 4" "--frames 0-4" --size 160x120 --set compact=1
+same unshadowed host/scenes/sundial.gltf 0 "" --size 96x64 --frames 0-0 --set preset=accurate --set shadows=0
 same compact-avenue host/scenes/avenue.gltf 0 "--simplify none" --size 96x64 --set compact=1 --set srgb=0 --set atlas_size=64
 # [D12] boxes for the whole animation; what is open has none
 same cube-fits host/scenes/cube.gltf "9 0 48" "" --size 96x64 --set fit=compiled
@@ -114,7 +115,7 @@ for name in sundial desk room mixed-tiny fence avenue-accurate compact cube-fits
 done
 
 # flash: the scene's data to its alignment, the library's code within a fifth
-for name in sundial room mixed-tiny short compact compact-avenue mixed-fits; do
+for name in sundial room mixed-tiny short compact compact-avenue mixed-fits unshadowed; do
     arm="arm-none-eabi-gcc -mcpu=cortex-m0 -mthumb -std=c99 -Os -ffreestanding -isystem boards/common/include -Ilib -I$tmp/$name"
     $arm '-DGN_USER_CONFIG="gn_scene_config.h"' -c -o "$tmp/data.o" "$tmp/$name/scene.c" 2>"$tmp/log"
     data=$(arm-none-eabi-size -A "$tmp/data.o" | awk '$1 ~ /^\.rodata/ { n += $2 } END { print n + 0 }')
@@ -171,6 +172,10 @@ done
 "$tool" compile docs/scenes/slopes.gltf -o "$tmp/no" --flash 20000 $flat >"$tmp/out" 2>&1 && fail "normals are lost unasked" || pass
 nearest cube-textures host/scenes/cube.gltf --flash 38000 --size 64x64 --frames 0-0 --set persp_step=1 --set fit=stable --set tiles=equal
 echo "$near" | grep -q -e '--set texture_size=32$' && pass || fail "38000 bytes of flash for the cube: '$near'"
+# where nothing fits, what smaller textures would leave
+printf 'newmtl m\nmap_Kd %s\n' "$PWD/docs/pictures/playground.png" >"$tmp/poster.mtl"
+printf 'mtllib poster.mtl\nusemtl m\nv 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\nvt 1 0\nvt 0 1\nf 1/1 2/2 3/3\n' >"$tmp/poster.obj"
+"$tool" info "$tmp/poster.obj" --outside --size 64x48 --ram 1000 --flash 20000 | grep -q "no settings do .* [0-9]\{6,\} of flash, or [0-9]\{5\} with --set texture_size=64$" && pass || fail "a texture that fills the flash is not named"
 nearest edge-flash docs/scenes/edge.gltf --flash 30000 --size 64x48
 "$tool" compile docs/scenes/slopes.gltf -o "$tmp/no" --flash 20000 2>"$tmp/err" && fail "20000 bytes of flash are enough" || pass
 grep -q 'bytes of flash (scene [0-9]*, code about [0-9]*) of 20000' "$tmp/err" && pass || fail "too much flash: $(cat "$tmp/err")"

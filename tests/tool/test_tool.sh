@@ -142,6 +142,39 @@ good render "$cube" -o "$tmp/b.png" --size 32x24 --orbit 30,25,1
 cmp -s "$tmp/a.png" "$tmp/b.png" && pass || fail "--orbit 30,25,1 is not what is drawn without"
 good render host/scenes/cube.gltf -o "$tmp/b.png" --size 32x24 --orbit 0,10,1 # whose own shadows end before that camera begins
 grep -q "; added: camera" "$tmp/out" && pass || fail "--orbit leaves the camera of the file: $(head -n 1 "$tmp/out")"
+# up=z: what the file's z axis points to is above, and what faces its -y is in front; of OBJ with normals, glTF, and clips
+cat >"$tmp/up-y.obj" <<'OBJ'
+v -1 0 1
+v 1 0 1
+v 1 0 -1
+v -1 0 -1
+v 0 3 0.5
+vn 0 0.4 1
+f 1//1 2//1 5//1
+f 2 3 5
+f 3 4 5
+f 4 1 5
+f 4 3 2 1
+OBJ
+awk '{ $1 ~ "^v" ? $0 = $1 " " $2 " " (-$4) " " $3 : 0; print }' "$tmp/up-y.obj" >"$tmp/up-z.obj"
+good render "$tmp/up-y.obj" -o "$tmp/a.png" --size 48x32
+said render "$tmp/up-z.obj" -o "$tmp/b.png" --size 48x32
+grep -q -x 'gnomon: the model stands on z = 0 and not on y = 0: if it lies on its side, --set up=z' "$tmp/err" && pass || fail "a model that stands on z = 0: $(cat "$tmp/err")"
+cmp -s "$tmp/a.png" "$tmp/b.png" && fail "a model whose z is up stands without up=z"
+good render "$tmp/up-z.obj" -o "$tmp/b.png" --size 48x32 --set up=z
+cmp -s "$tmp/a.png" "$tmp/b.png" && pass || fail "up=z draws another picture than the model whose y is up"
+good render "$tmp/up-z.obj" -o "$tmp/b.png" --size 48x32 --set up=y # who says so needs no remark
+awk 'NR == 8 { print "   \"nodes\": [11]"; skip = 1; next } # a root that turns all that were roots
+    skip { if (/\]/) skip = 0; next }
+    /^ "nodes": \[/ { inside = 1 }
+    inside && /^ \]/ { print "  ,{\"matrix\": [1,0,0,0, 0,0,-1,0, 0,1,0,0, 0,0,0,1], \"children\": [0,6,7,8,10]}"; inside = 0 }
+    { print }' tests/data/robot.gltf >"$tmp/turned.gltf"
+for frame in 0 20; do
+    good render "$tmp/turned.gltf" -o "$tmp/a.png" --size 48x32 --frame $frame
+    good render tests/data/robot.gltf -o "$tmp/b.png" --size 48x32 --frame $frame --set up=z
+    cmp -s "$tmp/a.png" "$tmp/b.png" && pass || fail "up=z: frame $frame of a glTF file is not the file below a node that turns it"
+done
+bad 1 'y or z' info "$cube" --set up=x
 for orbit in "" 0 0,0 0,0,0 0,0,1, 361,0,1 0,91,1 0,0,101 a,0,1 0,0x1,1 nan,0,1 0,0,1e1 " 0,0,1" 0,,1; do bad 2 "^gnomon: --orbit: bad value '$orbit'" info "$cube" --orbit "$orbit"; done
 
 # png_size FILE: "WIDTHxHEIGHT" from its header, after checking the signature
@@ -580,8 +613,8 @@ kinds=$(echo "$@" | tr ' ' ,)
 said render "$cube" -o "$tmp/a.png" --size 8x8 --set lights=$kinds # more than lists and atlas hold
 grep -q "[0-9] times a light was left out of an object's list of 8: --set object_lights=0 keeps all" "$tmp/err" && pass || fail "render does not say that lights were left out: $(cat "$tmp/err")"
 good render "$cube" -o "$tmp/a.png" --size 8x8 --set lights=$kinds --json
-good render "$cube" -o "$tmp/a.png" --size 8x8 --set lights=$kinds --engine reference
-said render "$cube" -o "$tmp/a.png" --size 8x8 --set lights=$kinds --set object_lights=0 --set other_atlas_size=32
+good render "$cube" -o "$tmp/a.png" --size 8x8 --set lights=$kinds --set intensity=0.02 --engine reference
+said render "$cube" -o "$tmp/a.png" --size 8x8 --set lights=$kinds --set intensity=0.02 --set object_lights=0 --set other_atlas_size=32
 grep -q "lights have no shadow tile, so no shadow: [0-9]* 'spot', [0-9]* 'spot'.*, \.\.\.$" "$tmp/err" && [ "$(wc -l <"$tmp/err")" = 1 ] && pass || fail "render does not name lights without a tile: $(cat "$tmp/err")"
 said compare "$cube" --size 8x8 --set lights=spot,point,point,point --set other_atlas_size=64 --set tiles=equal --set fit=stable
 [ "$(cat "$tmp/err")" = "gnomon: 1 light has no shadow tile, so no shadow: 3 'point'" ] && pass || fail "compare does not name the light without a tile: $(cat "$tmp/err")"
@@ -781,6 +814,20 @@ bad 1 output render "$cube" -o "$tmp/x.png" --set output=cmyk
 for blend in hard soft dither; do good info "$cube" --size 16x12 --set cascades=4 --set cascade_blend=$blend; done
 for mode in depth radius; do good info "$cube" --size 16x12 --set distance_mode=$mode; done
 for filter in hard 2x2 3x3 5x5 7x7; do good info "$cube" --size 16x12 --set filter=$filter; done
+
+# Lights that leave most of it white: a remark with an intensity of which the picture is left alone. A factor in the place of the one before.
+run render host/scenes/cube.gltf -o "$tmp/a.png" --size 64x48 --set intensity=40
+dim=$(sed -n "s/^gnomon: [0-9]* % of what is seen is as bright as it can be: --set \(intensity=[0-9.]*\) dims the lights$/\1/p" "$tmp/err")
+[ -n "$dim" ] && pass || fail "lights 40 times as bright: $(head -n 1 "$tmp/err")"
+said compare host/scenes/cube.gltf --size 64x48 --set intensity=40
+good render host/scenes/cube.gltf -o "$tmp/a.png" --size 64x48 --set intensity=40 --set "${dim:-intensity=0}"
+good render host/scenes/cube.gltf -o "$tmp/b.png" --size 64x48 --set "${dim:-intensity=0}"
+cmp -s "$tmp/a.png" "$tmp/b.png" && pass || fail "the second intensity is a factor of the first"
+good render host/scenes/cube.gltf -o "$tmp/b.png" --size 64x48 --set intensity@0=0.5
+good render host/scenes/cube.gltf -o "$tmp/a.png" --size 64x48
+cmp -s "$tmp/a.png" "$tmp/b.png" && fail "intensity@0 changes nothing" || pass
+good render "$cube" -o "$tmp/a.png" --size 64x48 --set background=1 # white, and not by lights
+good render "$cube" -o "$tmp/a.png" --size 64x48 --set intensity=40 --set output=mono1 # white or black
 
 # ---- Animations ------------------------------------------------------------------------------------------------------------
 

@@ -104,6 +104,9 @@ async function checkKnobs() {
   await browser.until(`$('ram').textContent !== '${ram}'`, 60);
   check((await crc()) !== still && (await browser.value(`info.knobs.atlas_size`)) === 256, 'a larger atlas is the same picture');
   check((await text('command')).includes('--set atlas_size=256'), `the command line: ${await text('command')}`);
+  await run(`$('row-intensity').querySelector('.less').click()`);
+  check((await text('command')).includes('--set intensity=0.5'), `lights of half the intensity: ${await text('command')}`);
+  await run(`$('row-intensity').querySelector('.undo').click()`);
   await run(`$('row-atlas_size').querySelector('.undo').click()`);
   check((await crc()) === still, 'undo is another picture');
   await run(`$('knob-filter').focus(); $('knob-filter').value = 0; $('knob-filter').dispatchEvent(new Event('input'))`);

@@ -17,6 +17,8 @@ static const double ground_below_radii = 0.01;
 static const double floor_steepness = 0.7;        /* of a floor: the least share of its normal that points up */
 static const double floor_radii = 0.03;           /* it lies so low, or lower: the bottom of a box lies higher ... */
 static const double floor_cover = 0.5;            /* ... under this share of the width and depth, or more */
+static const double standing = 0.05;              /* on a plane: as near as this to it, of the size */
+static const double inside = 0.2;                 /* away from both ends, of the size */
 static const double shadow_extent_radii = 3;      /* behind the object's centre, at most: a low sun casts without end */
 static const double shadow_fade = 6554.0 / 65536; /* scene_share(0.1) */
 
@@ -247,6 +249,17 @@ static scene_mixing default_mixing(const scene *s)
     return SCENE_MIX_NONE;
 }
 
+/* What stands on z = 0, and has y = 0 well inside, is likely to be a model whose z points up. Flat ones are left alone.
+ */
+static bool remark_on_up(loader *l, const bounds *b)
+{
+    const double *low = b->low, *high = b->high;
+    const double depth = high[1] - low[1], height = high[2] - low[2];
+    if (!l->any_axis_up || l->options->up != SCENE_UP_DEFAULT || !(height > standing * b->radius)) return true;
+    if (fabs(low[2]) > standing * height || -low[1] < inside * depth || high[1] < inside * depth) return true;
+    return loader_remark(l, "the model stands on z = 0 and not on y = 0: if it lies on its side, --set up=z");
+}
+
 static void default_shadow(const loader *l, scene_shadow *out)
 {
     *out = (scene_shadow){.max_distance = fmin(100, l->s->camera.far),
@@ -274,7 +287,7 @@ bool loader_add_defaults(loader *l)
     static const double ambient[3] = {0.18, 0.18, 0.18}, background[3] = {0.35, 0.45, 0.6};
     scene *s = l->s;
     bounds b;
-    if (!find_bounds(l, &b) || !lights_dim(l, b.centre, b.radius)) return false;
+    if (!find_bounds(l, &b) || !remark_on_up(l, &b) || !lights_dim(l, b.centre, b.radius)) return false;
     const floor_parts parts = find_floor(l, &b);
     l->wants_ground = decide_ground(l, &b, &parts);
     s->added = (scene_added){.ground = l->wants_ground, .camera = !l->has_camera, .light = s->n_lights == 0};

@@ -25,6 +25,7 @@ static const double angle_steps = 65536;
 void light_set_defaults(scene_light *light)
 {
     light->range = HUGE_VAL;
+    light->intensity = 1;
     light->mask_channel = -1;
     light->node_idx = SCENE_NONE;
     light->shadow = true;

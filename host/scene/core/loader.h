@@ -56,6 +56,7 @@ typedef struct {
     bool has_camera;           /* the file brought one, and it is used */
     bool file_has_camera;
     bool wants_ground;
+    bool any_axis_up; /* the format does not say which */
 } loader;
 
 /* Each writes one line, cleaned as utf8.h does. A note that is there already is not repeated. A remark is a note that

@@ -114,6 +114,7 @@ typedef struct {
     double inner, outer; /* spot: angles edge to edge in turns, multiples of 1/65536 (MODEL 8) */
     bool cone_limited;   /* the file's is outside 1 .. 179 degrees */
     double colour[3];    /* linear, colour x intensity, pi folded in (MODEL 3); spot, point: at distance 1 */
+    double intensity;    /* times what the file says, which colour has already; default 1 */
     scene_light_mode mode;
     int mask_channel; /* 0..3, -1: none */
     scene_softness softness;
@@ -273,11 +274,14 @@ typedef struct {
 } scene;
 
 typedef enum { SCENE_GROUND_AUTO, SCENE_GROUND_ON, SCENE_GROUND_OFF } scene_ground;
+/* The axis of the file that points up. DEFAULT: y, as glTF has it and most OBJ do. */
+typedef enum { SCENE_UP_DEFAULT, SCENE_UP_Y, SCENE_UP_Z } scene_up;
 
 typedef struct {
     int frame;         /* animation frame; time = frame / fps (extras.gnomon.fps, default 24) */
     int width, height; /* of the picture: the default camera frames the scene for it */
     scene_ground ground;
+    scene_up up;       /* z: the whole file is turned, so that its front, -y, is at +Z */
     bool smooth;       /* meshes without normals: smooth vertex normals instead of face normals */
     bool outside;      /* a file may name files outside the folder of the scene */
     bool rig;          /* nodes and clips are kept */

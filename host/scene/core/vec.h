@@ -54,6 +54,12 @@ static inline scene_affine affine_identity(void)
     return (scene_affine){{{1, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, 1, 0}}};
 }
 
+/* From a world whose z points up to one whose y does: what faced -y faces +z. */
+static inline scene_affine affine_z_up(void)
+{
+    return (scene_affine){{{1, 0, 0, 0}, {0, 0, 1, 0}, {0, -1, 0, 0}}};
+}
+
 /* a after b */
 static inline scene_affine affine_multiply(const scene_affine *a, const scene_affine *b)
 {

@@ -116,6 +116,10 @@ static bool place_node(gltf *g, gltf_node *node)
     scene_affine local;
     if (!local_transform(g, node, &local)) return false;
     node->world = local;
+    if (node->parent == GLTF_NONE && g->l->options->up == SCENE_UP_Z) {
+        const scene_affine turn = affine_z_up();
+        node->world = affine_multiply(&turn, &local);
+    }
     if (node->parent != GLTF_NONE) {
         const gltf_node *parent = &g->node[node->parent];
         node->world = affine_multiply(&parent->world, &local);

@@ -4,6 +4,8 @@
 
 #include "gltf.h"
 
+#include "../core/vec.h"
+
 bool gltf_begin_rig(gltf *g)
 {
     const size_t n = g->nodes ? g->nodes->n_children : 0;
@@ -51,6 +53,19 @@ static bool keep_camera(gltf *g, size_t node_idx)
     return true;
 }
 
+/* up=z: one node more, which all roots stand on. There is memory for it. */
+static void turn_rig(scene_rig *rig)
+{
+    for (size_t i = 0; i < rig->n_nodes; i++)
+        if (rig->nodes[i].parent == SCENE_NONE) rig->nodes[i].parent = rig->n_nodes;
+    rig->nodes[rig->n_nodes++] = (scene_node){.parent = SCENE_NONE,
+                                              .in_scene = true,
+                                              .has_matrix = true,
+                                              .matrix = affine_z_up(),
+                                              .rotation = {0, 0, 0, 1},
+                                              .scale = {1, 1, 1}};
+}
+
 bool gltf_end_rig(gltf *g)
 {
     scene_rig *rig = g->l->s->rig;
@@ -60,5 +75,6 @@ bool gltf_end_rig(gltf *g)
         rig->nodes[i].in_scene = g->node[i].in_scene;
         if (g->node[i].in_scene && !keep_camera(g, i)) return false;
     }
+    if (g->l->options->up == SCENE_UP_Z) turn_rig(rig);
     return gltf_keep_clips(g);
 }

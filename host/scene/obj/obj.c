@@ -9,6 +9,15 @@
 
 enum { MAX_CORNERS = 4096 };
 
+/* As affine_z_up. */
+static void turn_up(const obj_file *o, double *v)
+{
+    if (o->l->options->up != SCENE_UP_Z) return;
+    const double y = v[1];
+    v[1] = v[2];
+    v[2] = -y;
+}
+
 static bool read_vertex(obj_file *o, obj_text *t)
 {
     double x[7];
@@ -21,6 +30,7 @@ static bool read_vertex(obj_file *o, obj_text *t)
     if (!v || !rgb) return false;
     o->v = v;
     o->rgb = rgb;
+    turn_up(o, x);
     memcpy(v + 3 * o->n_v, x, 3 * sizeof *v);
     for (size_t i = 0; i < 3; i++)
         rgb[3 * o->n_v + i] = n < 6 ? 1 : x[n - 3 + i]; /* 4 and 7: a weight, which is ignored */
@@ -40,6 +50,7 @@ static bool read_normal(obj_file *o, obj_text *t)
     double *vn = loader_grow(o->l, o->vn, o->n_vn, 3 * sizeof *vn);
     if (!vn) return false;
     o->vn = vn;
+    turn_up(o, x);
     memcpy(vn + 3 * o->n_vn++, x, sizeof x);
     return o->n_vn < INT32_MAX || obj_fail(t, "too many normals");
 }
@@ -140,7 +151,8 @@ static bool read_face(obj_file *o, obj_text *t)
         if (!read_corner(o, t, word, &corners[n++])) return false;
     }
     if (n < 3) return loader_remark(t->l, "faces of less than 3 corners are left out");
-    if (n > 3 && fan_folds(o, corners, n) && !obj_remark(t, "a concave polygon is cut into a fan: it may look wrong"))
+    if (n > 3 && fan_folds(o, corners, n) && o->n_concave++ == 0 &&
+        !obj_remark(t, "a concave polygon is cut into a fan: it may look wrong"))
         return false;
     for (size_t i = 1; i + 1 < n; i++) {
         if (!add_triangle(o, &corners[0], &corners[i], &corners[i + 1])) return false;
@@ -206,6 +218,7 @@ static bool read_statement(obj_file *o, obj_text *t)
 bool obj_load(loader *l)
 {
     obj_file o = {.l = l};
+    l->any_axis_up = true;
     obj_text t;
     uint8_t *bytes;
     size_t n_bytes;
@@ -218,5 +231,6 @@ bool obj_load(loader *l)
         if (!read_statement(&o, &t)) return false;
     }
     if (o.n_triangles == 0) return loader_fail(l, "%s: the file has no faces", l->path);
+    if (o.n_concave > 1 && !loader_remark(l, "so are %zu more concave polygons", o.n_concave - 1)) return false;
     return obj_note_undefined_materials(&o) && obj_emit(&o);
 }

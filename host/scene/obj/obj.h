@@ -63,6 +63,7 @@ typedef struct {
     obj_object *object;  /* [0]: what is before any, or all of a file whose objects are not told apart */
     uint32_t *object_of; /* per triangle */
     size_t n_objects;
+    size_t n_concave; /* faces */
     uint32_t current_object;
     char object_word; /* of the statements that begin objects: 'o', of files without them 'g'; 0: none does */
     uint32_t bucket[OBJ_BUCKETS]; /* materials by name: the first of each, 1 + index */

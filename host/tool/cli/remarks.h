@@ -11,6 +11,8 @@ void remarks_on_settings(const scene *s);
 void remarks_on_view(const scene *s, int width, int height); /* of the file's camera, which sees nothing */
 void remarks_on_frame(const scene *s, int frame);            /* that lies beyond the end of the animation */
 void remarks_on_picture(const scene *s, const engine_picture *p);
+/* If much of it ends at white: which intensity of the lights leaves little so. */
+void remarks_on_brightness(const scene *s, const settings *set, const engine_picture *p);
 
 /* Adds a note for every pair of lights that one mask channel cannot serve (M5), and for baked lights without anything
  * baked (M9). 0, or -1 with one line in error. */

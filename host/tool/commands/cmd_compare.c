@@ -246,6 +246,7 @@ static int compare(comparison *c, const tool_options *o)
         remarks_on_view(&s, o->width, o->height);
         remarks_on_frame(&s, o->frame);
         remarks_on_picture(&s, &c->picture[FIXED]);
+        remarks_on_brightness(&s, &set, &c->picture[FIXED]);
     }
     settings_trim(&set, &s);
     scene_free(&s);

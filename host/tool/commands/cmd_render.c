@@ -20,12 +20,13 @@ static int draw(engine_picture *p, const tool_options *o, const scene *s, const 
 }
 
 /* Only the library leaves something out. */
-static void say_remarks(const tool_options *o, const scene *s, const engine_picture *p)
+static void say_remarks(const tool_options *o, const scene *s, const settings *set, const engine_picture *p)
 {
     remarks_on_settings(s);
     remarks_on_view(s, o->width, o->height);
     if (o->last_frame < 0) remarks_on_frame(s, o->frame);
     if (strcmp(o->engine, "fixed") == 0) remarks_on_picture(s, p);
+    remarks_on_brightness(s, set, p);
 }
 
 /* What was drawn, and what the file lacked. */
@@ -68,7 +69,7 @@ static uint8_t *draw_frame(const tool_options *o, bool remarks, int *w, int *h, 
     if (tool_load(o, &s, &set)) return NULL;
     int failed =
         draw(&p, o, &s, &set, error, sizeof error) || remarks_on_shadows(&s, o->width, o->height, error, sizeof error);
-    if (!failed && remarks) say_remarks(o, &s, &p);
+    if (!failed && remarks) say_remarks(o, &s, &set, &p);
     describe(&s, what, what_bytes);
     scene_free(&s);
     uint8_t *rgb = NULL;

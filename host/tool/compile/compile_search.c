@@ -14,7 +14,7 @@
 #include "../settings/settings_parse.h"
 
 enum { SAMPLES = 3, LISTED_MAX = 48, EIGHTHS = 8, LEAN_BARE = 2, LEAN_MAX = 3, SMALL_VERTEX_CACHE = 8, GROUPS = 256 };
-enum { TEXTURE_SIDE_MIN = 8, TEXTURE_SIDE_MAX = 2048 };
+enum { TEXTURE_SIDE_MIN = 8, TEXTURE_SIDE_SMALL = 64, TEXTURE_SIDE_MAX = 2048 };
 
 /* What changes the picture, each from 0: as it was requested. */
 enum { ATLAS, OTHER_ATLAS, DEPTH, OTHER_DEPTH, SUBPIXEL, FILTER, OTHER_FILTER, STEP, FIT, LOSSES };
@@ -430,6 +430,20 @@ static bool find_smaller(search *s, const tool_options *requested, int eighths, 
     return found;
 }
 
+/* Where most of the flash goes to textures, what smaller ones would leave. */
+static void say_textures(const compiled *c, long flash, char *out, size_t bytes)
+{
+    long now = 0, small = 0;
+    for (size_t i = 0; i < c->n_textures; i++) {
+        now += (long)quantise_texture_bytes(&c->fixed.textures[i]);
+        small += shrunk_bytes(&c->fixed.textures[i], TEXTURE_SIDE_SMALL);
+    }
+    const size_t n = strlen(out);
+    if (now > flash / 2 && small < now)
+        snprintf(out + n, bytes - n, ", or %ld with --set texture_size=%d", flash - now + small,
+                 (int)TEXTURE_SIDE_SMALL);
+}
+
 bool compile_find_nearest(const compiled *c, const board *b, char *out, size_t bytes)
 {
     char other[400];
@@ -458,5 +472,6 @@ bool compile_find_nearest(const compiled *c, const board *b, char *out, size_t b
              "no settings do with 1/64 to spare: the least that was found, each by itself, is %ld bytes of RAM and %ld "
              "of flash",
              s.min_ram, s.min_flash);
+    say_textures(c, s.min_flash, out, bytes);
     return false;
 }

@@ -51,6 +51,14 @@ static long of_shadows(const settings *s, flash_core core)
     return bytes;
 }
 
+/* Without cells there is less that shadows add. */
+static long of_no_shadows(const settings *s, flash_core core)
+{
+    long bytes = s->quality.persp_step == 1 ? accurate_unshadowed_bytes[core] : no_shadows_bytes[core];
+    if (s->feature.punctual_lights) bytes += punctual_unshadowed_bytes[core] - no_shadows_bytes[core];
+    return bytes;
+}
+
 static long of_compact(const settings *s, flash_core core)
 {
     long bytes = typical_bytes[core] + compact_bytes[core];
@@ -65,12 +73,12 @@ long flash_estimate(const settings *s, flash_core core)
     if (s->build.compact) return of_compact(s, core);
     long bytes = typical_bytes[core] + of_surfaces(s, core);
     if (s->feature.shadows) bytes += of_shadows(s, core);
-    else bytes += s->feature.punctual_lights ? punctual_unshadowed_bytes[core] : no_shadows_bytes[core];
+    else bytes += of_no_shadows(s, core);
     if (s->feature.validation) bytes += validation_bytes[core];
     if (s->feature.clipping) bytes += clipping_bytes[core];
     if (s->feature.other_formats) bytes += other_formats_bytes[core];
     if (s->feature.tile_lights) bytes += tile_lights_bytes[core];
     if (!s->quality.srgb) bytes += linear_bytes[core];
-    if (s->quality.persp_step == 1) bytes += preset_accurate_bytes[core];
+    if (s->quality.persp_step == 1 && s->feature.shadows) bytes += preset_accurate_bytes[core];
     return bytes;
 }

@@ -46,6 +46,7 @@ FLASH(caster_clipping, 448, 412)           /* with */
 FLASH(clips, 0, 0)                         /* with */
 FLASH(picking, 0, 0)                       /* with */
 FLASH(preset_accurate, -32096, -29280)     /* quality of preset accurate */
+FLASH(accurate_unshadowed, -41080, -37736) /* the same without shadows */
 FLASH(linear, -112, -156)                  /* srgb 0 */
 FLASH(compact, -44776, -41236)             /* compact arithmetic */
 FLASH(compact_validation, 1920, 1736)      /* with */

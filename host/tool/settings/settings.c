@@ -23,6 +23,12 @@ int settings_load_option(scene_options *options, const char *key, const char *va
         options->smooth = value[0] == 's';
         return 1;
     }
+    if (strcmp(key, "up") == 0) {
+        if (strcmp(value, "y") != 0 && strcmp(value, "z") != 0)
+            return settings_fail(error, error_bytes, key, value, "y or z");
+        options->up = value[0] == 'z' ? SCENE_UP_Z : SCENE_UP_Y;
+        return 1;
+    }
     return 0;
 }
 
@@ -188,4 +194,6 @@ void settings_print_table(void)
     printf("| `ground` | 0, 1, auto | add a ground plane (auto: where there is no floor for shadows to fall on, but "
            "not to a scene with a camera and a light of its own) |\n");
     printf("| `normals` | face, smooth | for meshes without normals |\n");
+    printf(
+        "| `up` | y, z | the axis that points up in the file; z: the model is turned, what faced -Y is in front |\n");
 }

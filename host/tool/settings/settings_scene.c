@@ -20,8 +20,8 @@ static const char *const mode_names[] = {"realtime", "mixed", "baked", NULL};
 static const char *const kind_names[] = {"directional", "spot", "point", NULL};
 
 typedef enum { OF_SCENE, OF_SHADOW, OF_LIGHTS } owner;
-/* RATIO: a multiple of 1/65536; RANGE: a distance, 0: unlimited */
-typedef enum { NUMBER, RATIO, COLOUR, BIAS, WHOLE, SWITCH, WORD, RANGE } value_type;
+/* RATIO: a multiple of 1/65536; RANGE: a distance, 0: unlimited; FACTOR: of a light's colour */
+typedef enum { NUMBER, RATIO, COLOUR, BIAS, WHOLE, SWITCH, WORD, RANGE, FACTOR } value_type;
 
 typedef struct {
     const char *name;
@@ -56,6 +56,7 @@ static const scene_knob scene_knobs[] = {
     SHADOW_("disk_samples", WHOLE, disk_samples, 1, 64, "samples of the disk filter (F4)"),
     SHADOW_("object_lights", WHOLE, object_lights, 0, 8,
             "most spot and point lights per object, the most important first; 0: no limit (P9)"),
+    LIGHT_("intensity", FACTOR, intensity, 0.001, 1000, "times the intensity that the file says"),
     LIGHT_("strength", NUMBER, strength, 0, 1, "shadow strength (M4)"),
     LIGHT_("bias_constant", NUMBER, bias_constant, 0, 64, "caster bias in texels (B1)"),
     LIGHT_("bias_slope", NUMBER, bias_slope, 0, 64, "caster bias per slope (B1)"),
@@ -128,7 +129,7 @@ bool settings_of_scene(const char *key)
 {
     static const char *const others[] = {"cascades",     "cascade_ratios", "refresh", "lights",
                                          "add_light",    "ground",         "normals", "texture_format",
-                                         "texture_size", "texture_levels"};
+                                         "texture_size", "texture_levels", "up"};
     for (size_t i = 0; i < sizeof others / sizeof *others; i++)
         if (strcmp(key, others[i]) == 0) return true;
     return strchr(key, '@') || find(key);
@@ -204,12 +205,19 @@ static bool ends_auto_bias(const scene_knob *k)
     return k->offset == offsetof(scene_light, bias_normal) || k->offset == offsetof(scene_light, bias_receiver);
 }
 
+/* Another factor in the place of the one before. */
+static void scale_light(scene_light *light, double factor)
+{
+    for (int i = 0; i < 3; i++) light->colour[i] *= factor / light->intensity;
+}
+
 static void store(scene *s, const scene_knob *k, size_t light, const stored *v)
 {
     if (k->of == OF_SCENE) memcpy((char *)s + k->offset, &v->as, v->bytes);
     if (k->of == OF_SHADOW) memcpy((char *)&s->shadow + k->offset, &v->as, v->bytes);
     for (size_t l = 0; k->of == OF_LIGHTS && l < s->n_lights; l++) {
         if (light != SCENE_NONE && light != l) continue;
+        if (k->type == FACTOR) scale_light(&s->lights[l], v->as.number[0]);
         memcpy((char *)&s->lights[l] + k->offset, &v->as, v->bytes);
         if (ends_auto_bias(k)) s->lights[l].auto_bias = SCENE_AUTO_BIAS_OFF;
     }
