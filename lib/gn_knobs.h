@@ -145,8 +145,7 @@
       "flash; 64 bytes per tile, 24 per object")                                                                       \
     X(object_boxes, OBJECT_BOXES, 0, 1, "casters whose box lies outside a shadow tile are skipped",                    \
       "flash, 24 bytes per object; the same picture with and without")                                                 \
-    X(orthographic, ORTHOGRAPHIC, 0, 1, "orthographic cameras",                                                        \
-      "flash; 48 bytes of RAM; what such a camera sees is shaded pixel by pixel")                                      \
+    X(orthographic, ORTHOGRAPHIC, 0, 1, "orthographic cameras", "flash; 48 bytes of RAM")                              \
     X(clipping, CLIPPING, 0, 1,                                                                                        \
       "visible triangles may cross the near plane, or extend far beyond the picture; without, the frame is "           \
       "refused",                                                                                                       \
