@@ -238,7 +238,7 @@ static void check_attributes(const gn_surface *s, const known_point *k, const gn
 
 /* NUMERICS 4.12: pixels of rows, as they are stepped, are within the tolerance of the plane's coordinates; and what the
  * corners are off by, of which a quadratic through three takes 5/4 each way; quotients that bend edges, rounding of the
- * origin, the corners and the bends, and that of steps. */
+ * origin, the corners and the bends, and that of steps. Orthographic: nothing bends. */
 static void check_patch(const gn_surface *s, const plane *p, const gn_lattice *l, const gn_texture_patch *patch, int x,
                         int y, int size_log2)
 {
@@ -264,8 +264,11 @@ static void check_patch(const gn_surface *s, const plane *p, const gn_lattice *l
                     const double bends = ldexp(8, -17); /* 8 texels at most */
                     double error = ldexp(stepped, -17) - at * sides[axis];
                     error -= sides[axis] * floor(error / sides[axis] + 0.5); /* whole turns */
-                    const double bound = ldexp(1, -gn_cell_texture_log2(&renderer.frame)) +
-                                         1.5625 * corner_off * sides[axis] + ldexp(6, -17) + bends + ldexp(2, -12);
+                    double bound = ldexp(6, -17) + ldexp(2, -12);
+                    if (orthographic) bound += corner_off * sides[axis];
+                    else
+                        bound += ldexp(1, -gn_cell_texture_log2(&renderer.frame)) + 1.5625 * corner_off * sides[axis] +
+                                 bends;
                     record(STAGE_QUADRATIC, fabs(error), bound, ldexp(1, -17));
                 }
         }
@@ -691,10 +694,22 @@ static void check_light_inside(gn_lattice_cell *cell, uint32_t slot, double boun
         }
 }
 
+/* How normals turn is taken from their changes, and twice what a turn leaves: enough down to a length of sqrt(1 / 2). */
+static int normals_are_long(const gn_corner c[4])
+{
+    for (int i = 0; i < 4; i++) {
+        double n[3];
+        axis_of(c[i].normal_q30, n);
+        if (dot(n, n) < 0.5) return 0;
+    }
+    return 1;
+}
+
 static void check_light(const gn_lattice *from, const gn_surface *s, int x, int y, int size_log2)
 {
     cell_case *c = cell_at(from, s, x, y, size_log2);
     if (!c || size_log2 <= gn_cell_finest_log2(&renderer.frame) || !gn_cell_find_bend(&c->cell)) return;
+    if (!normals_are_long(c->corner)) return;
     for (uint32_t slot = 0; slot < s->n_lights; slot++) {
         int32_t least = INT32_MAX, most = 0;
         int fully = s->light[slot].state->kind != GN_LIGHT_DIRECTIONAL;
