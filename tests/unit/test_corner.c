@@ -92,7 +92,8 @@ static void aim(gn_light *lamp, gn_light_kind kind)
     lamp->mask_channel = -1;
 }
 
-/* An orthographic camera, which sees about what a perspective one would, or a third: triangles leave the picture. */
+/* An orthographic camera, which sees about what a perspective one would, or a tenth: triangles leave the picture. Some
+ * are slivers, whose barycentrics leave their limits next to them. */
 static int orthographic;
 
 static void choose_camera(void)
@@ -100,7 +101,9 @@ static void choose_camera(void)
     fixed.camera.half_height_q16 = 0;
     if (!orthographic) return;
     const double away = fixed.shadow.max_distance_q16 / 2.0, focal = fixed.camera.focal_q24 / 16777216.0;
-    fixed.camera.half_height_q16 = (int32_t)fmax(256, away / focal / uniform(1, 3));
+    fixed.camera.half_height_q16 = (int32_t)fmax(256, away / focal / uniform(1, one_in(2) ? 3 : 10));
+    const int sliver = one_in(3);
+    for (int i = 0; sliver && i < 3; i++) object.to_world.m_q30[i][0] /= 16;
 }
 
 /* What a ray's slopes are multiplied by, at a depth. */
@@ -174,8 +177,7 @@ static void cross_flat(crossing *c, const plane *p, int x, int y)
     for (int k = 0; k < 2; k++) {
         const double *of = e[1 - k], up = of[1] * v[0] - of[0] * v[1];
         c->z += c->b[k] * (p->v[k + 1][2] - v[2]);
-        c->kappa_b =
-            fmax(c->kappa_b, sqrt((of[0] * of[0] + of[1] * of[1]) * flat * flat + up * up) * length / fabs(n));
+        c->kappa_b = fmax(c->kappa_b, sqrt((of[0] * of[0] + of[1] * of[1]) * flat * flat + up * up) * length / fabs(n));
     }
     c->inside = c->b[0] > 0 && c->b[1] > 0 && c->b[0] + c->b[1] < 1;
 }
@@ -187,8 +189,8 @@ static void find_flat_known(known_point *k, const gn_lattice *l, const plane *p,
     cross_flat(&k->at, p, x, y);
     const double b = fmax(fabs(k->at.b[0]), fabs(k->at.b[1]));
     k->w = HUGE_VAL;
-    k->b_off = ldexp(3 * (1 + abs(x - l->plane.x) + abs(y - l->plane.y)), -28) +
-               b * (ldexp(1, -26) + ldexp(1, -28)) + ldexp(k->at.kappa_b, -29);
+    k->b_off = ldexp(3 * (1 + abs(x - l->plane.x) + abs(y - l->plane.y)), -28) + b * (ldexp(1, -26) + ldexp(1, -28)) +
+               ldexp(k->at.kappa_b, -29);
     k->z_off = LSB16 + (fabs(p->v[1][2] - p->v[0][2]) + fabs(p->v[2][2] - p->v[0][2])) * k->b_off;
 }
 
@@ -452,8 +454,8 @@ static void check_from(const known_point *k, const gn_light_state *from, const g
     for (int i = 0; i < 3; i++) {
         double share[3], size;
         for (int a = 0; a < 3; a++) share[a] = ldexp(frame->cam.axis_q30[a][i], -30);
-        const double want = along_ray(k, z, share, &size) +
-                            ((double)frame->cam.eye_q16[i] - from->position_q16[i]) * LSB16;
+        const double want =
+            along_ray(k, z, share, &size) + ((double)frame->cam.eye_q16[i] - from->position_q16[i]) * LSB16;
         const double bound = LSB16 * (1 + lost) + ray_off(k, z, from->ray_shift) + ldexp(size, -27);
         record(STAGE_FROM, fabs(from_q16[i] * LSB16 - want), bound, LSB16);
     }
@@ -694,13 +696,14 @@ static void check_light_inside(gn_lattice_cell *cell, uint32_t slot, double boun
         }
 }
 
-/* How normals turn is taken from their changes, and twice what a turn leaves: enough down to a length of sqrt(1 / 2). */
-static int normals_are_long(const gn_corner c[4])
+/* How normals turn is taken from their changes, and twice what a turn leaves: enough down to a length of sqrt(1 / 2),
+ * where no component is limited. */
+static int normals_hold(const gn_corner c[4])
 {
     for (int i = 0; i < 4; i++) {
         double n[3];
         axis_of(c[i].normal_q30, n);
-        if (dot(n, n) < 0.5) return 0;
+        if (dot(n, n) < 0.5 || fmax(fabs(n[0]), fmax(fabs(n[1]), fabs(n[2]))) == 1) return 0;
     }
     return 1;
 }
@@ -709,7 +712,7 @@ static void check_light(const gn_lattice *from, const gn_surface *s, int x, int 
 {
     cell_case *c = cell_at(from, s, x, y, size_log2);
     if (!c || size_log2 <= gn_cell_finest_log2(&renderer.frame) || !gn_cell_find_bend(&c->cell)) return;
-    if (!normals_are_long(c->corner)) return;
+    if (!normals_hold(c->corner)) return;
     for (uint32_t slot = 0; slot < s->n_lights; slot++) {
         int32_t least = INT32_MAX, most = 0;
         int fully = s->light[slot].state->kind != GN_LIGHT_DIRECTIONAL;
