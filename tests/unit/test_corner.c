@@ -157,8 +157,9 @@ typedef struct {
     int32_t px, py;
 } known_point;
 
-/* Where a parallel ray hits a plane, whose edges as they are seen are e: barycentrics are forms c . ray / n . ray. */
-static void cross_flat(crossing *c, const plane *p, int x, int y)
+/* Where a parallel ray hits a plane, whose edges as they are seen are e: barycentrics are forms c . ray / n . ray.
+ * Returns n . ray. */
+static double cross_flat(crossing *c, const plane *p, int x, int y)
 {
     const double flat = across_at(0), focal2 = renderer.frame.cam.focal2_px_q16 * LSB16, *v = p->v[0];
     double e[2][2], at[2];
@@ -180,17 +181,17 @@ static void cross_flat(crossing *c, const plane *p, int x, int y)
         c->kappa_b = fmax(c->kappa_b, sqrt((of[0] * of[0] + of[1] * of[1]) * flat * flat + up * up) * length / fabs(n));
     }
     c->inside = c->b[0] > 0 && c->b[1] > 0 && c->b[0] + c->b[1] < 1;
+    return fabs(n);
 }
 
-/* Orthographic: forms round by half a unit, at most 2^-27, then down to 2^-28, at their own pixel and for each between;
- * both are stepped by slopes that are a quotient: its divisor has 27 bits, its reciprocal two Newton steps. */
+/* Orthographic: forms round by half a unit of their divisor w, of 27 bits, then down to 2^-28, at their own pixel and
+ * for each between; their slopes are quotients, too, of w rounded down, by a reciprocal of two Newton steps. */
 static void find_flat_known(known_point *k, const gn_lattice *l, const plane *p, int x, int y)
 {
-    cross_flat(&k->at, p, x, y);
-    const double b = fmax(fabs(k->at.b[0]), fabs(k->at.b[1]));
-    k->w = HUGE_VAL;
-    k->b_off = ldexp(3 * (1 + abs(x - l->plane.x) + abs(y - l->plane.y)), -28) + b * (ldexp(1, -26) + ldexp(1, -28)) +
-               ldexp(k->at.kappa_b, -29);
+    int exp;
+    k->w = ldexp(frexp(cross_flat(&k->at, p, x, y) * renderer.frame.cam.focal2_px_q16, &exp), 27);
+    const double b = fmax(fabs(k->at.b[0]), fabs(k->at.b[1])), steps = 1 + abs(x - l->plane.x) + abs(y - l->plane.y);
+    k->b_off = steps * (0.5 / k->w + ldexp(1, -28)) + b * (1 / k->w + ldexp(1, -28)) + ldexp(k->at.kappa_b, -29);
     k->z_off = LSB16 + (fabs(p->v[1][2] - p->v[0][2]) + fabs(p->v[2][2] - p->v[0][2])) * k->b_off;
 }
 
