@@ -56,9 +56,9 @@ int gn_corner_place_any(gn_lattice *lattice, const gn_frame *frame, const gn_sur
 int gn_corner_place_flat(gn_lattice *lattice, const gn_frame *frame, const gn_surface *surface, uint32_t slot,
                          const gn_light_view *view, int32_t x, int32_t y, gn_corner_light *at);
 
-/* Tile coordinates of a pixel in a directional view, Q16 texels. */
-void gn_corner_uv(const gn_lattice *lattice, const gn_frame *frame, const gn_surface *surface,
-                  const gn_light_view *view, int32_t x, int32_t y, const int32_t offset_q16[3], int32_t uv_q16[2]);
+/* Tile coordinates of a pixel in a directional view, Q16 texels. Returns its view depth. */
+int32_t gn_corner_uv(const gn_lattice *lattice, const gn_frame *frame, const gn_surface *surface,
+                     const gn_light_view *view, int32_t x, int32_t y, const int32_t offset_q16[3], int32_t uv_q16[2]);
 
 /* A point of a pixel's ray: what gn_ray_plane's axes are multiplied by, 31 bits, and how far products go down. */
 typedef struct {

@@ -67,13 +67,15 @@ GN_HOT int32_t gn_corner_depth(const gn_lattice *l, const gn_frame *frame, const
     return plane_depth(l, frame, s, x, y);
 }
 
-GN_HOT void gn_corner_uv(const gn_lattice *l, const gn_frame *frame, const gn_surface *s, const gn_light_view *view,
-                         int32_t x, int32_t y, const int32_t offset_q16[3], int32_t uv_q16[2])
+GN_HOT int32_t gn_corner_uv(const gn_lattice *l, const gn_frame *frame, const gn_surface *s, const gn_light_view *view,
+                            int32_t x, int32_t y, const int32_t offset_q16[3], int32_t uv_q16[2])
 {
     gn_corner_ray ray;
-    gn_corner_ray_begin(&ray, frame, view->fit.ortho.ray_shift, x, y, plane_depth(l, frame, s, x, y));
+    const int32_t z_q16 = plane_depth(l, frame, s, x, y);
+    gn_corner_ray_begin(&ray, frame, view->fit.ortho.ray_shift, x, y, z_q16);
     uv_q16[0] = gn_corner_ortho(&view->fit.ortho.ray[0], &ray) + offset_q16[0];
     uv_q16[1] = gn_corner_ortho(&view->fit.ortho.ray[1], &ray) + offset_q16[1];
+    return z_q16;
 }
 
 GN_HOT static GN_NOINLINE void place_directional(gn_lattice *l, const gn_frame *frame, const gn_surface *s,

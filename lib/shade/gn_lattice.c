@@ -212,7 +212,6 @@ GN_HOT void gn_lattice_shade(gn_shading *s)
 {
     gn_lattice *l = &s->lattice;
     gn_rect box = box_of(l);
-    gn_part_begin(s);
     int reached = gn_corner_begin_lights(l, s->frame, &s->surface);
     int32_t n_px = count_pixels(l);
     if (reached && n_px > FEW_OF_A_FACET && gn_facet_shade(s, &box, n_px)) return;

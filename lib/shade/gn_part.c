@@ -2,8 +2,10 @@
 #include "gn_internal.h"
 
 #include "base/gn_count.h"
+#include "base/gn_noise.h"
 #include "base/gn_q.h"
 #include "shade/gn_exact.h"
+#include "shade/gn_lattice_cell.h"
 #include "shade/gn_lattice_window.h"
 #include "shade/gn_levels.h"
 #include "shade/gn_part.h"
@@ -36,7 +38,7 @@ GN_HOT void gn_part_begin(gn_shading *s)
     const gn_surface *surface = &s->surface;
     int varies = GN_SMOOTH(surface) | GN_COLOURED(surface) | surface->textured | surface->baked | surface->masked |
                  surface->specular | surface->n_punctual;
-    s->lattice.uniform = !varies && s->frame->picture.format != GN_FORMAT_RAW32;
+    s->lattice.uniform = !varies;
 }
 
 /* ---- Lights ------------------------------------------------------------------------------------------------------ */
@@ -178,7 +180,45 @@ GN_HOT static void store_row(gn_shading *s, int32_t x, int32_t y, int32_t n, con
 /* Where a row of pixels is seen: between two of them. */
 typedef struct {
     int32_t at[2], last[2]; /* u, v */
+    int32_t z_q16, last_z_q16;
 } row_ends;
+
+enum { FEW_BENT = 4 };
+
+/* Whether perspective bends a row by more than places may be off: NUMERICS 4.12, what is between corners. */
+GN_HOT static inline int bends(const gn_frame *frame, const row_ends *row)
+{
+    const uint32_t u = gn_abs32(row->last[0] - row->at[0]), v = gn_abs32(row->last[1] - row->at[1]),
+                   dz = gn_abs32(row->last_z_q16 - row->z_q16);
+    const uint64_t least = (uint32_t)gn_min32(row->z_q16, row->last_z_q16);
+    if (GN_FLAT_Q16(frame)) return 0;
+    return (uint64_t)(u > v ? u : v) * dz > least << (18 - gn_cell_place_log2(frame));
+}
+
+/* The first place of a row. */
+GN_HOT static void begin_row(const gn_shading *s, const part_view *view, int32_t x, int32_t y, row_ends *row)
+{
+    row->last_z_q16 =
+        gn_corner_uv(&s->lattice, s->frame, &s->surface, view->window->view, x, y, view->offset_q16, row->last);
+}
+
+/* The next chunk of a row up to `end`, which begins where the last one ended. Returns its pixels; *ahead: those to its
+ * last place, the next chunk's first pixel, or its own last. */
+GN_HOT static int32_t next_chunk(const gn_shading *s, const part_view *view, int32_t x, int32_t y, int32_t end,
+                                 row_ends *row, int32_t *ahead)
+{
+    int32_t n = gn_min32(end - x, CHUNK);
+    row->at[0] = row->last[0];
+    row->at[1] = row->last[1];
+    row->z_q16 = row->last_z_q16;
+    for (;; n = (n + 1) >> 1) {
+        *ahead = x + n < end ? n : n - 1;
+        if (!*ahead) return n;
+        row->last_z_q16 = gn_corner_uv(&s->lattice, s->frame, &s->surface, view->window->view, x + *ahead, y,
+                                       view->offset_q16, row->last);
+        if (n <= FEW_BENT || !bends(s->frame, row)) return n;
+    }
+}
 
 /* Attenuations of n pixels in a row, `ahead` of them from its first place to its last: sets them where what is known of
  * all of them is GN_WINDOW_MIXED. */
@@ -218,18 +258,10 @@ GN_HOT static GN_NOINLINE void mixed_span(gn_shading *s, const part_look *look, 
                                           int32_t y, int32_t end)
 {
     row_ends row;
-    gn_corner_uv(&s->lattice, s->frame, &s->surface, view->window->view, x, y, view->offset_q16, row.at);
-    for (int32_t n; x < end; x += n) {
-        n = gn_min32(end - x, CHUNK);
-        int32_t ahead = x + n < end ? n : n - 1;
-        row.last[0] = row.at[0];
-        row.last[1] = row.at[1];
-        if (ahead)
-            gn_corner_uv(&s->lattice, s->frame, &s->surface, view->window->view, x + ahead, y, view->offset_q16,
-                         row.last);
+    begin_row(s, view, x, y, &row);
+    for (int32_t n, ahead; x < end; x += n) {
+        n = next_chunk(s, view, x, y, end, &row, &ahead);
         mixed_chunk(s, look, view, &row, x, y, n, ahead);
-        row.at[0] = row.last[0];
-        row.at[1] = row.last[1];
     }
 }
 
@@ -295,6 +327,24 @@ GN_HOT static GN_NOINLINE int look_up_pixels(gn_shading *s, const part_look *loo
     return 1;
 }
 
+/* Attenuations of a row by a window. Returns what is known of all of it; -1: nothing can be told. */
+GN_HOT static int attenuations_by_window(const gn_shading *s, const part_view *view, int32_t x, int32_t y, int32_t n,
+                                         uint32_t *out)
+{
+    const int32_t end = x + n;
+    int all = -1;
+    row_ends row;
+    begin_row(s, view, x, y, &row);
+    for (int32_t ahead; x < end; x += n, out += n) {
+        n = next_chunk(s, view, x, y, end, &row, &ahead);
+        int said = attenuations(s, view, &row, n, ahead, out);
+        if (said == GN_WINDOW_MISSED) return -1;
+        for (int32_t i = 0; said != GN_WINDOW_MIXED && i < n; i++) out[i] = said == GN_WINDOW_LIT ? 65536 : 0;
+        all = all >= 0 && all != said ? GN_WINDOW_MIXED : said;
+    }
+    return all;
+}
+
 /* Attenuations of a row in one view, with what is known of all of it. Returns what that is; -1: nothing can be told. */
 GN_HOT static int attenuations_in(gn_shading *s, const part_look *look, uint32_t view_idx, int32_t x, int32_t y,
                                   int32_t n, uint32_t *out)
@@ -303,16 +353,20 @@ GN_HOT static int attenuations_in(gn_shading *s, const part_look *look, uint32_t
     int said = view->said;
     if (said == GN_WINDOW_MIXED && !view->window)
         return look_up_pixels(s, look, view_idx, x, y, n, out) ? GN_WINDOW_MIXED : -1;
-    if (said == GN_WINDOW_MIXED) {
-        row_ends row;
-        gn_corner_uv(&s->lattice, s->frame, &s->surface, view->window->view, x, y, view->offset_q16, row.at);
-        gn_corner_uv(&s->lattice, s->frame, &s->surface, view->window->view, x + n - 1, y, view->offset_q16, row.last);
-        said = attenuations(s, view, &row, n, n - 1, out);
-        if (said == GN_WINDOW_MISSED) return -1;
-        if (said == GN_WINDOW_MIXED) return said;
-    }
+    if (said == GN_WINDOW_MIXED) return attenuations_by_window(s, view, x, y, n, out);
     for (int32_t i = 0; i < n; i++) out[i] = said == GN_WINDOW_LIT ? 65536 : 0;
     return said;
+}
+
+/* Attenuations of n pixels in a row where a cascade blends into the next: `here` becomes what is seen. */
+GN_HOT static void blend_row(const gn_frame *frame, int32_t x, int32_t y, int32_t n, int32_t fade_uq16, int32_t step,
+                             const uint32_t *next, uint32_t *here)
+{
+    const int dithers = frame->scene->shadow.blend == GN_BLEND_DITHER;
+    for (int32_t i = 0; i < n; i++, fade_uq16 += step) {
+        if (dithers) here[i] = (uint32_t)fade_uq16 < gn_noise_uq16(x + i, y) ? next[i] : here[i];
+        else here[i] += (uint32_t)((int64_t)((int32_t)next[i] - (int32_t)here[i]) * (65536 - fade_uq16) >> 16);
+    }
 }
 
 /* Pixels of one row where shadows fade, or cascades blend: shares are linear along chunks. Returns 0 if they are to be
@@ -329,7 +383,7 @@ GN_HOT static GN_NOINLINE int fading_chunk(gn_shading *s, const part_look *look,
     }
     int said = attenuations_in(s, look, look->cascaded ? (uint32_t)a->cascade : 0, x, y, n, here), there = said;
     if (blends) there = attenuations_in(s, look, (uint32_t)s->frame->cascade[a->cascade].next, x, y, n, next);
-    if (said < 0 || there < 0 || (said != there && s->frame->scene->shadow.blend == GN_BLEND_DITHER)) return 0;
+    if (said < 0 || there < 0) return 0;
     if (said == there && said == GN_WINDOW_LIT) {
         gn_pixel_fill(s->frame, &s->rows, x, y, n, look->lit);
         return 1;
@@ -339,13 +393,17 @@ GN_HOT static GN_NOINLINE int fading_chunk(gn_shading *s, const part_look *look,
         fade_step = gn_step_of(fade, (int32_t)b->fade_uq16, n - 1);
         g_step = gn_step_of(g, (int32_t)b->g_uq16, n - 1);
     }
-    for (int32_t i = 0; i < n; i++, fade += fade_step, g += g_step) {
-        int32_t dark = 65536 - (int32_t)here[i];
-        if (blends) dark += (int32_t)((int64_t)((int32_t)here[i] - (int32_t)next[i]) * (65536 - fade) >> 16);
-        here[i] = 65536 - (uint32_t)((int64_t)dark * g >> 16);
-    }
+    if (blends) blend_row(s->frame, x, y, n, fade, fade_step, next, here);
+    for (int32_t i = 0; i < n; i++, g += g_step) here[i] = 65536 - gn_mul_uq16(65536 - here[i], (uint32_t)g);
     store_row(s, x, y, n, here);
     return 1;
+}
+
+/* Whether a ramp begins or ends between two places, which are too far apart to take it for a line. */
+GN_HOT static int kinks(uint32_t a_uq16, uint32_t b_uq16)
+{
+    const uint32_t least = a_uq16 < b_uq16 ? a_uq16 : b_uq16, most = a_uq16 ^ b_uq16 ^ least;
+    return (!least || most == 65536) && most - least > 65536 >> 4;
 }
 
 GN_HOT static GN_NOINLINE void fading_span(gn_shading *s, const part_look *look, int32_t x, int32_t y, int32_t end)
@@ -358,6 +416,10 @@ GN_HOT static GN_NOINLINE void fading_span(gn_shading *s, const part_look *look,
             n >>= 1;
             b = cascade_at(s, x + n - 1, y);
             if (n == 1) a = b;
+        }
+        while (n > 2 && (kinks(a.fade_uq16, b.fade_uq16) || kinks(a.g_uq16, b.g_uq16))) {
+            n >>= 1;
+            b = cascade_at(s, x + n - 1, y);
         }
         if (!fading_chunk(s, look, x, y, n, &a, &b)) shade_row_exactly(s, x, y, n);
     }

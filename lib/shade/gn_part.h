@@ -5,7 +5,7 @@
 
 #include "shade/gn_lattice.h"
 
-/* Once per surface, after gn_corner_begin. */
+/* Once per surface: whether it is of that kind. */
 void gn_part_begin(gn_shading *s);
 
 /* Shades the pixels of the spans in the part, which ends at part_end or before. Returns 0 if it is not of that kind: it

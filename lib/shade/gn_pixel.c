@@ -118,6 +118,8 @@ GN_HOT static uint32_t pack_16(const gn_frame *frame, const uint32_t linear_q20[
 /* A colour in the picture's format. [R5] */
 GN_HOT uint32_t gn_pixel_pack(const gn_frame *frame, const uint32_t linear_q20[3])
 {
+    if (GN_RAW_VIEWS && frame->picture.format == GN_FORMAT_RAW32)
+        return linear_q20[0] >> 20 ? 65536 : linear_q20[0] >> 4; /* a share */
     if (!GN_OTHER_FORMATS) return pack_16(frame, linear_q20);
     switch (frame->picture.format) {
     case GN_FORMAT_RGB565:
@@ -170,7 +172,9 @@ GN_HOT void gn_pixel_fill(const gn_frame *frame, const gn_pixel_rows *rows, int3
 {
     int32_t at = x - rows->x0, row = y - rows->y0, i = row * rows->width + at;
     uint8_t *bytes = rows->pixels->bytes;
-    if (!GN_OTHER_FORMATS || frame->picture.format == GN_FORMAT_RGB565 ||
+    if (GN_RAW_VIEWS && frame->picture.format == GN_FORMAT_RAW32) {
+        while (n-- > 0) rows->pixels->raw[i++] = packed;
+    } else if (!GN_OTHER_FORMATS || frame->picture.format == GN_FORMAT_RGB565 ||
         frame->picture.format == GN_FORMAT_RGB565_SWAPPED) {
         gn_pixel_fill_16(rows->pixels, (uint32_t)i, (uint32_t)n, packed & 0xFFFFU);
     } else if (frame->picture.format == GN_FORMAT_GREY8) {

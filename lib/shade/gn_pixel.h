@@ -93,7 +93,7 @@ GN_HOT static inline void gn_pixel_fill_16(gn_tile_pixels *pixels, uint32_t i, u
 GN_HOT static inline void gn_pixel_store(const gn_frame *frame, const gn_pixel_rows *rows, int32_t x, int32_t y,
                                          uint32_t packed)
 {
-    if (frame->picture.format == GN_FORMAT_RGB565 || !GN_OTHER_FORMATS)
+    if (frame->picture.format == GN_FORMAT_RGB565 || (!GN_OTHER_FORMATS && !GN_RAW_VIEWS))
         rows->pixels->rgb565[(y - rows->y0) * rows->width + x - rows->x0] = (uint16_t)packed;
     else gn_pixel_fill(frame, rows, x, y, 1, packed);
 }

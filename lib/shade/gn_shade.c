@@ -12,6 +12,7 @@
 #include "shade/gn_lattice.h"
 #include "shade/gn_light.h"
 #include "shade/gn_mix.h"
+#include "shade/gn_part.h"
 #include "shade/gn_pixel.h"
 #include "visible/gn_cell.h"
 #include "visible/gn_layers.h"
@@ -63,6 +64,7 @@ GN_HOT static void show_one_light(gn_surface *surface, uint32_t light_idx)
     surface->light[0] = surface->light[slot];
     surface->n_punctual = surface->light[0].state->kind != GN_LIGHT_DIRECTIONAL ? 1 : 0;
     surface->n_lights = 1;
+    if (!GN_SMOOTH(surface)) surface->light[0].cosine_q24[0] = surface->light[0].cosine_q24[0] > 0 ? 1 << 24 : 0;
     for (int c = 0; c < 3; c++) surface->light[0].radiance_uq16[c] = 65536;
 }
 
@@ -80,6 +82,7 @@ GN_HOT static void shade_spans(gn_shading *s, gn_run_taker *taker, uint32_t firs
 {
     gn_lattice *l = &s->lattice;
     uint32_t stride = (uint32_t)GN_K(s->frame, tile_width);
+    gn_part_begin(s); /* the views of shadows are drawn as the picture is */
     if (GN_RAW_VIEWS && s->frame->picture.format == GN_FORMAT_RAW32)
         show_one_light(&s->surface, s->frame->picture.view_light);
     gn_run_span *span = l->span, *const end = span + GN_SPANS;

@@ -177,10 +177,9 @@ static const exception beyond[] = {
     {"M3", "yard", ".texture=nearest", 1.16},   /* texels that a coordinate is within 2^-9 of, or a step of Q17 */
     {"M11", "yard", ".texture=nearest", 1.01},  /* the same */
     {"P6", "room", "other_atlas_size=64", 3.8}, /* 7x7 in tiles of 16 texels: all is penumbra, linear between lookups */
-    {"D7", "lane", "cascade_blend=soft", 1.2},  /* cascades that blend */
+    {"D7", "lane", "cascade_fade=0.6", 1.1},    /* cascades that blend */
     {"M6", "yard", "distance_fade=0.7 mixing=distance", 1.1}, /* shadows of images that fade out */
-    {"R10", "yard", "filter=5x5", 1.45}, /* two suns: much is penumbra, linear between lookups; perspective: 1.27 */
-    {"D2", "yard", ".direction=0,-1,0", 1.07}}; /* edges of shadows in a small picture */
+    {"D2", "yard", ".direction=0,-1,0", 1.07}};               /* edges of shadows in a small picture */
 
 /* What cells may need: all that is promised. */
 static double allowed_for(const row *r)

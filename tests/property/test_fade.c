@@ -1,6 +1,6 @@
 /* Shadows that fade over depth, in cells and pixel by pixel: a ground under a roof, all in shadow up to where that
- * ends; without a roof, dark by a mask from there on. By NUMERICS 4.12 cells are off by 1/32 at kinks and by a quarter
- * of 1/4 along each axis of a ramp. */
+ * ends, or that fade to a mask; by cameras with parallel rays, too, some of which hardly look down. By NUMERICS 4.12
+ * cells are off by 1/32 at kinks and by a quarter of 1/4 along each axis of a ramp. */
 #include <math.h>
 
 #include "canvas.h"
@@ -8,7 +8,8 @@
 #include "knobs.h"
 #include "light_scene.h"
 
-enum { W = 96, H = 72, N_SCENES = 60 };
+enum { W = 96, H = 72, N_SCENES = 120 };
+enum { ROOF, MASK, MASK_THAT_VARIES, N_GROUNDS };
 
 static gn_renderer renderer;
 static light_scene ls;
@@ -23,33 +24,34 @@ static void add_roof(void)
     roof->flags = GN_OBJECT_CASTS | GN_OBJECT_HIDDEN;
 }
 
-static void add_masks(gn_light *light)
+static void add_masks(gn_light *light, int ground)
 {
-    static const uint8_t masks_u8[4 * 4]; /* none of the light arrives */
-    ls.object[0].mask_u8 = masks_u8;
+    static const uint8_t dark_u8[4 * 4], some_u8[4 * 4] = {255, 0, 0, 0, 0, 0, 0, 0, 255, 0, 0, 0, 0, 0, 0, 0};
+    ls.object[0].mask_u8 = ground == MASK ? dark_u8 : some_u8;
     ls.scene.shadow.mixing = GN_MIXING_DISTANCE;
     light->mode = GN_LIGHT_MIXED;
     light->mask_channel = 0;
 }
 
-static void begin_ground(rng *r, int masked)
+static void begin_ground(rng *r, int ground, int flat)
 {
     ls_begin(&ls);
     ls.scene.n_objects = 1;
     ls.object[0].baked_uq12 = GN_BAKED_LIGHT ? baked_uq12 : NULL;
-    if (!masked) add_roof();
+    if (ground != MASK) add_roof();
     gn_light *light = ls_add_light(&ls, GN_LIGHT_DIRECTIONAL);
     light->direction[0] = light->direction[2] = 0;
-    if (masked) add_masks(light);
+    if (ground != ROOF) add_masks(light, ground);
     for (int k = 0; k < 3; k++) {
         ls.object[0].albedo_uq16[k] = light->colour_uq16[k] = 65536;
         ls.scene.ambient_uq16[k] = ls.scene.background_uq20[k] = 0;
     }
     const int32_t x = ls_q16(r, -3, 3), y = ls_q16(r, 1, 4), z = ls_q16(r, 2, 5);
-    ls_look(&ls, x, y, z);
+    ls_look(&ls, x, flat ? y / 4 : y, z);
+    if (flat && GN_ORTHOGRAPHIC) ls.scene.camera.half_height_q16 = ls_q16(r, 1, 3);
     ls.scene.shadow.n_cascades = 1;
     ls.scene.shadow.max_distance_q16 = ls_q16(r, 4, 9);
-    ls.scene.shadow.distance_fade_uq16 = 1000 + rng_below(r, 20000);
+    ls.scene.shadow.distance_fade_uq16 = 1000 + rng_below(r, flat ? 60000 : 20000);
 }
 
 static int draw(canvas *picture, int32_t step)
@@ -93,7 +95,7 @@ int main(void)
     long n_between = 0;
     double worst = 0;
     for (int i = 0; i < N_SCENES; i++) {
-        begin_ground(&random_state, i % 2 && GN_MASKS);
+        begin_ground(&random_state, GN_MASKS ? i % N_GROUNDS : ROOF, i & 1);
         for (int k = 0; k < 3; k++) worst = fmax(worst, worst_of(steps[k], &n_between));
     }
     printf("%ld pixels of ramps; off by %.4f\n", n_between, worst);
