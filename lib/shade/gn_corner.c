@@ -47,7 +47,8 @@ GN_HOT static void times_per_w(int32_t *v, uint32_t recip, int32_t clz)
     *v = (int32_t)((*v * (int64_t)recip) >> (35 - clz)); /* 2^30 * 2^32 */
 }
 
-/* Barycentrics of parallel rays, whose n . ray is the same everywhere: below 2^29 within `rect`. */
+/* Barycentrics of parallel rays, whose n . ray is the same everywhere: below 7, and sums of steps below 2^31, where the
+ * plane is asked for. */
 GN_HOT static int find_flat_plane(gn_screen_plane *p, const gn_frame *frame, const gn_surface *s, const gn_rect *rect)
 {
     const int64_t w = gn_plane_at(s->screen.n, 0, 0, frame->cam.focal2_px_q16);
@@ -59,6 +60,9 @@ GN_HOT static int find_flat_plane(gn_screen_plane *p, const gn_frame *frame, con
     for (int k = 0; k < 2; k++) {
         gn_slope *b = &p->b[k];
         if (!form_on_screen(b, frame, p, s->bary.form[k], shift - s->bary.exp[k], rect)) return 0;
+        const uint32_t most = gn_abs32(b->at) + gn_abs32(b->dx) * (uint32_t)p->w_px + /* 2^30 and 2^30 */
+                              gn_abs32(b->dy) * (uint32_t)p->h_px;
+        if (most >= 7 * w_q27) return 0;
         times_per_w(&b->at, recip, clz);
         times_per_w(&b->dx, recip, clz);
         times_per_w(&b->dy, recip, clz);

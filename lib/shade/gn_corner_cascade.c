@@ -94,6 +94,7 @@ GN_HOT void gn_corner_begin_part(gn_lattice *l, const gn_frame *frame, const gn_
     for (int i = 0; i < 4; i++) {
         int32_t z = gn_corner_depth(l, frame, s, x[i & 1], y[i >> 1]);
         e.z_lo_q16 = gn_min32(e.z_lo_q16, z);
+        if (GN_FLAT_Q16(frame) && z == 1) z = s->z_max_q16; /* far off the triangle: any depth */
         e.z_hi_q16 = gn_max32(e.z_hi_q16, z);
     }
     e.z_lo_q16 = gn_max32(e.z_lo_q16 - 1, s->z_min_q16);

@@ -1,5 +1,6 @@
 /* Corners of cells (gn_corner), each number against the formula it stands for, in double, from the same quantised
- * inputs: random triangles and a directional, a spot and a point light. Bounds: NUMERICS 4.12, term by term below.
+ * inputs: random triangles, a directional, a spot and a point light, perspective and orthographic cameras. Bounds:
+ * NUMERICS 4.12, term by term below.
  * "--table": the largest error seen, per stage. */
 #include "../lib/light/gn_bias.h"
 #include "../lib/shade/gn_corner.h"
@@ -91,9 +92,30 @@ static void aim(gn_light *lamp, gn_light_kind kind)
     lamp->mask_channel = -1;
 }
 
+/* An orthographic camera, which sees about what a perspective one would, or a tenth: triangles leave the picture. Some
+ * are slivers, whose barycentrics leave their limits next to them. */
+static int orthographic;
+
+static void choose_camera(void)
+{
+    fixed.camera.half_height_q16 = 0;
+    if (!orthographic) return;
+    const double away = fixed.shadow.max_distance_q16 / 2.0, focal = fixed.camera.focal_q24 / 16777216.0;
+    fixed.camera.half_height_q16 = (int32_t)fmax(256, away / focal / uniform(1, one_in(2) ? 3 : 10));
+    const int sliver = one_in(3);
+    for (int i = 0; sliver && i < 3; i++) object.to_world.m_q30[i][0] /= 16;
+}
+
+/* What a ray's slopes are multiplied by, at a depth. */
+static double across_at(double z)
+{
+    return orthographic ? renderer.frame.cam.flat_q16 * LSB16 : z;
+}
+
 static void corner_scene(void)
 {
     random_scene();
+    choose_camera();
     lamps[0] = light;
     lamps[0].auto_bias = GN_AUTO_BIAS_OFF;
     aim(&lamps[1], GN_LIGHT_SPOT);
@@ -135,12 +157,54 @@ typedef struct {
     int32_t px, py;
 } known_point;
 
+/* Where a parallel ray hits a plane, whose edges as they are seen are e: barycentrics are forms c . ray / n . ray.
+ * Returns n . ray. */
+static double cross_flat(crossing *c, const plane *p, int x, int y)
+{
+    const double flat = across_at(0), focal2 = renderer.frame.cam.focal2_px_q16 * LSB16, *v = p->v[0];
+    double e[2][2], at[2];
+    c->ray[0] = (2 * x + 1 - WIDTH) / focal2;
+    c->ray[1] = (HEIGHT - 1 - 2 * y) / focal2;
+    c->ray[2] = 1;
+    for (int i = 0; i < 2; i++) {
+        at[i] = flat * c->ray[i] - v[i];
+        for (int k = 0; k < 2; k++) e[k][i] = p->v[k + 1][i] - v[i];
+    }
+    const double n = e[0][0] * e[1][1] - e[0][1] * e[1][0], length = sqrt(dot(c->ray, c->ray));
+    c->b[0] = (at[0] * e[1][1] - at[1] * e[1][0]) / n;
+    c->b[1] = (e[0][0] * at[1] - e[0][1] * at[0]) / n;
+    c->z = v[2];
+    c->kappa = c->kappa_b = 0;
+    for (int k = 0; k < 2; k++) {
+        const double *of = e[1 - k], up = of[1] * v[0] - of[0] * v[1];
+        c->z += c->b[k] * (p->v[k + 1][2] - v[2]);
+        c->kappa_b = fmax(c->kappa_b, sqrt((of[0] * of[0] + of[1] * of[1]) * flat * flat + up * up) * length / fabs(n));
+    }
+    c->inside = c->b[0] > 0 && c->b[1] > 0 && c->b[0] + c->b[1] < 1;
+    return fabs(n);
+}
+
+/* Orthographic: forms round by half a unit of their divisor w, of 27 bits, then down to 2^-28, at their own pixel and
+ * for each between; their slopes are quotients, too, of w rounded down, by a reciprocal of two Newton steps. */
+static void find_flat_known(known_point *k, const gn_lattice *l, const plane *p, int x, int y)
+{
+    int exp;
+    k->w = ldexp(frexp(cross_flat(&k->at, p, x, y) * renderer.frame.cam.focal2_px_q16, &exp), 27);
+    const double b = fmax(fabs(k->at.b[0]), fabs(k->at.b[1])), steps = 1 + abs(x - l->plane.x) + abs(y - l->plane.y);
+    k->b_off = steps * (0.5 / k->w + ldexp(1, -28)) + b * (1 / k->w + ldexp(1, -28)) + ldexp(k->at.kappa_b, -29);
+    k->z_off = LSB16 + (fabs(p->v[1][2] - p->v[0][2]) + fabs(p->v[2][2] - p->v[0][2])) * k->b_off;
+}
+
 static void find_known(known_point *k, const gn_lattice *l, const plane *p, int x, int y)
 {
     const int dx = x - l->plane.x, dy = y - l->plane.y;
-    cross_at(&k->at, p, x, y);
     k->px = 2 * x + 1 - WIDTH;
     k->py = HEIGHT - 1 - 2 * y;
+    if (orthographic) {
+        find_flat_known(k, l, p, x, y);
+        return;
+    }
+    cross_at(&k->at, p, x, y);
     k->w = l->plane.w.at + (double)l->plane.w.dx * dx + (double)l->plane.w.dy * dy;
     const double units = 0.5 * (1 + abs(dx) + abs(dy)) / k->w, relative = units + ldexp(k->at.kappa, -29);
     k->z_off = LSB16 / 2 + k->at.z * (relative + ldexp(p->kappa0, -29) + relative_divide() + ldexp(1, -30));
@@ -177,7 +241,7 @@ static void check_attributes(const gn_surface *s, const known_point *k, const gn
 
 /* NUMERICS 4.12: pixels of rows, as they are stepped, are within the tolerance of the plane's coordinates; and what the
  * corners are off by, of which a quadratic through three takes 5/4 each way; quotients that bend edges, rounding of the
- * origin, the corners and the bends, and that of steps. */
+ * origin, the corners and the bends, and that of steps. Orthographic: nothing bends. */
 static void check_patch(const gn_surface *s, const plane *p, const gn_lattice *l, const gn_texture_patch *patch, int x,
                         int y, int size_log2)
 {
@@ -203,8 +267,11 @@ static void check_patch(const gn_surface *s, const plane *p, const gn_lattice *l
                     const double bends = ldexp(8, -17); /* 8 texels at most */
                     double error = ldexp(stepped, -17) - at * sides[axis];
                     error -= sides[axis] * floor(error / sides[axis] + 0.5); /* whole turns */
-                    const double bound = ldexp(1, -gn_cell_texture_log2(&renderer.frame)) +
-                                         1.5625 * corner_off * sides[axis] + ldexp(6, -17) + bends + ldexp(2, -12);
+                    double bound = ldexp(6, -17) + ldexp(2, -12);
+                    if (orthographic) bound += corner_off * sides[axis];
+                    else
+                        bound += ldexp(1, -gn_cell_texture_log2(&renderer.frame)) + 1.5625 * corner_off * sides[axis] +
+                                 bends;
                     record(STAGE_QUADRATIC, fabs(error), bound, ldexp(1, -17));
                 }
         }
@@ -354,20 +421,43 @@ static void check_irradiance(const gn_surface *s, const gn_surface_light *light_
            bound / scale, ldexp(1, -24));
 }
 
-/* The way from the light: coefficients of the ray have ray_shift fraction bits, the lower half of the product with the
- * depth is dropped. */
+/* How far along an axis of which the camera's have these shares a point at a depth is from the eye; *size: without what
+ * the slopes' part and the depth's cancel where they are products of their own. */
+static double along_ray(const known_point *k, double z, const double share[3], double *size)
+{
+    const double across = across_at(z) * (k->at.ray[0] * share[0] + k->at.ray[1] * share[1]);
+    *size = orthographic ? fabs(across) + fabs(z * share[2]) : fabs(across + z * share[2]);
+    return across + z * share[2];
+}
+
+/* What coefficients of a ray with ray_shift fraction bits are off by: a unit at the middle, half a unit per half pixel.
+ */
+static double ray_off(const known_point *k, double z, int ray_shift)
+{
+    return ldexp(z + across_at(z) * 0.5 * (abs(k->px) + abs(k->py)), -ray_shift);
+}
+
+/* LSB of a length times a coefficient, of which the lower half is dropped. */
+static double dropped(double length_q16, int ray_shift)
+{
+    return fmax(1, ldexp(1, (int)floor(log2(length_q16)) + 2 - ray_shift));
+}
+
+/* The way from the light: one product, of parallel rays two. */
 static void check_from(const known_point *k, const gn_light_state *from, const gn_corner *c)
 {
     const gn_frame *frame = &renderer.frame;
-    const double z = c->z_q16 * LSB16, dropped = fmax(1, ldexp(1, (int)floor(log2(c->z_q16)) + 2 - from->ray_shift));
+    const double z = c->z_q16 * LSB16;
+    double lost = dropped(c->z_q16, from->ray_shift);
+    if (orthographic) lost += dropped(frame->cam.flat_q16, from->ray_shift);
     int32_t from_q16[3];
     gn_corner_from(c, from, from_q16);
     for (int i = 0; i < 3; i++) {
-        double along = 0;
-        for (int a = 0; a < 3; a++) along += k->at.ray[a] * ldexp(frame->cam.axis_q30[a][i], -30);
-        const double want = z * along + ((double)frame->cam.eye_q16[i] - from->position_q16[i]) * LSB16;
-        const double bound = LSB16 * (1 + dropped) + z * ldexp(1 + 0.5 * (abs(k->px) + abs(k->py)), -from->ray_shift) +
-                             ldexp(fabs(z * along), -27);
+        double share[3], size;
+        for (int a = 0; a < 3; a++) share[a] = ldexp(frame->cam.axis_q30[a][i], -30);
+        const double want =
+            along_ray(k, z, share, &size) + ((double)frame->cam.eye_q16[i] - from->position_q16[i]) * LSB16;
+        const double bound = LSB16 * (1 + lost) + ray_off(k, z, from->ray_shift) + ldexp(size, -27);
         record(STAGE_FROM, fabs(from_q16[i] * LSB16 - want), bound, LSB16);
     }
 }
@@ -380,17 +470,18 @@ static double coord_of(const gn_light_view *view, const known_point *k, double z
 {
     const gn_frame *frame = &renderer.frame;
     const double texel = 1 / ldexp(view->fit.ortho.inv_texel.mant, view->fit.ortho.inv_texel.exp);
-    double axis[3], eye = 0, along = 0;
+    double axis[3], share[3], eye = 0, size;
     axis_of(view->axis_q30[i], axis);
     for (int a = 0; a < 3; a++) {
         double cam_axis[3];
         axis_of(frame->cam.axis_q30[a], cam_axis);
-        along += k->at.ray[a] * dot(cam_axis, axis);
+        share[a] = dot(cam_axis, axis);
         eye += frame->cam.eye_q16[a] * LSB16 * axis[a];
     }
-    *off = 4 * LSB16 + z * ldexp(1 + 0.5 * (abs(k->px) + abs(k->py)), -view->fit.ortho.ray_shift) +
-           ldexp(fabs(z * along / texel) + fabs(eye / texel) + fabs((double)view->fit.ortho.origin[i]), -27);
-    return (z * along + eye) / texel - view->fit.ortho.origin[i];
+    const double along = along_ray(k, z, share, &size);
+    *off = (orthographic ? 5 : 4) * LSB16 + ray_off(k, z, view->fit.ortho.ray_shift) +
+           ldexp((size + fabs(eye)) / texel + fabs((double)view->fit.ortho.origin[i]), -27);
+    return (along + eye) / texel - view->fit.ortho.origin[i];
 }
 
 static void check_ortho(gn_lattice *l, const gn_surface *s, const known_point *k, gn_corner *c, uint32_t slot)
@@ -481,7 +572,7 @@ static void check_persp(gn_lattice *l, const gn_surface *s, gn_corner *c, uint32
     const int seen_there = gn_corner_place(l, frame, s, c, slot, view_idx) != 0;
     CHECK(at->placed == view_idx);
     n_flat += flat;
-    n_not_flat += !s->smooth && !flat;
+    n_not_flat += !orthographic && !s->smooth && !flat;
     if (fabs(in[2] - near) > off + fabs(in[2]) * (z_form_off + near_form_off + (flat ? divide : 0)))
         CHECK_EQ_INT(seen_there, in[2] > near);
     if (!seen_there || in[2] < 2 * off || fmax(fabs(in[0]), fabs(in[1])) > 1.9 * in[2]) return;
@@ -606,10 +697,23 @@ static void check_light_inside(gn_lattice_cell *cell, uint32_t slot, double boun
         }
 }
 
+/* How normals turn is taken from their changes, and twice what a turn leaves: enough down to a length of sqrt(1 / 2),
+ * where no component is limited. */
+static int normals_hold(const gn_corner c[4])
+{
+    for (int i = 0; i < 4; i++) {
+        double n[3];
+        axis_of(c[i].normal_q30, n);
+        if (dot(n, n) < 0.5 || fmax(fabs(n[0]), fmax(fabs(n[1]), fabs(n[2]))) == 1) return 0;
+    }
+    return 1;
+}
+
 static void check_light(const gn_lattice *from, const gn_surface *s, int x, int y, int size_log2)
 {
     cell_case *c = cell_at(from, s, x, y, size_log2);
     if (!c || size_log2 <= gn_cell_finest_log2(&renderer.frame) || !gn_cell_find_bend(&c->cell)) return;
+    if (!normals_hold(c->corner)) return;
     for (uint32_t slot = 0; slot < s->n_lights; slot++) {
         int32_t least = INT32_MAX, most = 0;
         int fully = s->light[slot].state->kind != GN_LIGHT_DIRECTIONAL;
@@ -641,13 +745,15 @@ static int has_normal(const gn_surface *s, const known_point *k)
     return 1;
 }
 
-/* What must be seen: from half to twice the triangle's depths, with some room for rounding. */
+/* What must be seen: from half to twice the triangle's depths, with some room for rounding; parallel rays: all in front
+ * of the eye. */
 static int should_be_known(const gn_surface *s, const known_point *k)
 {
     const double lo = s->z_min_q16 * LSB16, hi = s->z_max_q16 * LSB16;
-    if (!(k->w > 2048) || k->w > 0x1p29) return 0;
-    if (s->has_bary && fmax(fabs(k->at.b[0]), fabs(k->at.b[1])) > 1.9) return 0;
+    if ((orthographic || s->has_bary) && fmax(fabs(k->at.b[0]), fabs(k->at.b[1])) > 1.9) return 0;
     if (s->n_lights && !has_normal(s, k)) return 0;
+    if (orthographic) return k->at.z > k->z_off && k->at.z < 10000;
+    if (!(k->w > 2048) || k->w > 0x1p29) return 0;
     return k->at.z > 0.51 * lo && k->at.z < 1.99 * hi;
 }
 
@@ -665,7 +771,7 @@ static void check_corner(gn_lattice *l, const gn_surface *s, const plane *p, con
         return;
     }
     n_known++;
-    if (!(k.at.kappa < 1000) || !(p->kappa0 < 1000) || k.w < 2048) return; /* edge on: NUMERICS 4.3 */
+    if (!(k.at.kappa < 1000) || !(orthographic || p->kappa0 < 1000) || k.w < 2048) return; /* edge on: NUMERICS 4.3 */
     CHECK(corner.x == x && corner.y == y);
     n_wide += !k.at.inside;
     check_attributes(s, &k, &corner);
@@ -726,8 +832,10 @@ int main(int argc, char **argv)
     int table = argc > 1 && strcmp(argv[1], "--table") == 0;
     for (int preset = 0; preset < 3; preset++) {
         const gn_knobs knobs = preset_knobs(preset);
-        for (int i = 0; i < N_SCENES / 3; i++) check_scene(&knobs);
-        report_stages(table, preset_name[preset]);
+        for (orthographic = 0; orthographic < 2; orthographic++) {
+            for (int i = 0; i < N_SCENES / 3; i++) check_scene(&knobs);
+            report_stages(table, orthographic ? "the same, orthographic" : preset_name[preset]);
+        }
     }
     CHECK(n_known > n_unseen && n_unseen > 100 && n_wide > 1000);
     printf("%ld corners are known, %ld of them outside of their triangles, %ld not; %ld of %ld surfaces have no plane; "
