@@ -42,12 +42,16 @@ GN_HOT static int form_on_screen(gn_slope *out, const gn_frame *frame, const gn_
 }
 
 #if GN_ORTHOGRAPHIC
-GN_HOT static void times_per_w(int32_t *v, uint32_t recip, int32_t clz)
+/* Returns the absolute value, before it is cut to 32 bits. */
+GN_HOT static uint64_t times_per_w(int32_t *v, uint32_t recip, int32_t clz)
 {
-    *v = (int32_t)((*v * (int64_t)recip) >> (35 - clz)); /* 2^30 * 2^32 */
+    int64_t p = (*v * (int64_t)recip) >> (35 - clz); /* 2^30 * 2^32 */
+    *v = (int32_t)p;
+    return gn_abs64(p);
 }
 
-/* Barycentrics of parallel rays, whose n . ray is the same everywhere: below 2^29 within `rect`. */
+/* Barycentrics of parallel rays, whose n . ray is the same everywhere. Returns 0 if sums of one may leave 32 bits within
+ * `rect` or cells beyond it: if it is about 8 there. */
 GN_HOT static int find_flat_plane(gn_screen_plane *p, const gn_frame *frame, const gn_surface *s, const gn_rect *rect)
 {
     const int64_t w = gn_plane_at(s->screen.n, 0, 0, frame->cam.focal2_px_q16);
@@ -59,9 +63,10 @@ GN_HOT static int find_flat_plane(gn_screen_plane *p, const gn_frame *frame, con
     for (int k = 0; k < 2; k++) {
         gn_slope *b = &p->b[k];
         if (!form_on_screen(b, frame, p, s->bary.form[k], shift - s->bary.exp[k], rect)) return 0;
-        times_per_w(&b->at, recip, clz);
-        times_per_w(&b->dx, recip, clz);
-        times_per_w(&b->dy, recip, clz);
+        uint64_t most = times_per_w(&b->at, recip, clz);             /* 2^32 */
+        most += times_per_w(&b->dx, recip, clz) * (uint32_t)p->w_px; /* 2^28 * 2^11 */
+        most += times_per_w(&b->dy, recip, clz) * (uint32_t)p->h_px;
+        if (most >> 31) return 0;
     }
     return 1;
 }
