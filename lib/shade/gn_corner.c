@@ -71,16 +71,22 @@ GN_HOT static int find_flat_plane(gn_screen_plane *p, const gn_frame *frame, con
     return 1;
 }
 
+GN_HOT int64_t gn_corner_flat_plane(const gn_screen_plane *p, const gn_surface *s, int32_t x, int32_t y,
+                                    int32_t b_q28[2])
+{
+    int64_t z = 0; /* 2^31 * 2^31, twice */
+    for (int k = 0; k < 2; k++) {
+        b_q28[k] = along(&p->b[k], x - p->x, y - p->y);
+        z += (int64_t)b_q28[k] * s->depth_q16[k + 1];
+    }
+    return s->depth_q16[0] + (z >> 28);
+}
+
 GN_HOT int32_t gn_corner_flat_depth(const gn_screen_plane *p, const gn_surface *s, int32_t x, int32_t y,
                                     int32_t b_q28[2])
 {
-    int64_t z = 0; /* 2^29 * 2^31, twice */
-    for (int k = 0; k < 2; k++) {
-        b_q28[k] = along(&p->b[k], x - p->x, y - p->y);
-        if (gn_abs32(b_q28[k]) >> 29) return 0;
-        z += (int64_t)b_q28[k] * s->depth_q16[k + 1];
-    }
-    z = s->depth_q16[0] + (z >> 28);
+    int64_t z = gn_corner_flat_plane(p, s, x, y, b_q28);
+    if ((gn_abs32(b_q28[0]) | gn_abs32(b_q28[1])) >> 29) return 0;
     return z > 0 && z >> 30 == 0 ? (int32_t)z : 0;
 }
 #endif

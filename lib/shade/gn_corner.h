@@ -20,7 +20,11 @@ void gn_corner_find(const gn_lattice *lattice, const gn_frame *frame, const gn_s
                     gn_sample *sample, gn_corner *corner);
 
 /* View depth of the plane at a pixel, and barycentrics there, both linear on the screen: of an orthographic camera
- * alone. Returns 0 far off the triangle. */
+ * alone. Of its part and the corners of its cells. */
+int64_t gn_corner_flat_plane(const gn_screen_plane *plane, const gn_surface *surface, int32_t x, int32_t y,
+                             int32_t b_q28[2]);
+
+/* The same. Returns 0 far off the triangle. */
 int32_t gn_corner_flat_depth(const gn_screen_plane *plane, const gn_surface *surface, int32_t x, int32_t y,
                              int32_t b_q28[2]);
 

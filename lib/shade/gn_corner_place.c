@@ -52,7 +52,7 @@ GN_HOT static GN_SHARED int32_t plane_depth(const gn_lattice *l, const gn_frame 
     const gn_screen_plane *p = &l->plane;
 #if GN_ORTHOGRAPHIC
     int32_t b_q28[2];
-    if (GN_FLAT_Q16(frame)) return gn_max32(1, gn_min32(gn_corner_flat_depth(p, s, x, y, b_q28), s->z_max_q16));
+    if (GN_FLAT_Q16(frame)) return (int32_t)gn_clamp64(gn_corner_flat_plane(p, s, x, y, b_q28), 1, s->z_max_q16);
 #endif
     int32_t w = gn_max32(p->w.at + p->w.dx * (x - p->x) + p->w.dy * (y - p->y), 1 << 10), clz = gn_clz32((uint32_t)w);
     uint32_t z = gn_umul_high(s->depth_scale.mant, gn_recip_norm((uint32_t)w << clz, GN_K(frame, newton_steps)));
