@@ -14,12 +14,12 @@ GN_HOT int gn_cell_find_bend(gn_lattice_cell *cell)
 {
     gn_corner *const *c = cell->corner;
     if ((c[0]->state | c[1]->state | c[2]->state | c[3]->state) != GN_CORNER_KNOWN) return 0;
-    if (GN_FLAT_Q16(cell->frame)) return 1; /* parallel rays bend nothing */
-    const int32_t z[4] = {c[0]->z_q16, c[1]->z_q16, c[2]->z_q16, c[3]->z_q16};
-    uint32_t least = (uint32_t)gn_min32(gn_min32(z[0], z[1]), gn_min32(z[2], z[3])), more[2];
+    const int32_t z[4] = {c[0]->z_q16, c[1]->z_q16, c[2]->z_q16, c[3]->z_q16}, flat = GN_FLAT_Q16(cell->frame);
+    uint32_t least = (uint32_t)(flat ? flat : gn_min32(gn_min32(z[0], z[1]), gn_min32(z[2], z[3]))), more[2];
     gn_cell_changes(z, more);
     for (int i = 0; i < 2; i++) {
         if (more[i] > least >> 2) return 0;
+        if (flat) continue; /* parallel rays bend nothing, but light and shadows may be passed over */
         cell->bend_q16[i] = more[i] ? gn_quotient_q30(more[i], least) >> 14 : 0;
     }
     return 1;

@@ -175,7 +175,7 @@ GN_HOT void gn_pixel_fill(const gn_frame *frame, const gn_pixel_rows *rows, int3
     if (GN_RAW_VIEWS && frame->picture.format == GN_FORMAT_RAW32) {
         while (n-- > 0) rows->pixels->raw[i++] = packed;
     } else if (!GN_OTHER_FORMATS || frame->picture.format == GN_FORMAT_RGB565 ||
-        frame->picture.format == GN_FORMAT_RGB565_SWAPPED) {
+               frame->picture.format == GN_FORMAT_RGB565_SWAPPED) {
         gn_pixel_fill_16(rows->pixels, (uint32_t)i, (uint32_t)n, packed & 0xFFFFU);
     } else if (frame->picture.format == GN_FORMAT_GREY8) {
         while (n-- > 0) bytes[i++] = (uint8_t)packed;
