@@ -24,6 +24,7 @@ GN_HOT static const gn_texture *texture_of(const gn_frame *frame, gn_surface *s)
         return &s->level;
     }
 #endif
+    (void)frame;
     return texture;
 }
 
