@@ -122,14 +122,14 @@ static void groups(gn_scene *s)
     renderer.frame.knobs.triangle_groups = 64;
 }
 
-static void draw_behind(void *user, int x, int y, int w, int h, void *pixels)
+static void paint_behind(void *user, int x, int y, int w, int h, void *pixels)
 {
     uint8_t *bytes = pixels;
     (void)user;
     for (int i = 0; i < 2 * w * h; i++) bytes[i] = (uint8_t)(17 * (x + i % (2 * w)) + 29 * (y + i / (2 * w)));
 }
 /* Every fourth row: what is there counts. */
-static void draw_over(void *user, int x, int y, int w, int h, void *pixels)
+static void paint_over(void *user, int x, int y, int w, int h, void *pixels)
 {
     uint8_t *bytes = pixels;
     (void)user, (void)x;
@@ -143,8 +143,8 @@ static void gradient(gn_scene *s)
 }
 static void drawing(gn_scene *s)
 {
-    s->draw_behind = draw_behind;
-    s->draw_over = draw_over;
+    s->draw_behind = paint_behind;
+    s->draw_over = paint_over;
 }
 
 /* ---- The list ---------------------------------------------------------------------------------------------------- */
