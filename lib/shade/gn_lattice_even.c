@@ -402,7 +402,7 @@ GN_HOT uint32_t gn_cell_unevenness_q24(gn_lattice_cell *cell, uint32_t slot, int
         if (at == GN_CORNER_DARK) dark = 1;
         else lo = gn_min32(lo, at);
     }
-    if (dark) kink = change;
+    if (dark) kink = GN_SMOOTH(cell->s) ? 3 * change : change;
     else if (lo <= 0 && light->kind == GN_LIGHT_DIRECTIONAL) kink = 3 * terminator_error_q24(lo, (uint32_t)most_q24);
     int asked = cell->size_log2 > gn_cell_finest_log2(cell->frame);
     if (asked) bend = turn > 1 << 12 ? 1U << 30 : turn * turn << 6;

@@ -28,7 +28,7 @@ GN_HOT int gn_window_begin(gn_window *window, const gn_frame *frame, const gn_li
     int32_t dropped = gn_dropped_bits(frame, view);
     window->view = view;
     window->w = 0;
-    window->planar = view->filter != GN_FILTER_DISK && steep < 1U << 25;
+    window->planar = view->filter != GN_FILTER_DISK && !(steep >> gn_min32(25, 32 - view->tile_log2));
     if (!window->planar) return 0;
     window->slope_q30[0] = slope_q28[0] * 4;
     window->slope_q30[1] = slope_q28[1] * 4;
