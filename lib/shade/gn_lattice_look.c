@@ -144,6 +144,23 @@ GN_HOT static int is_faint(const gn_lattice_cell *cell, uint32_t strongest_uq16,
     return gn_corner_times(strongest_uq16, most_q24) < gn_max32(1 << 13, gn_min32(least, 1 << 22) >> 5);
 }
 
+#if GN_PUNCTUAL_LIGHTS
+/* Whether a spot is brighter between corners that lie in or beyond the rim of its cone, by more than is faint. */
+GN_HOT static int hides_cone(gn_lattice_cell *cell, uint32_t slot, int32_t least_q24, int32_t most_q24)
+{
+    uint32_t kink = 0, strongest = strongest_of(cell->s->light[slot].radiance_uq16);
+    if (cell->s->light[slot].state->kind != GN_LIGHT_SPOT) return 0;
+    gn_cell_unevenness_q24(cell, slot, least_q24, most_q24, &kink);
+    return !is_faint(cell, strongest, (int32_t)(kink >> 27 ? 1U << 27 : kink));
+}
+#else
+GN_HOT static int hides_cone(gn_lattice_cell *cell, uint32_t slot, int32_t least_q24, int32_t most_q24)
+{
+    (void)cell, (void)slot, (void)least_q24, (void)most_q24;
+    return 0;
+}
+#endif
+
 /* Whether a shadow that begins or ends to fade is seen: in the shadow, or by masks that it fades to. */
 GN_HOT static int fades(const gn_contribution *light, int shadow)
 {
@@ -173,7 +190,7 @@ GN_HOT static int add_light(gn_lattice_cell *cell, uint32_t slot)
     if (!most) return 1;
     if (GN_RAW_VIEWS && least != most && cell->frame->picture.format == GN_FORMAT_RAW32) return 0;
     if (!find_highlight(cell, slot, light)) return 0;
-    int faint = is_faint(cell, strongest_of(colour), most);
+    int faint = is_faint(cell, strongest_of(colour), most) && !hides_cone(cell, slot, least, most);
     int realtime = find_shares(cell, slot, light),
         shadow = realtime > 0 && !faint ? gn_cell_shadow(cell, slot, light) : GN_CELL_LIT;
     if (realtime < 0 || shadow == GN_CELL_SPLIT || (cell->near < 0 && fades(light, shadow))) return 0;
