@@ -357,9 +357,8 @@ GN_HOT static int32_t irradiance(const gn_frame *frame, const gn_light_state *li
     int32_t cosine = 2 * gn_mul_high(gn_min32(facing_q16, most) << half, root_q31);
     int32_t share = 4 * gn_mul_high(factor, cosine);
     if (d2 < frame->min2_q32) { /* cosines are of the true distance */
-        d2 = frame->min2_q32 >> 62 ? ((uint64_t)1 << 62) - 1 : frame->min2_q32;
-        shift = gn_clz64(d2) & ~1;
-        root = gn_rsqrt_norm((uint32_t)((d2 << shift) >> 32), steps);
+        shift = gn_clz64(frame->min2_q32) & ~1;
+        root = gn_rsqrt_norm((uint32_t)((frame->min2_q32 << shift) >> 32), steps);
     }
     /* 1 / d^2 = root^2 * 2^(shift - 94), of which 31 bits are used */
     int32_t q = gn_mul_high(share, (int32_t)(gn_umul_high(root, root) >> 1)), down = 35 - shift - light->colour_exp;

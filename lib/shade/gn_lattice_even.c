@@ -419,7 +419,7 @@ GN_HOT uint32_t gn_cell_unevenness_q24(gn_lattice_cell *cell, uint32_t slot, int
         seen = (uint32_t)((uint64_t)change * (cell->bend_q16[0] + cell->bend_q16[1]) >> 18);
         if (ends) /* twice: it comes close to this bound */
             kink += 2 * rim_error_q24(light, lo, hi, (uint32_t)most_q24, change, size2_q24(cell, &d));
-        if (edge_on && sides_q30(cell) >= d.nearest_q32 >> 2) kink += 4 * (uint32_t)most_q24; /* it hides more */
+        if (edge_on && cell->sides_q30 >= d.nearest_q32 >> 2) kink += 4 * (uint32_t)most_q24; /* it hides more */
     }
 #endif
     (void)hi;
