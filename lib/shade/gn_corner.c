@@ -342,7 +342,6 @@ GN_HOT static int32_t irradiance(const gn_frame *frame, const gn_light_state *li
     if (facing_q16 <= 0) return 0;
     for (int i = 0; i < 3; i++) d2 += (uint64_t)((int64_t)from_q16[i] * from_q16[i]);
     if (d2 >= light->range2_q32 || d2 >> 62) return 0;
-    if (d2 < frame->min2_q32) d2 = frame->min2_q32 >> 62 ? ((uint64_t)1 << 62) - 1 : frame->min2_q32;
     int steps = light->kind == GN_LIGHT_SPOT && light->angle_scale.exp >= GN_NARROW_EXP ? 2 : GN_K(frame, newton_steps);
     int32_t shift = gn_clz64(d2) & ~1, half = (shift >> 1) - 1, most = INT32_MAX >> half, factor = 1 << 30;
     uint32_t root = gn_rsqrt_norm((uint32_t)((d2 << shift) >> 32), steps);
@@ -357,6 +356,10 @@ GN_HOT static int32_t irradiance(const gn_frame *frame, const gn_light_state *li
     if (light->range2_q32 != UINT64_MAX) factor = 4 * gn_mul_high(factor, gn_corner_window_q30(light, d2));
     int32_t cosine = 2 * gn_mul_high(gn_min32(facing_q16, most) << half, root_q31);
     int32_t share = 4 * gn_mul_high(factor, cosine);
+    if (d2 < frame->min2_q32) { /* cosines are of the true distance */
+        shift = gn_clz64(frame->min2_q32) & ~1;
+        root = gn_rsqrt_norm((uint32_t)((frame->min2_q32 << shift) >> 32), steps);
+    }
     /* 1 / d^2 = root^2 * 2^(shift - 94), of which 31 bits are used */
     int32_t q = gn_mul_high(share, (int32_t)(gn_umul_high(root, root) >> 1)), down = 35 - shift - light->colour_exp;
     if (down >= 0) return gn_min32(down > 31 ? 0 : q >> down, 1 << 27);

@@ -375,8 +375,10 @@ GN_HOT static GN_NOINLINE uint32_t rim_error_q24(const gn_light_state *light, in
     }
     if (error_q10 < square && most_q24 / square * error_q10 < change_q24) error_q24 = most_q24 / square * error_q10;
     uint64_t bent_q30 = gn_corner_rim_q30(light, size2_q24 * 32); /* of the cosine, 5/32 of the square */
-    uint32_t bent_q10 = (bent_q30 >> 32 ? 1U << 12 : (uint32_t)(bent_q30 >> 20)) * 2 * top / WHOLE;
-    return error_q24 + (bent_q10 < square ? most_q24 / square * bent_q10 : most_q24);
+    uint32_t bent_q10 = bent_q30 >> 30 ? 1U << 10 : (uint32_t)(bent_q30 >> 20);
+    bent_q10 = bent_q10 * 2 * top / WHOLE + (bent_q10 * bent_q10 >> 10); /* (q + bent)^2 - q^2 */
+    uint64_t more_q24 = (uint64_t)(most_q24 / square) * (bent_q10 >> 10 ? 1U << 10 : bent_q10);
+    return error_q24 + (more_q24 >> 28 ? 1U << 28 : (uint32_t)more_q24);
 }
 #endif
 
@@ -388,7 +390,7 @@ GN_HOT static uint32_t terminator_error_q24(int32_t lo, uint32_t most_q24)
 }
 
 /* How far interpolation between the corners is off, of a light's irradiance: NUMERICS 4.12. *kink: because it ends in
- * the cell, or its cone does. */
+ * the cell, or its cone does, or it is near. */
 GN_HOT uint32_t gn_cell_unevenness_q24(gn_lattice_cell *cell, uint32_t slot, int32_t least_q24, int32_t most_q24,
                                        uint32_t *kink_q24)
 {
@@ -402,13 +404,14 @@ GN_HOT uint32_t gn_cell_unevenness_q24(gn_lattice_cell *cell, uint32_t slot, int
         if (at == GN_CORNER_DARK) dark = 1;
         else lo = gn_min32(lo, at);
     }
-    if (dark) kink = change;
+    if (dark) kink = GN_SMOOTH(cell->s) ? 3 * change : change;
     else if (lo <= 0 && light->kind == GN_LIGHT_DIRECTIONAL) kink = 3 * terminator_error_q24(lo, (uint32_t)most_q24);
     int asked = cell->size_log2 > gn_cell_finest_log2(cell->frame);
     if (asked) bend = turn > 1 << 12 ? 1U << 30 : turn * turn << 6;
 #if GN_PUNCTUAL_LIGHTS
     int ends = light->kind == GN_LIGHT_SPOT && lo < 32;
-    if (light->kind != GN_LIGHT_DIRECTIONAL && (ends || asked)) {
+    int edge_on = cell->bend_q16[0] + cell->bend_q16[1] >= 1U << 11;
+    if (light->kind != GN_LIGHT_DIRECTIONAL && (ends || asked || edge_on)) {
         light_distance d;
         find_distance(cell, light, &d);
         if (asked) bend = bend_q30(cell, light, &d);
@@ -416,9 +419,11 @@ GN_HOT uint32_t gn_cell_unevenness_q24(gn_lattice_cell *cell, uint32_t slot, int
         seen = (uint32_t)((uint64_t)change * (cell->bend_q16[0] + cell->bend_q16[1]) >> 18);
         if (ends) /* twice: it comes close to this bound */
             kink += 2 * rim_error_q24(light, lo, hi, (uint32_t)most_q24, change, size2_q24(cell, &d));
+        if (edge_on && cell->sides_q30 >= d.nearest_q32 >> 2) kink += 4 * (uint32_t)most_q24; /* it hides more */
     }
 #endif
     (void)hi;
+    if (!asked && light->kind != GN_LIGHT_DIRECTIONAL && kink < change >> 1) kink = change >> 1;
     *kink_q24 = kink;
     return kink + seen + (uint32_t)((uint64_t)(uint32_t)most_q24 * bend >> 30);
 }

@@ -133,15 +133,22 @@ GN_HOT static uint32_t strongest_of(const uint32_t colour_uq16[3])
 }
 
 /* Whether all that a light adds is less than half a step of the picture: what shadows it, and how uneven it is, cannot
- * be seen. Of a channel of 6 bits half a step is 1/32 or more of what is there, up to 1/4, and of black 2^-11. */
-GN_HOT static int is_faint(const gn_lattice_cell *cell, uint32_t strongest_uq16, int32_t most_q24)
+ * be seen. Of a channel of 6 bits half a step is 1/32 or more of what is there, up to 1/4, and of black 2^-11. A cone
+ * may be brighter between corners in its rim. */
+GN_HOT static int is_faint(gn_lattice_cell *cell, uint32_t slot, int32_t least_q24, int32_t most_q24)
 {
     const gn_lattice_look *look = cell->out;
     const int32_t(*c)[3] = look->colour_q24;
-    int32_t least = INT32_MAX;
+    const gn_surface_light *light = &cell->s->light[slot];
+    uint32_t strongest = strongest_of(light->radiance_uq16), kink;
+    int32_t least = 1 << 22;
     if (cell->s->specular || (GN_RAW_VIEWS && cell->frame->picture.format == GN_FORMAT_RAW32)) return 0;
     for (int i = 0; i < 4; i++) least = gn_min32(least, gn_min32(c[i][0], gn_min32(c[i][1], c[i][2])));
-    return gn_corner_times(strongest_uq16, most_q24) < gn_max32(1 << 13, gn_min32(least, 1 << 22) >> 5);
+    least = gn_max32(1 << 13, least >> 5);
+    if (gn_corner_times(strongest, most_q24) >= least) return 0;
+    if (!GN_PUNCTUAL_LIGHTS || light->state->kind != GN_LIGHT_SPOT) return 1;
+    gn_cell_unevenness_q24(cell, slot, least_q24, most_q24, &kink);
+    return gn_corner_times(strongest, kink >> 27 ? 1 << 27 : (int32_t)kink) < least;
 }
 
 /* Whether a shadow that begins or ends to fade is seen: in the shadow, or by masks that it fades to. */
@@ -173,7 +180,7 @@ GN_HOT static int add_light(gn_lattice_cell *cell, uint32_t slot)
     if (!most) return 1;
     if (GN_RAW_VIEWS && least != most && cell->frame->picture.format == GN_FORMAT_RAW32) return 0;
     if (!find_highlight(cell, slot, light)) return 0;
-    int faint = is_faint(cell, strongest_of(colour), most);
+    int faint = is_faint(cell, slot, least, most);
     int realtime = find_shares(cell, slot, light),
         shadow = realtime > 0 && !faint ? gn_cell_shadow(cell, slot, light) : GN_CELL_LIT;
     if (realtime < 0 || shadow == GN_CELL_SPLIT || (cell->near < 0 && fades(light, shadow))) return 0;

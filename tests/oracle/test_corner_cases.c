@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "../host/tool/engine/engine.h"
+#include "../host/tool/picture/metrics.h"
 #include "check.h"
 
 #define WIDTH     64
@@ -301,6 +302,121 @@ static void test_mirrored(void)
     }
 }
 
+/* ---- Light on cells ---------------------------------------------------------------------------------------------- */
+
+static metrics compare_engines(int preset)
+{
+    settings_preset(&f.set, preset);
+    engine_picture fixed = draw_fixed(), reference = draw_reference();
+    metrics m;
+    metrics_compute(&m, &fixed, &reference);
+    engine_free(&fixed);
+    engine_free(&reference);
+    return m;
+}
+
+/* A floor, and a wall at its far end. */
+static void add_floor_and_wall(void)
+{
+    static const double floor[12] = {-6, -1.2, -1, 6, -1.2, -1, 6, -1.2, -6, -6, -1.2, -6};
+    static const double wall[12] = {-5, -1.2, -6, 5, -1.2, -6, 5, 3, -6, -5, 3, -6};
+    add(4, floor);
+    add(4, wall);
+}
+
+/* Depth changes by more per texel than slopes of planes are limited to: no window stands for that. [B5] */
+static void test_sun_along_a_wall(void)
+{
+    for (int preset = SETTINGS_FAST; preset <= SETTINGS_BALANCED; preset++)
+        for (int on_plane = 0; on_plane < 2; on_plane++) {
+            begin();
+            f.s.shadow.filter = SCENE_FILTER_3X3;
+            f.s.shadow.fit = SCENE_FIT_TIGHT;
+            f.s.shadow.tiles = SCENE_TILES_WORTH;
+            f.light.direction[0] = cos(0.4);
+            f.light.direction[1] = -sin(0.4);
+            f.light.direction[2] = -0.02;
+            f.light.auto_bias = on_plane ? SCENE_AUTO_BIAS_OFF : SCENE_AUTO_BIAS_NORMAL;
+            f.light.receiver_plane = on_plane;
+            f.light.bias_constant = on_plane;
+            add_floor_and_wall();
+            const metrics m = compare_engines(preset);
+            CHECK(m.shadow_mismatch < 0.01);
+        }
+}
+
+/* A lamp `away` before a point, without a shadow. */
+static void add_lamp(scene_light_kind kind, double away, const double to[3], double colour)
+{
+    f.light.kind = kind;
+    f.light.shadow = false;
+    f.light.range = INFINITY;
+    f.light.near = 0.01;
+    f.light.inner = 0.1;
+    f.light.outer = 0.2;
+    for (int k = 0; k < 3; k++) {
+        f.light.position[k] = to[k];
+        f.light.colour[k] = colour;
+        f.light.direction[k] = 0;
+    }
+    f.light.position[2] += away;
+    f.light.direction[2] = -1;
+}
+
+/* Irradiance is limited below a hundredth of a unit; cosines and cones are not. [P2] [P3] */
+static void test_nearer_than_the_least_distance(void)
+{
+    static const double quad[12] = {-0.02, -0.02, 0, 0.02, -0.02, 0, 0.02, 0.02, 0, -0.02, 0.02, 0};
+    static const double middle[3] = {0.002, 0.001, -0.02};
+    for (int preset = SETTINGS_FAST; preset <= SETTINGS_BALANCED; preset++)
+        for (int kind = SCENE_LIGHT_SPOT; kind <= SCENE_LIGHT_POINT; kind++) {
+            begin();
+            f.s.camera.near = 0.004;
+            f.s.camera.far = 1;
+            add_lamp((scene_light_kind)kind, 0.003, middle, 2e-4);
+            add(4, quad)->to_world.m[2][3] = -0.02;
+            const metrics m = compare_engines(preset);
+            CHECK(m.psnr_db > 35);
+        }
+}
+
+/* A smooth surface turns away from a lamp, bit by bit, in the middle of a dark picture. */
+static void test_terminator_of_a_lamp(void)
+{
+    static const double quad[12] = {-2, -1.5, -4, 2, -1.5, -4, 2, 1.5, -4, -2, 1.5, -4};
+    static const double to[3] = {2.2, 0.4, -3.6};
+    for (int preset = SETTINGS_FAST; preset <= SETTINGS_BALANCED; preset++)
+        for (int i = 0; i < 8; i++) {
+            begin();
+            add_lamp(SCENE_LIGHT_POINT, 0.05 * i, to, 3);
+            add(4, quad);
+            for (int v = 0; v < 4; v++) {
+                const double turn = (v % 3 ? 0.9 : -0.9) + 0.1 * v;
+                f.nrm[0][3 * v] = sin(turn);
+                f.nrm[0][3 * v + 2] = cos(turn);
+            }
+            f.mesh[0].nrm = f.nrm[0];
+            const metrics m = compare_engines(preset);
+            CHECK(m.psnr_db > (preset == SETTINGS_FAST ? 41 : 46));
+        }
+}
+
+/* A ceiling seen almost from its side, a lamp close to it: from one row of pixels to the next light is another. */
+static void test_lamp_at_an_edge_on_ceiling(void)
+{
+    static const double ceiling[12] = {-4, 1, -27, 4, 1, -27, 4, 1, -19, -4, 1, -19};
+    for (int preset = SETTINGS_FAST; preset <= SETTINGS_BALANCED; preset++)
+        for (int i = 0; i < 8; i++) {
+            const double at[3] = {0.1 * i, 0.7, -21 - 0.3 * i};
+            begin();
+            f.s.camera.focal = 8 * FOCAL;
+            add_lamp(SCENE_LIGHT_POINT, 0, at, 1);
+            add(4, ceiling)->two_sided = true;
+            const metrics m = compare_engines(preset);
+            CHECK(m.psnr_db > 41);
+        }
+}
+
 int main(void)
 {
     test_casters_across_the_border();
@@ -308,5 +424,9 @@ int main(void)
     test_depth_past_the_near_edge();
     test_edge_on();
     test_mirrored();
+    test_sun_along_a_wall();
+    test_nearer_than_the_least_distance();
+    test_terminator_of_a_lamp();
+    test_lamp_at_an_edge_on_ceiling();
     return check_report();
 }
