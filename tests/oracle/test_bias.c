@@ -277,6 +277,14 @@ static void compare_plane(const cell *c, const bias *b, double degrees, long *di
     end(&f);
 }
 
+/* Pixels of the picture kept that are in shadow, however little. */
+static long kept_in_shadow(void)
+{
+    long n = 0;
+    for (int i = 0; i < WIDTH * HEIGHT; i++) n += kept[i] < 1U << 16;
+    return n;
+}
+
 /* Along a directional light, b_x (k + 1) texels nearer are as many texels more in the map. [B3] */
 static void test_x_term(void)
 {
@@ -292,7 +300,7 @@ static void test_x_term(void)
 }
 
 /* What is stored only grows with B1, and a directional receiver only comes nearer with b_x and b_y: no pixel gets
- * darker. */
+ * darker, and some get lighter as long as any is in shadow. */
 static void test_monotone(void)
 {
     static const double step[] = {0, 0.25, 0.5, 1, 2, 4};
@@ -305,8 +313,9 @@ static void test_monotone(void)
                 if (which == 0) b.constant = step[i];
                 if (which == 1) b.slope = step[i];
                 if (which > 1) b.receiver[which - 2] = step[i];
+                const long shadowed = kept_in_shadow();
                 compare_plane(&c, &b, 65, &differ, &darker);
-                if (i) CHECK(differ > 0 || step[i] > 2);
+                if (i) CHECK(differ > 0 || !shadowed);
                 if (i) CHECK_EQ_INT(darker, 0);
             }
 }
