@@ -361,9 +361,17 @@ GN_HOT GN_NOINLINE int gn_cell_stays_dark(gn_lattice_cell *cell, uint32_t slot)
     return 1;
 }
 
+/* The most that a light can give in the cell where its cone is full: by the distance alone, a power of two. */
+GN_HOT static uint32_t full_light_q24(const gn_lattice_cell *cell, const gn_light_state *light, const light_distance *d)
+{
+    uint64_t nearer = 3 * cell->sides_q30, least = cell->frame->min2_q32;
+    if (d->nearest_q32 > nearer && d->nearest_q32 - nearer > least) least = d->nearest_q32 - nearer;
+    return 1U << gn_max32(gn_min32(gn_clz64(least) - 7 + light->colour_exp, 27), 0);
+}
+
 /* How far interpolation is off in the rim of a cone, whose factor is the square of a share. `lo`, `hi`: how the light
- * arrives at the corners, but for GN_CORNER_DARK. */
-GN_HOT static GN_NOINLINE uint32_t rim_error_q24(const gn_light_state *light, int32_t lo, int32_t hi, uint32_t most_q24,
+ * arrives at the corners, but for GN_CORNER_DARK; `unit_q24`: what arrives at a share of 1/32. */
+GN_HOT static GN_NOINLINE uint32_t rim_error_q24(const gn_light_state *light, int32_t lo, int32_t hi, uint32_t unit_q24,
                                                  uint32_t change_q24, uint32_t size2_q24)
 {
     enum { WHOLE = 32 };
@@ -373,11 +381,11 @@ GN_HOT static GN_NOINLINE uint32_t rim_error_q24(const gn_light_state *light, in
         uint32_t before = (uint32_t)(WHOLE - lo), beyond = (uint32_t)(hi + 1 - WHOLE);
         error_q10 += 2 * WHOLE * before * beyond / (before + beyond);
     }
-    if (error_q10 < square && most_q24 / square * error_q10 < change_q24) error_q24 = most_q24 / square * error_q10;
+    if (error_q10 < square && unit_q24 * error_q10 < change_q24) error_q24 = unit_q24 * error_q10;
     uint64_t bent_q30 = gn_corner_rim_q30(light, size2_q24 * 32); /* of the cosine, 5/32 of the square */
     uint32_t bent_q10 = bent_q30 >> 30 ? 1U << 10 : (uint32_t)(bent_q30 >> 20);
     bent_q10 = bent_q10 * 2 * top / WHOLE + (bent_q10 * bent_q10 >> 10); /* (q + bent)^2 - q^2 */
-    uint64_t more_q24 = (uint64_t)(most_q24 / square) * (bent_q10 >> 10 ? 1U << 10 : bent_q10);
+    uint64_t more_q24 = (uint64_t)unit_q24 * (bent_q10 >> 10 ? 1U << 10 : bent_q10);
     return error_q24 + (more_q24 >> 28 ? 1U << 28 : (uint32_t)more_q24);
 }
 #endif
@@ -417,8 +425,11 @@ GN_HOT uint32_t gn_cell_unevenness_q24(gn_lattice_cell *cell, uint32_t slot, int
         if (asked) bend = bend_q30(cell, light, &d);
         if (asked && turn) bend = bend_of_smooth_q30(bend, turn);
         seen = (uint32_t)((uint64_t)change * (cell->bend_q16[0] + cell->bend_q16[1]) >> 18);
-        if (ends) /* twice: it comes close to this bound */
-            kink += 2 * rim_error_q24(light, lo, hi, (uint32_t)most_q24, change, size2_q24(cell, &d));
+        if (ends) { /* twice: it comes close to this bound. A share below 2/32 does not tell how bright the cone is */
+            uint32_t top = (uint32_t)gn_min32(hi, 32);
+            uint32_t unit = top > 1 ? (uint32_t)most_q24 / (top * top) : full_light_q24(cell, light, &d) >> 10;
+            kink += 2 * rim_error_q24(light, lo, hi, unit, change, size2_q24(cell, &d));
+        }
         if (edge_on && cell->sides_q30 >= d.nearest_q32 >> 2) kink += 4 * (uint32_t)most_q24; /* it hides more */
     }
 #endif

@@ -380,6 +380,24 @@ static void test_nearer_than_the_least_distance(void)
         }
 }
 
+/* A soft cone, 8 pixels wide or more: all corners of a large cell are in its rim or beyond, and next to nothing arrives
+ * there. [P2] */
+static void test_cone_between_corners(void)
+{
+    static const double quad[12] = {-2, -1.5, -4, 2, -1.5, -4, 2, 1.5, -4, -2, 1.5, -4};
+    for (int preset = SETTINGS_FAST; preset <= SETTINGS_BALANCED; preset++)
+        for (int i = 0; i < 64; i++) {
+            const double to[3] = {0.05 * (i % 8), 0.05 * (i / 8), -4};
+            begin();
+            add_lamp(SCENE_LIGHT_SPOT, 1, to, 1);
+            f.light.inner = 0;
+            f.light.outer = (34 + i) / 256.0;
+            add(4, quad);
+            const metrics m = compare_engines(preset);
+            CHECK(m.psnr_db > (preset == SETTINGS_FAST ? 41 : 45));
+        }
+}
+
 /* A smooth surface turns away from a lamp, bit by bit, in the middle of a dark picture. */
 static void test_terminator_of_a_lamp(void)
 {
@@ -426,6 +444,7 @@ int main(void)
     test_mirrored();
     test_sun_along_a_wall();
     test_nearer_than_the_least_distance();
+    test_cone_between_corners();
     test_terminator_of_a_lamp();
     test_lamp_at_an_edge_on_ceiling();
     return check_report();
