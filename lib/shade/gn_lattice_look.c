@@ -160,6 +160,9 @@ GN_HOT static int fades(const gn_contribution *light, int shadow)
     return shadow != GN_CELL_LIT || differ;
 }
 
+/* Cells of this size may hide the light of a cone, or of the end of a range, that no corner sees. */
+enum { UNSEEN_LOG2 = 2 };
+
 /* Adds a light. Returns 0 if the cell is to be split. */
 GN_HOT static int add_light(gn_lattice_cell *cell, uint32_t slot)
 {
@@ -173,8 +176,7 @@ GN_HOT static int add_light(gn_lattice_cell *cell, uint32_t slot)
     }
 #if GN_PUNCTUAL_LIGHTS
     if (!most && cell->s->light[slot].state->kind != GN_LIGHT_DIRECTIONAL)
-        return (cell->size_log2 <= gn_cell_finest_log2(cell->frame) &&
-                !(GN_RAW_VIEWS && cell->frame->picture.format == GN_FORMAT_RAW32)) ||
+        return (cell->size_log2 <= UNSEEN_LOG2 && !(GN_RAW_VIEWS && cell->frame->picture.format == GN_FORMAT_RAW32)) ||
                gn_cell_stays_dark(cell, slot);
 #endif
     if (!most) return 1;

@@ -56,7 +56,7 @@ GN_HOT static inline const int32_t *face_of(const gn_surface *surface)
  * range. [B5] */
 GN_HOT static int32_t limit_slope(const gn_light_view *view, int64_t slope_q28)
 {
-    int64_t most = (int64_t)1 << (32 - view->tile_log2);
+    int64_t most = (int64_t)1 << GN_SLOPE_LIMIT_LOG2(view);
     return (int32_t)gn_clamp64(slope_q28, -most, most);
 }
 

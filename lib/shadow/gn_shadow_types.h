@@ -78,6 +78,9 @@ typedef union {
 #define GN_VIEW_BITS(view) ((view)->depth_bits)
 #endif
 
+/* Slopes of receiver planes are limited to 2^this, Q28 per texel: 16 / T of the depth range. [B5] */
+#define GN_SLOPE_LIMIT_LOG2(view) (32 - (view)->tile_log2)
+
 typedef struct {
     uint16_t lo, hi; /* the upper 16 bits of depth, whatever depth_bits */
 } gn_depth_block;    /* see gn_blocks.h */

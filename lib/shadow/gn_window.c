@@ -20,8 +20,8 @@ GN_HOT static uint32_t reach_halves(const gn_light_view *view)
 
 /* Depths in doubt: as far behind the plane as its slope and the filter reach, and in front of it; of 3x3 half of that
  * there, as what casts a shadow so near is under few of the filter's texels. The fastest shading looks closer, and
- * takes the surface's own texels for lit; with 3x3 under directional lights the next one looks closer, too. Slopes from
- * 16 / T on are limited ones, not the plane's. */
+ * takes the surface's own texels for lit; with 3x3 under directional lights the next one looks closer, too. Slopes at
+ * their limit are not the plane's. */
 GN_HOT int gn_window_begin(gn_window *window, const gn_frame *frame, const gn_light_view *view,
                            const int32_t slope_q28[2], int64_t own_q30, int on_plane)
 {
@@ -29,7 +29,7 @@ GN_HOT int gn_window_begin(gn_window *window, const gn_frame *frame, const gn_li
     int32_t dropped = gn_dropped_bits(frame, view);
     window->view = view;
     window->w = 0;
-    window->planar = view->filter != GN_FILTER_DISK && !(steep >> gn_min32(25, 32 - view->tile_log2));
+    window->planar = view->filter != GN_FILTER_DISK && !(steep >> gn_min32(25, GN_SLOPE_LIMIT_LOG2(view)));
     if (!window->planar) return 0;
     window->slope_q30[0] = slope_q28[0] * 4;
     window->slope_q30[1] = slope_q28[1] * 4;
