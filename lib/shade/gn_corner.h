@@ -132,10 +132,23 @@ GN_HOT static inline void gn_corner_forget_forms(gn_lattice *l)
 }
 
 #if GN_PUNCTUAL_LIGHTS
+/* Irradiance of a light whose colour is 1: gn_punctual_irradiance_q24() in 32 bits, which sets out->arrives. `d2` is
+ * the square of the distance, `facing` the way against the normal. Not NULL: sets how far a point is from the edge of a
+ * spot's cone to where its rim ends, whose square, limited to 0 .. 1, is not part of it then. */
+int32_t gn_corner_irradiance(const gn_frame *frame, const gn_light_state *light, const int32_t from_q16[3],
+                             uint64_t d2_q32, int32_t facing_q16, gn_corner_light *out, int32_t *rim_q20);
+
 /* From a spot or point light to the corner: both lie within 2^30 of the eye. */
 GN_HOT static inline void gn_corner_from(const gn_corner *c, const gn_light_state *light, int32_t from_q16[3])
 {
     for (int i = 0; i < 3; i++) from_q16[i] = c->ray_q16[i] + (int32_t)light->from_light[i].d_q16;
+}
+
+/* The square of the distance, of components below 2^31. */
+GN_HOT static inline uint64_t gn_corner_distance2_q32(const int32_t from_q16[3])
+{
+    return (uint64_t)((int64_t)from_q16[0] * from_q16[0]) + (uint64_t)((int64_t)from_q16[1] * from_q16[1]) +
+           (uint64_t)((int64_t)from_q16[2] * from_q16[2]);
 }
 
 /* The share that the window of a light's range leaves at a square of a distance that is less. */

@@ -127,17 +127,25 @@ GN_HOT static GN_NOINLINE int place_punctual(const gn_frame *frame, const gn_sur
                                              const gn_corner *c, gn_corner_light *at, const gn_light_view *view)
 {
     const gn_light_state *light = &frame->light[view->light_idx];
-    const int32_t *n = normal_of(s, c);
     const uint32_t limit = 1U << 29;
-    int32_t from[3], moved[3], p[3], reach = 0;
+    const int automatic = GN_AUTO_BIAS && light->auto_bias;
+    int32_t from[3], lifted[3], moved[3], p[3], reach = 0;
+    const int32_t *n = gn_sample_lifted(s, light, normal_of(s, c), lifted); /* 9/8 */
     gn_corner_from(c, light, from);
-    if (!how->lifts || view->fit.persp.lift_q31 == INT32_MAX || view->fit.persp.focal2_q16 >> 30 ||
+    if (!(automatic ? GN_CURVED(s) : how->lifts) || view->fit.persp.lift_q31 == INT32_MAX ||
+        view->fit.persp.focal2_q16 >> 30 ||
         (((uint32_t)from[0] + limit) | ((uint32_t)from[1] + limit) | ((uint32_t)from[2] + limit)) >> 30)
         return 0; /* |from| < 2^29 */
     if (light->kind == GN_LIGHT_SPOT) reach = -(int32_t)gn_dot_q30(from, light->to_light_q30);
     else
         for (int i = 0; i < 3; i++) reach = gn_max32(reach, (int32_t)gn_abs32(from[i]));
-    int32_t lift = 2 * gn_mul_high(gn_max32(reach, 0), view->fit.persp.lift_q31);
+    int32_t lift = 2 * gn_mul_high(gn_max32(reach, 0), view->fit.persp.lift_q31), less_q30 = 0;
+#if GN_AUTO_BIAS
+    if (automatic) {
+        lift += (int32_t)gn_bias_auto_place_q16(view, c->z_q16 + GN_FLAT_Q16(frame)) + 2; /* as is rounded down */
+        less_q30 = (view->auto_step + 3) >> 2;
+    }
+#endif
     for (int i = 0; i < 3; i++) moved[i] = from[i] + 4 * gn_mul_high(lift, n[i]);
     for (int i = 0; i < 3; i++) p[i] = (int32_t)(gn_dot64(moved, view->axis_q30[i]) >> 30);
     int32_t z = p[2], near_q16 = view->fit.persp.near_q16;
@@ -149,7 +157,8 @@ GN_HOT static GN_NOINLINE int place_punctual(const gn_frame *frame, const gn_sur
     at->u_q16 = coord_persp(p[0], clz, (int32_t)(recip >> 1), focal2, middle);
     at->v_q16 = coord_persp(p[1], clz, (int32_t)(recip >> 1), focal2, middle);
     /* 1 - n / z */
-    at->depth_q30 = gn_max32((1 << 30) - 1 - (int32_t)((uint64_t)(uint32_t)near_q16 * recip >> (33 - clz)), 0);
+    at->depth_q30 =
+        gn_max32((1 << 30) - 1 - less_q30 - (int32_t)((uint64_t)(uint32_t)near_q16 * recip >> (33 - clz)), 0);
     return 1;
 }
 #endif

@@ -1,73 +1,26 @@
-/* Small triangles. [R4] */
+/* Small triangles: light at their vertices. [R4] */
 #include "gn_internal.h"
 
 #include "base/gn_count.h"
 #include "base/gn_math.h"
 #include "base/gn_q.h"
-#include "shade/gn_exact.h"
+#include "shade/gn_corner.h"
 #include "shade/gn_facet.h"
-#include "shade/gn_facet_screen.h"
-#include "shade/gn_facet_shadow.h"
-#include "shade/gn_facet_texture.h"
+#include "shade/gn_facet_draw.h"
+#include "shade/gn_facet_punctual.h"
 #include "shade/gn_lattice_cell.h"
-#include "shade/gn_levels.h"
-#include "shade/gn_pixel.h"
 
 #if GN_INTERPOLATES
 
-/* A light that pixels ask for: its shadow has an edge in the triangle, or its light ends there. */
-typedef struct {
-    gn_slope colour_q24[3];       /* without its shadow */
-    uint32_t lit_uq16, dark_uq16; /* what is left of it without a shadow, and in one */
-    int has_edge;
-    gn_facet_edge edge;
-} pixel_light;
-
-enum { PIXEL_LIGHTS = 2 };
-
-typedef struct {
-    gn_shading *s;
-    gn_facet_screen screen;
-    int32_t n_px;
-    int turns;                /* light is divided by the length of the interpolated normal, */
-    uint32_t turn_q28[3];     /* as they differ by so much, squared: vertices 0 and 1, 0 and 2, 1 and 2 */
-    int32_t base_q24[3];      /* ambient, and what it emits */
-    int32_t colour_q24[3][3]; /* light that pixels do not ask for: by channel, at the vertices */
-    int32_t tint_q16[3][3];   /* colours of the vertices, likewise */
-    int32_t n_lights;
-    pixel_light light[PIXEL_LIGHTS];
-#if GN_TEXTURES
-    gn_facet_texture texture; /* where the surface is textured */
-#endif
-} facet;
-
-/* What varies. */
-typedef struct {
-    gn_slope colour_q24[3];
-    gn_facet_curve length2_q20; /* of the normal, if it turns */
-    gn_slope tint_q16[3];       /* the vertices' colours, if those are to be multiplied */
-    int tinted, each;           /* nodes are all pixels */
-} facet_look;
-
-GN_HOT static int use_screen(facet *f)
-{
-    return gn_facet_screen_use(&f->screen, f->s->frame, &f->s->surface);
-}
-
-GN_HOT static inline int shows_shadow(const facet *f)
-{
-    return GN_RAW_VIEWS && f->s->frame->picture.format == GN_FORMAT_RAW32;
-}
-
-/* ---- Light ------------------------------------------------------------------------------------------------------- */
-
 /* Returns 0 if normals turn by more than a right angle. NUMERICS 4.17 */
-GN_HOT static int find_turns(facet *f)
+GN_HOT static int find_turns(gn_facet *f)
 {
     const int32_t(*n)[3] = (const int32_t(*)[3])f->s->surface.normal_q30;
     uint32_t d2[3] = {0, 0, 0};
     f->turns = 0;
-    if (!GN_SMOOTH(&f->s->surface) || GN_K(f->s->frame, vertex_light) || shows_shadow(f)) return 1;
+    for (int k = 0; k < 3; k++) f->turn_q28[k] = 0;
+    if (!GN_SMOOTH(&f->s->surface) || gn_facet_shows_shadow(f)) return 1;
+    if (GN_K(f->s->frame, vertex_light) && !f->s->surface.n_punctual) return 1;
     for (int i = 0; i < 3; i++) {
         int32_t a = n[1][i] >> 16, b = n[2][i] >> 16;
         d2[0] += (uint32_t)(a * a);
@@ -83,7 +36,7 @@ GN_HOT static int find_turns(facet *f)
 }
 
 /* n . L of the normals at the vertices. Returns 0 if none of it is above 0. */
-GN_HOT static int find_cosines(const facet *f, const gn_surface_light *light, int32_t out_q24[3])
+GN_HOT static int find_cosines(const gn_facet *f, const gn_surface_light *light, int32_t out_q24[3])
 {
     const gn_surface *s = &f->s->surface;
     int32_t most = 0;
@@ -95,15 +48,64 @@ GN_HOT static int find_cosines(const facet *f, const gn_surface_light *light, in
             cosine = (int32_t)(dot >> 36);
             if (GN_K(f->s->frame, vertex_light)) cosine = gn_max32(cosine, 0);
         }
-        if (shows_shadow(f)) cosine = cosine > 0 ? 1 << 24 : 0;
+        if (gn_facet_shows_shadow(f)) cosine = cosine > 0 ? 1 << 24 : 0;
         out_q24[k] = cosine;
         most = gn_max32(most, cosine);
     }
     return most > 0;
 }
 
+#if GN_PUNCTUAL_LIGHTS
+/* The same of a spot or point light. Returns what gn_facet_punctual() does. */
+GN_HOT static int find_punctual(gn_facet *f, uint32_t slot, gn_facet_light *out, int32_t e_q24[3])
+{
+    const int32_t *b = f->base_q24;
+    gn_facet_lamp lamp;
+    int said = gn_facet_punctual(f->s, &f->vertices, slot, gn_max32(b[0], gn_max32(b[1], b[2])), &lamp);
+    if (said != GN_CELL_LIT) return said;
+    out->has_rim = lamp.has_rim;
+    for (int k = 0; k < 3; k++) {
+        e_q24[k] = lamp.irradiance_q24[k];
+        if (gn_facet_shows_shadow(f)) e_q24[k] = e_q24[k] > 0 ? 1 << 24 : 0;
+    }
+    if (!lamp.has_rim) return said;
+    if (gn_facet_shows_shadow(f) || !gn_facet_use_screen(f)) return GN_CELL_SPLIT;
+    gn_facet_slope(&f->screen, &out->rim_q20, lamp.rim_q20);
+    return f->screen.steep ? GN_CELL_SPLIT : said;
+}
+
+/* Returns 0 if vertices do not fit. */
+GN_HOT static int use_vertices(gn_facet *f)
+{
+    return !f->s->surface.n_punctual || gn_facet_vertices_find(&f->vertices, f->s->frame, &f->s->surface, f->turn_q28);
+}
+
+GN_HOT static inline const gn_facet_vertices *vertices_of(const gn_facet *f)
+{
+    return &f->vertices;
+}
+#else
+GN_HOT static int find_punctual(gn_facet *f, uint32_t slot, gn_facet_light *out, int32_t e_q24[3])
+{
+    (void)f, (void)slot, (void)out, (void)e_q24;
+    return GN_CELL_SPLIT;
+}
+
+GN_HOT static int use_vertices(gn_facet *f)
+{
+    (void)f;
+    return 1;
+}
+
+GN_HOT static inline const gn_facet_vertices *vertices_of(const gn_facet *f)
+{
+    (void)f;
+    return NULL;
+}
+#endif
+
 /* Adds light that all pixels get. Returns 0 if it is too bright: cells know how its limit bends it. */
-GN_HOT static int add_whole_light(facet *f, const uint32_t radiance_uq16[3], const int32_t cosine_q24[3],
+GN_HOT static int add_whole_light(gn_facet *f, const uint32_t radiance_uq16[3], const int32_t cosine_q24[3],
                                   uint32_t share)
 {
     int32_t most = 0;
@@ -117,15 +119,9 @@ GN_HOT static int add_whole_light(facet *f, const uint32_t radiance_uq16[3], con
     return most <= 1 << 27;
 }
 
-/* A vertex colour's channel: 65536 is 1. */
-GN_HOT static inline int32_t tint_q16(const gn_surface *s, int channel, int vertex)
-{
-    const int i = GN_ATTRIBUTE_RGB + channel;
-    return s->attribute_q16[0][i] + (vertex ? s->attribute_q16[vertex][i] : 0);
-}
-
 /* What a light adds at the vertices; it may be negative there. */
-GN_HOT static void find_light_slopes(facet *f, pixel_light *out, const uint32_t radiance_uq16[3], const int32_t e[3])
+GN_HOT static void find_light_slopes(gn_facet *f, gn_facet_light *out, const uint32_t radiance_uq16[3],
+                                     const int32_t e[3])
 {
     for (int c = 0; c < 3; c++) {
         int32_t at[3];
@@ -138,22 +134,30 @@ GN_HOT static void find_light_slopes(facet *f, pixel_light *out, const uint32_t 
 }
 
 /* Adds a light. Returns 0 if the triangle is to be shaded by cells. */
-GN_HOT static int add_vertex_light(facet *f, uint32_t slot)
+GN_HOT static int add_vertex_light(gn_facet *f, uint32_t slot)
 {
     const gn_surface_light *light = &f->s->surface.light[slot];
     const gn_lattice_light *lattice_light = &f->s->lattice.light[slot];
-    pixel_light *out = &f->light[f->n_lights];
+    gn_facet_light *out = &f->light[f->n_lights];
     int32_t e[3];
     int said = GN_CELL_LIT;
-    if (!find_cosines(f, light, e)) return 1;
-    int ends = (e[0] | e[1] | e[2]) < 0;
-    if (shows_shadow(f) && (e[0] != e[1] || e[0] != e[2])) return 0;
-    if (f->n_lights == PIXEL_LIGHTS) return 0;
-    if (lattice_light->realtime) said = gn_facet_shadow(f->s, &f->screen, f->n_px, slot, &out->edge);
+    if (f->n_lights == GN_FACET_LIGHTS) return 0;
+    out->has_rim = 0;
+    if (light->state->kind == GN_LIGHT_DIRECTIONAL) {
+        if (!find_cosines(f, light, e)) return 1;
+    } else {
+        said = find_punctual(f, slot, out, e);
+        if (said != GN_CELL_LIT) return said == GN_CELL_DARK;
+    }
+    int ends = (e[0] | e[1] | e[2]) < 0 || out->has_rim;
+    if (gn_facet_shows_shadow(f) && (e[0] != e[1] || e[0] != e[2])) return 0;
+    if (lattice_light->realtime) said = gn_facet_shadow(f->s, &f->screen, vertices_of(f), f->n_px, slot, &out->edge);
     if (said == GN_CELL_SPLIT) return 0;
     uint32_t share = said == GN_CELL_DARK ? lattice_light->dark_uq16 : lattice_light->lit_uq16;
-    if (said != GN_CELL_EDGE && !ends) return add_whole_light(f, light->radiance_uq16, e, share);
-    if (!use_screen(f)) return 0;
+    out->turns = f->turns && !(light->state->kind == GN_LIGHT_DIRECTIONAL && GN_K(f->s->frame, vertex_light));
+    if (said != GN_CELL_EDGE && (!share || !(ends || out->turns != f->turns)))
+        return add_whole_light(f, light->radiance_uq16, e, share);
+    if (!gn_facet_use_screen(f)) return 0;
     find_light_slopes(f, out, light->radiance_uq16, e);
     out->has_edge = said == GN_CELL_EDGE;
     out->lit_uq16 = share;
@@ -162,289 +166,8 @@ GN_HOT static int add_vertex_light(facet *f, uint32_t slot)
     return 1;
 }
 
-/* ---- Pixels ------------------------------------------------------------------------------------------------------ */
-
-/* A value over the length of the interpolated normal. */
-GN_HOT static inline int32_t over_length(int32_t v, int32_t per_length_q30)
-{
-    return 4 * gn_mul_high(v, per_length_q30);
-}
-
-/* What is left of a light's channel; per_length_q30: 1 / |n|, or 0. */
-GN_HOT static inline int32_t light_of(int32_t v_q24, uint32_t share_uq16, int32_t per_length_q30)
-{
-    int32_t v = gn_max32(v_q24, 0);
-    if (per_length_q30) v = gn_min32(over_length(v, per_length_q30), 1 << 27);
-    return share_uq16 == 65536 ? v : (int32_t)((int64_t)v * (int32_t)share_uq16 >> 16);
-}
-
-/* Adds a light that pixels ask for to n pixels from (x, y) of the picture on. */
-GN_HOT static void add_pixel_light(const facet *f, const pixel_light *light, int32_t x, int32_t y, int32_t n)
-{
-    gn_lattice *l = &f->s->lattice;
-    const gn_slope *slope = light->colour_q24;
-    const uint32_t *attenuation = l->row.attenuation[0], *per_length = f->turns ? l->row.attenuation[1] : NULL;
-    const uint32_t least = light->dark_uq16, less = light->lit_uq16 - light->dark_uq16;
-    const int32_t right = x - f->screen.x0, down = y - f->screen.y0, dr = slope[0].dx, dg = slope[1].dx,
-                  db = slope[2].dx;
-    int32_t r = gn_facet_at(&slope[0], right, down), g = gn_facet_at(&slope[1], right, down),
-            b = gn_facet_at(&slope[2], right, down), (*node)[3] = l->by.node[0];
-    uint32_t share = light->lit_uq16;
-    if (light->has_edge) gn_facet_attenuation(f->s, &f->screen, &light->edge, x, y, n, l->row.attenuation[0]);
-    for (int32_t(*end)[3] = node + n; node < end; node++, r += dr, g += dg, b += db) {
-        if (light->has_edge) share = least + gn_mul_uq16(less, *attenuation++);
-        int32_t per = per_length ? (int32_t)*per_length++ : 0;
-        if (!share) continue;
-        (*node)[0] += light_of(r, share, per);
-        (*node)[1] += light_of(g, share, per); /* 2^27 each, and as much to begin with */
-        (*node)[2] += light_of(b, share, per);
-    }
-}
-
-/* Nodes of n pixels without light that they ask for; per_length_q30: their 1 / |n|, or NULL. */
-GN_HOT static void begin_nodes(const facet *f, const facet_look *look, int32_t right, int32_t down, int32_t n,
-                               const uint32_t *per_length_q30)
-{
-    const gn_slope *slope = look->colour_q24;
-    int32_t r = gn_facet_at(&slope[0], right, down), g = gn_facet_at(&slope[1], right, down),
-            b = gn_facet_at(&slope[2], right, down);
-    const int32_t dr = slope[0].dx, dg = slope[1].dx, db = slope[2].dx, base_r = f->base_q24[0],
-                  base_g = f->base_q24[1], base_b = f->base_q24[2];
-    int32_t(*node)[3] = f->s->lattice.by.node[0];
-    for (int32_t(*end)[3] = node + n; node < end; node++, r += dr, g += dg, b += db) {
-        int32_t per = per_length_q30 ? (int32_t)*per_length_q30++ : 0;
-        (*node)[0] = base_r + (per ? over_length(r, per) : r);
-        (*node)[1] = base_g + (per ? over_length(g, per) : g);
-        (*node)[2] = base_b + (per ? over_length(b, per) : b);
-    }
-}
-
-/* The colours of n pixels from (x, y) of the picture on, a node each. */
-GN_HOT static void light_pixels(const facet *f, const facet_look *look, int32_t x, int32_t y, int32_t n)
-{
-    gn_lattice *l = &f->s->lattice;
-    int32_t right = x - f->screen.x0, down = y - f->screen.y0;
-    if (f->turns) {
-        gn_facet_lengths(&look->length2_q20, right, down, n, l->row.attenuation[1]);
-        begin_nodes(f, look, right, down, n, l->row.attenuation[1]);
-    } else begin_nodes(f, look, right, down, n, NULL);
-    for (int32_t i = 0; i < f->n_lights; i++) add_pixel_light(f, &f->light[i], x, y, n);
-    if (look->tinted) gn_facet_tint(l->by.node[0], n, look->tint_q16, right, down);
-}
-
-#if GN_TEXTURES
-/* Returns 0 if it is to be textured by cells. */
-GN_HOT static int use_texture(facet *f)
-{
-    return !f->s->surface.textured ||
-           (use_screen(f) && gn_facet_texture_begin(&f->texture, f->s->frame, &f->s->surface, &f->screen));
-}
-
-/* Texels of a span, and whether its n nodes are all in 2^-18 .. 1. */
-GN_HOT static void use_texels(const facet *f, const gn_run_span *span, int32_t n, gn_pixel_line *line)
-{
-    gn_lattice *l = &f->s->lattice;
-    line->inside = 1;
-    for (int32_t i = 0; i < n; i++)
-        for (int c = 0; c < 3; c++) line->inside &= line->node[i][c] >= 1 << 6 && line->node[i][c] <= 1 << 24;
-    gn_facet_texture_row(&f->texture, span->x - f->screen.x0, span->y - f->screen.y0, span->n_px, l->row.texel);
-    line->texel = l->row.texel;
-}
-#else
-GN_HOT static int use_texture(facet *f)
-{
-    (void)f;
-    return 1;
-}
-
-GN_HOT static void use_texels(const facet *f, const gn_run_span *span, int32_t n, gn_pixel_line *line)
-{
-    (void)f, (void)span, (void)n, (void)line;
-}
-#endif
-
-/* Nodes are all pixels, or, of a texture under light that is linear, two. */
-GN_HOT static void draw_lit_span(const facet *f, const facet_look *look, const gn_run_span *span)
-{
-    const int each = look->each;
-    int32_t(*node)[3] = f->s->lattice.by.node[0], n = each ? span->n_px : 2;
-    gn_pixel_line line = {.node = (const int32_t(*)[3])node, .spacing_log2 = each ? 0 : 4};
-    if (each) light_pixels(f, look, span->x, span->y, n);
-    for (int c = 0; !each && c < 3; c++) {
-        const gn_slope *at = &look->colour_q24[c];
-        node[0][c] = f->base_q24[c] + gn_facet_at(at, span->x - f->screen.x0, span->y - f->screen.y0);
-        node[1][c] = node[0][c] + at->dx * (span->n_px - 1);
-    }
-    if (GN_TEXTURES && f->s->surface.textured) use_texels(f, span, n, &line);
-    for (int c = 0; !each && c < 3; c++) node[1][c] = node[0][c] + look->colour_q24[c].dx * 16;
-    gn_pixel_store_line(f->s->frame, &f->s->rows, span->x, span->y, (1U << span->n_px) - 1, &line);
-}
-
-GN_HOT static void draw_runs(const facet *f, const facet_look *look)
-{
-    gn_shading *s = f->s;
-    const gn_slope *slope = look->colour_q24;
-    const gn_run_span *span = s->lattice.span;
-    const int32_t step[3] = {slope[0].dx, slope[1].dx, slope[2].dx};
-    int32_t at[3];
-    for (const gn_run_span *end = span + s->lattice.n_spans; span < end; span++) {
-        const int32_t x = span->x, y = span->y, right = x - f->screen.x0, down = y - f->screen.y0;
-        at[0] = f->base_q24[0] + gn_facet_at(&slope[0], right, down);
-        at[1] = f->base_q24[1] + gn_facet_at(&slope[1], right, down);
-        at[2] = f->base_q24[2] + gn_facet_at(&slope[2], right, down);
-        gn_pixel_store_run(s->frame, &s->rows, x, y, span->n_px, at, step);
-    }
-}
-
-GN_HOT static void draw_spans(const facet *f, const facet_look *look)
-{
-    gn_lattice *l = &f->s->lattice;
-    GN_COUNT(facet_pixels, f->n_px);
-    if (look->each || f->s->surface.textured) {
-        for (int32_t i = 0; i < l->n_spans; i++) draw_lit_span(f, look, &l->span[i]);
-        gn_levels_forget(l); /* nodes took their place */
-    } else draw_runs(f, look);
-}
-
-#if GN_VERTEX_COLOURS
-/* Times the vertices' colours, where light does not vary. Returns 0 if pixels are to be multiplied. */
-GN_HOT static int tint_vertices(facet *f)
-{
-    const gn_surface *s = &f->s->surface;
-    if (!GN_COLOURED(s)) return 1;
-    for (int c = 0; c < 3; c++)
-        for (int k = 0; k < 3; k++) f->tint_q16[c][k] = tint_q16(s, c, k);
-    if (f->n_lights || GN_SMOOTH(s)) return 0;
-    for (int c = 0; c < 3; c++) {
-        for (int k = 0; k < 3; k++)
-            f->colour_q24[c][k] = gn_facet_tinted(f->base_q24[c] + f->colour_q24[c][k], f->tint_q16[c][k]);
-        f->base_q24[c] = 0;
-    }
-    return 1;
-}
-
-GN_HOT static void use_tints(facet *f, facet_look *look)
-{
-    for (int c = 0; look->tinted && c < 3; c++) gn_facet_slope(&f->screen, &look->tint_q16[c], f->tint_q16[c]);
-}
-#else
-GN_HOT static int tint_vertices(facet *f)
-{
-    (void)f;
-    return 1;
-}
-
-GN_HOT static void use_tints(facet *f, facet_look *look)
-{
-    (void)f, (void)look;
-}
-#endif
-
-#if GN_SHADOWS
-/* Whether nothing but one shadow varies; sets its two colours. */
-GN_HOT static int use_two_colours(facet *f)
-{
-    const pixel_light *light = &f->light[0];
-    const gn_surface *s = &f->s->surface;
-    int32_t dark[3], more[3];
-    if (f->n_lights != 1 || !light->has_edge || GN_SMOOTH(s) || GN_COLOURED(s) || s->textured) return 0;
-    if (shows_shadow(f)) return 0;
-    for (int c = 0; c < 3; c++) {
-        int32_t all = light->colour_q24[c].at, shadowed = gn_cell_share(all, light->dark_uq16);
-        dark[c] = f->base_q24[c] + f->colour_q24[c][0] + shadowed;
-        more[c] = gn_cell_share(all, light->lit_uq16) - shadowed;
-    }
-    gn_levels_use(&f->s->lattice, dark, more);
-    return 1;
-}
-
-GN_HOT static void draw_levels(const facet *f, const gn_run_span *span)
-{
-    gn_shading *s = f->s;
-    uint32_t *attenuation = s->lattice.row.attenuation[0];
-    gn_facet_attenuation(s, &f->screen, &f->light[0].edge, span->x, span->y, span->n_px, attenuation);
-    for (int32_t i = 0; i < span->n_px; i++)
-        gn_pixel_store(s->frame, &s->rows, span->x + i, span->y, gn_levels_pixel(s, attenuation[i]));
-}
-#else
-GN_HOT static int use_two_colours(facet *f)
-{
-    (void)f;
-    return 0;
-}
-
-GN_HOT static void draw_levels(const facet *f, const gn_run_span *span)
-{
-    (void)f, (void)span;
-}
-#endif
-
-/* Whether some light that pixels do not ask for arrives at a vertex. */
-GN_HOT static inline int is_lit(const facet *f)
-{
-    int32_t any = 0;
-    for (int c = 0; c < 3; c++) any |= f->colour_q24[c][0] | f->colour_q24[c][1] | f->colour_q24[c][2];
-    return any != 0;
-}
-
-/* Whether all pixels look the same; fills them in. */
-GN_HOT static int draw_one_colour(facet *f)
-{
-    gn_shading *s = f->s;
-    const gn_lattice *l = &s->lattice;
-    uint32_t q20[3], differs = 0;
-    if (s->surface.textured || shows_shadow(f)) return 0;
-    for (int c = 0; c < 3; c++) {
-        const int32_t *colour = f->colour_q24[c];
-        differs |= (uint32_t)(colour[0] ^ colour[1]) | (uint32_t)(colour[0] ^ colour[2]);
-        q20[c] = (uint32_t)gn_max32(f->base_q24[c] + colour[0], 0) >> 4;
-    }
-    if (differs) return 0;
-    uint32_t packed = gn_exact_pack(s, q20);
-    for (int32_t i = 0; i < l->n_spans; i++)
-        gn_pixel_fill(s->frame, &s->rows, l->span[i].x, l->span[i].y, l->span[i].n_px, packed);
-    return 1;
-}
-
-/* Sets what varies. Returns 0 if something is too steep. */
-GN_HOT static int find_look(facet *f, facet_look *look)
-{
-    int32_t one[3] = {1 << 20, 1 << 20, 1 << 20}, above[3];
-    const int32_t(*colour)[3] = (const int32_t(*)[3])f->colour_q24;
-    if (!use_screen(f)) return 0;
-    for (int c = 0; c < 3; c++) {
-        const int32_t *a = colour[c], *b = colour[c ? c - 1 : 0];
-        if (c && a[0] == b[0] && a[1] == b[1] && a[2] == b[2]) look->colour_q24[c] = look->colour_q24[c - 1];
-        else gn_facet_slope(&f->screen, &look->colour_q24[c], a);
-    }
-    /* |n|^2 = 1 - b0 b1 d01^2 - b0 b2 d02^2 - b1 b2 d12^2 */
-    for (int k = 0; k < 3; k++) above[k] = -(int32_t)(f->turn_q28[k] >> 8);
-    if (f->turns) gn_facet_curve_find(&f->screen, &look->length2_q20, one, above);
-    use_tints(f, look);
-    return use_texture(f) && !f->screen.steep;
-}
-
-/* Returns 0 if something is too steep. */
-GN_HOT static GN_NOINLINE int draw(facet *f)
-{
-    const gn_lattice *l = &f->s->lattice;
-    facet_look look;
-    if (!f->n_lights && f->turns && !is_lit(f)) f->turns = 0;
-    look.tinted = !tint_vertices(f);
-    look.each = f->n_lights || f->turns || look.tinted;
-    if (!look.each && draw_one_colour(f)) return 1;
-    if (!f->screen.steep && use_two_colours(f)) {
-        GN_COUNT(facet_pixels, f->n_px);
-        for (int32_t i = 0; i < l->n_spans; i++) draw_levels(f, &l->span[i]);
-        return 1;
-    }
-    if (!find_look(f, &look)) return 0;
-    draw_spans(f, &look);
-    return 1;
-}
-
 /* Before light: ambient, and what the surface emits. */
-GN_HOT static void begin_colours(facet *f)
+GN_HOT static void begin_colours(gn_facet *f)
 {
     for (int c = 0; c < 3; c++) {
         uint32_t base_q20 = f->s->surface.base_q20[c];
@@ -456,11 +179,11 @@ GN_HOT static void begin_colours(facet *f)
 GN_HOT int gn_facet_shade(gn_shading *s, const gn_rect *box, int32_t n_px)
 {
     const gn_surface *surface = &s->surface;
-    facet f;
+    gn_facet f;
     if (box->x1 - box->x0 > GN_FACET_PX || box->y1 - box->y0 > GN_FACET_PX) return 0;
     if (surface->masked | surface->specular | surface->baked || GN_GLOWS(surface)) return 0;
     f.s = s;
-    if (surface->n_punctual || surface->plane.det <= 0 || !find_turns(&f)) return 0;
+    if (surface->plane.det <= 0 || !find_turns(&f) || !use_vertices(&f)) return 0;
     s->lattice.cascade = -1;
 #if GN_SHADOWS
     gn_corner_begin_box(&s->lattice, s->frame, surface, box);
@@ -473,7 +196,7 @@ GN_HOT int gn_facet_shade(gn_shading *s, const gn_rect *box, int32_t n_px)
     for (uint32_t slot = 0; slot < surface->n_lights; slot++)
         if (!add_vertex_light(&f, slot)) return 0;
     GN_COUNT(facets, 1);
-    return draw(&f);
+    return gn_facet_draw(&f);
 }
 
 #endif

@@ -4,11 +4,13 @@
 #include "base/gn_count.h"
 #include "base/gn_math.h"
 #include "base/gn_q.h"
+#include "shade/gn_corner.h"
 #include "shade/gn_facet_shadow.h"
 #include "shade/gn_lattice_cell.h"
 #include "shade/gn_shadow.h"
 #include "shadow/gn_filter.h"
 #include "shadow/gn_lookup.h"
+#include "shadow/gn_persp.h"
 #include "shadow/gn_texel.h"
 
 #if GN_INTERPOLATES
@@ -98,6 +100,55 @@ GN_HOT static const gn_light_view *view_of(const gn_shading *s, const gn_light_s
     if (first->border_lit) return first;
     return s->lattice.cascade == GN_CASCADE_NONE ? NULL : first + s->lattice.cascade;
 }
+
+GN_HOT static int place_in_ortho(gn_shading *s, uint32_t slot, const gn_light_view **view, vertex_places *out)
+{
+    *view = view_of(s, s->surface.light[slot].state);
+    if (!*view) return GN_CELL_LIT;
+    if (!use_matrix(&s->lattice.matrix, s->frame, *view)) return GN_CELL_SPLIT;
+    place_vertices(s, slot, *view, out);
+    return GN_CELL_EDGE;
+}
+
+#if GN_PUNCTUAL_LIGHTS
+/* In the view of a spot light, or the one face of a cube that sees all vertices. */
+GN_HOT static GN_NOINLINE int place_in_persp(gn_shading *s, const gn_facet_vertices *vertices, uint32_t slot,
+                                             const gn_light_view **view, vertex_places *out, int32_t from_q16[3])
+{
+    const gn_light_state *light = s->surface.light[slot].state;
+    gn_corner *c = &s->lattice.corner;
+    uint32_t faces = 0, seen = 0;
+    for (int k = 2; k >= 0; k--) {
+        for (int i = 0; i < 3; i++) c->ray_q16[i] = vertices->ray_q16[k][i];
+        gn_corner_from(c, light, from_q16);
+        faces |= 1U << (light->kind == GN_LIGHT_POINT ? gn_persp_face(from_q16) : 0);
+    }
+    if (faces & (faces - 1)) return GN_CELL_SPLIT;
+    *view = &s->frame->view[light->view_idx + 31 - gn_clz32(faces)];
+    for (int k = 0; k < 3; k++) {
+        for (int i = 0; i < 3; i++) {
+            c->ray_q16[i] = vertices->ray_q16[k][i];
+#if GN_VERTEX_NORMALS
+            c->normal_q30[i] = vertices->normal_q30[k][i];
+#endif
+        }
+        c->z_q16 = s->surface.v_q16[k][2];
+        seen |= 1U << gn_corner_place_any(&s->lattice, s->frame, &s->surface, c, slot, *view);
+        out->at[0][k] = c->light[slot].u_q16;
+        out->at[1][k] = c->light[slot].v_q16;
+        out->at[2][k] = c->light[slot].depth_q30;
+    }
+    if (seen & (seen - 1)) return GN_CELL_SPLIT; /* bias goes two ways, or some vertex is too near */
+    return seen & 1U ? GN_CELL_LIT : GN_CELL_EDGE;
+}
+#else
+GN_HOT static int place_in_persp(gn_shading *s, const gn_facet_vertices *vertices, uint32_t slot,
+                                 const gn_light_view **view, vertex_places *out, int32_t from_q16[3])
+{
+    (void)s, (void)vertices, (void)slot, (void)view, (void)out, (void)from_q16;
+    return GN_CELL_SPLIT;
+}
+#endif
 
 /* ---- Texels behind the triangle's plane ------------------------------------------------------------------------- */
 
@@ -213,7 +264,8 @@ GN_HOT static int judge(const gn_frame *frame, const gn_light_view *view, const 
         hi[i] = gn_max32(p->at[i][0], gn_max32(p->at[i][1], p->at[i][2]));
     }
     if (gn_beyond_tile(view, lo[0], hi[0], lo[1], hi[1])) return GN_CELL_LIT;
-    if (lo[2] <= -(1 << 29) && hi[2] > -(1 << 29)) return GN_CELL_SPLIT; /* a limit, which bends the plane */
+    const int32_t limit = view->perspective ? 0 : -(1 << 29); /* which bends the plane */
+    if (lo[2] <= limit && hi[2] > limit) return GN_CELL_SPLIT;
     if ((gn_abs32(lo[0]) | gn_abs32(hi[0]) | gn_abs32(lo[1]) | gn_abs32(hi[1])) >> 27) return GN_CELL_SPLIT;
     if (view->filter == GN_FILTER_DISK) return GN_CELL_EDGE;
     int64_t slope = 4 * (int64_t)(view->filter_idx + 2) * ((int64_t)gn_abs32(slope_q28[0]) + gn_abs32(slope_q28[1]));
@@ -224,15 +276,24 @@ GN_HOT static int judge(const gn_frame *frame, const gn_light_view *view, const 
     return plane_is_lit(frame, view, &r, slope) ? GN_CELL_LIT : GN_CELL_EDGE;
 }
 
-/* Whether perspective bends places by less than the tolerance. */
-GN_HOT static int vertex_places_hold(const gn_frame *frame, const gn_surface *s, const vertex_places *p)
+/* Whether the perspectives of camera and light bend places by less than the tolerance. */
+GN_HOT static int vertex_places_hold(const gn_frame *frame, const gn_surface *s, const gn_light_view *view,
+                                     const vertex_places *p)
 {
-    const int32_t most_log2 = 16 - gn_cell_place_log2(frame);
-    if (GN_FLAT_Q16(frame)) return 1;
+    const uint32_t most_q16 = 4U << (16 - gn_cell_place_log2(frame));
+    uint32_t bend_q16 = 0;
+    if (!GN_FLAT_Q16(frame))
+        bend_q16 = gn_quotient_q30((uint32_t)(s->z_max_q16 - s->z_min_q16), (uint32_t)s->z_min_q16) >> 14;
+    if (view->perspective) {
+        const int32_t *depth = p->at[2];
+        const uint32_t change = gn_cell_spread(depth[0], depth[1], depth[2], depth[2]),
+                       rest = (1U << 30) - (uint32_t)gn_max32(depth[0], gn_max32(depth[1], depth[2]));
+        if (change > rest >> 1) return 0;
+        bend_q16 += gn_quotient_q30(change, rest | 1U) >> 14;
+    }
     for (int i = 0; i < 2; i++) {
-        uint32_t across = gn_cell_spread(p->at[i][0], p->at[i][1], p->at[i][2], p->at[i][2]);
-        if (((uint64_t)across * (uint32_t)(s->z_max_q16 - s->z_min_q16)) >> (2 + most_log2) > (uint32_t)s->z_min_q16)
-            return 0;
+        const uint32_t across = gn_cell_spread(p->at[i][0], p->at[i][1], p->at[i][2], p->at[i][2]);
+        if ((uint64_t)across * bend_q16 >> 16 > most_q16) return 0;
     }
     return 1;
 }
@@ -248,19 +309,22 @@ GN_HOT static int32_t find_spacing(const gn_frame *frame, const gn_facet_edge *e
     return 4 * texels_q16 <= most_q16 ? 2 : 2 * texels_q16 <= most_q16;
 }
 
-GN_HOT int gn_facet_shadow(gn_shading *s, gn_facet_screen *screen, int32_t n_px, uint32_t slot, gn_facet_edge *edge)
+GN_HOT int gn_facet_shadow(gn_shading *s, gn_facet_screen *screen, const gn_facet_vertices *vertices, int32_t n_px,
+                           uint32_t slot, gn_facet_edge *edge)
 {
-    const gn_light_view *view = view_of(s, s->surface.light[slot].state);
+    const gn_light_view *view = NULL;
+    int32_t from[3] = {0, 0, 0};
     vertex_places p;
-    if (!view) return GN_CELL_LIT;
-    if (!use_matrix(&s->lattice.matrix, s->frame, view)) return GN_CELL_SPLIT;
+    int said = s->surface.light[slot].state->kind == GN_LIGHT_DIRECTIONAL
+                   ? place_in_ortho(s, slot, &view, &p)
+                   : place_in_persp(s, vertices, slot, &view, &p, from);
+    if (said != GN_CELL_EDGE) return said;
     GN_COUNT(places, 3);
-    place_vertices(s, slot, view, &p);
-    gn_shadow_slopes(s->frame, &s->surface, view, NULL, edge->slope_q28);
-    int said = judge(s->frame, view, &p, edge->slope_q28);
+    gn_shadow_slopes(s->frame, &s->surface, view, from, edge->slope_q28);
+    said = judge(s->frame, view, &p, edge->slope_q28);
     if (said != GN_CELL_EDGE) return said;
     if ((n_px > FLAT_EDGE_PX && !GN_SMOOTH(&s->surface)) || !gn_facet_screen_use(screen, s->frame, &s->surface) ||
-        !vertex_places_hold(s->frame, &s->surface, &p))
+        !vertex_places_hold(s->frame, &s->surface, view, &p))
         return GN_CELL_SPLIT;
     edge->view = view;
     gn_facet_slope(screen, &edge->u_q16, p.at[0]);
@@ -297,9 +361,10 @@ GN_HOT void gn_facet_attenuation(const gn_shading *s, const gn_facet_screen *scr
     }
 }
 #else
-GN_HOT int gn_facet_shadow(gn_shading *s, gn_facet_screen *screen, int32_t n_px, uint32_t slot, gn_facet_edge *edge)
+GN_HOT int gn_facet_shadow(gn_shading *s, gn_facet_screen *screen, const gn_facet_vertices *vertices, int32_t n_px,
+                           uint32_t slot, gn_facet_edge *edge)
 {
-    (void)s, (void)screen, (void)n_px, (void)slot, (void)edge;
+    (void)s, (void)screen, (void)vertices, (void)n_px, (void)slot, (void)edge;
     return GN_CELL_LIT;
 }
 

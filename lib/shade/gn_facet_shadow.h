@@ -2,6 +2,7 @@
 #ifndef GN_FACET_SHADOW_H
 #define GN_FACET_SHADOW_H
 
+#include "shade/gn_facet_punctual.h"
 #include "shade/gn_facet_screen.h"
 
 #if GN_INTERPOLATES
@@ -14,8 +15,10 @@ typedef struct {
     int32_t spacing_log2; /* pixels of a row between two that are looked up */
 } gn_facet_edge;
 
-/* GN_CELL_LIT, _DARK or _EDGE, which is set then; GN_CELL_SPLIT if it cannot be told. */
-int gn_facet_shadow(gn_shading *s, gn_facet_screen *screen, int32_t n_px, uint32_t slot, gn_facet_edge *edge);
+/* GN_CELL_LIT, _DARK or _EDGE, which is set then; GN_CELL_SPLIT if it cannot be told. `vertices`: of spot and point
+ * lights. */
+int gn_facet_shadow(gn_shading *s, gn_facet_screen *screen, const gn_facet_vertices *vertices, int32_t n_px,
+                    uint32_t slot, gn_facet_edge *edge);
 
 /* Attenuation of n <= 16 pixels from (x, y) of the picture on. */
 void gn_facet_attenuation(const gn_shading *s, const gn_facet_screen *screen, const gn_facet_edge *edge, int32_t x,

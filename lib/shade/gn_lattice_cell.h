@@ -78,7 +78,7 @@ GN_HOT static inline uint32_t gn_cell_lookup_texels_q16(const gn_frame *frame, c
 }
 #endif
 
-#if GN_SHADOWS || GN_MASKS
+#if GN_SHADOWS || GN_MASKS || GN_VERTEX_COLOURS
 /* Largest less smallest of four values. */
 GN_HOT static inline uint32_t gn_cell_spread(int32_t a, int32_t b, int32_t c, int32_t d)
 {

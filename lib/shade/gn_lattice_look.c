@@ -132,6 +132,61 @@ GN_HOT static uint32_t strongest_of(const uint32_t colour_uq16[3])
     return colour_uq16[2] > most ? colour_uq16[2] : most;
 }
 
+#if GN_VERTEX_COLOURS
+/* Whether light times the vertices' colours is close to bilinear in a channel: it is off by a quarter of both changes
+ * at most. `light` is that of a colour, at the corners. */
+GN_HOT static int product_holds(const gn_lattice_cell *cell, int channel, const int32_t light_q24[4])
+{
+    const int32_t log2 = gn_max32(gn_cell_light_log2(cell->frame) - 2, 3 - gn_cell_sum_log2(cell->frame));
+    int32_t tint[4];
+    for (int i = 0; i < 4; i++) tint[i] = cell->corner[i]->tint_q16[channel];
+    const uint32_t change = gn_cell_spread(light_q24[0], light_q24[1], light_q24[2], light_q24[3]),
+                   tints = gn_cell_spread(tint[0], tint[1], tint[2], tint[3]);
+    if (!change || !tints) return 1;
+    const int32_t least = gn_min32(gn_min32(light_q24[0], light_q24[1]), gn_min32(light_q24[2], light_q24[3])),
+                  dimmest = gn_min32(gn_min32(tint[0], tint[1]), gn_min32(tint[2], tint[3]));
+    const uint64_t seen = ((uint64_t)(uint32_t)gn_max32(least, 0) * (uint32_t)gn_max32(dimmest, 0) >> 16) + (1U << 19);
+    return ((uint64_t)change * tints >> 16) << log2 <= seen;
+}
+
+/* The same of a light whose shadow has an edge, which is not part of the cell's colours. */
+GN_HOT static int edge_product_holds(const gn_lattice_cell *cell, uint32_t slot, const gn_contribution *light)
+{
+    if (!GN_COLOURED(cell->s) || cell->size_log2 <= gn_cell_finest_log2(cell->frame)) return 1;
+    for (int j = 0; j < 3; j++) {
+        int32_t at[4];
+        for (int i = 0; i < 4; i++)
+            at[i] = gn_corner_times(cell->s->light[slot].radiance_uq16[j], light->irradiance_q24[i]);
+        if (!product_holds(cell, j, at)) return 0;
+    }
+    return 1;
+}
+
+/* And of those that are. */
+GN_HOT static int products_hold(const gn_lattice_cell *cell)
+{
+    if (!GN_COLOURED(cell->s) || cell->size_log2 <= gn_cell_finest_log2(cell->frame)) return 1;
+    for (int j = 0; j < 3; j++) {
+        int32_t at[4];
+        for (int i = 0; i < 4; i++) at[i] = cell->out->colour_q24[i][j];
+        if (!product_holds(cell, j, at)) return 0;
+    }
+    return 1;
+}
+#else
+GN_HOT static int edge_product_holds(const gn_lattice_cell *cell, uint32_t slot, const gn_contribution *light)
+{
+    (void)cell, (void)slot, (void)light;
+    return 1;
+}
+
+GN_HOT static int products_hold(const gn_lattice_cell *cell)
+{
+    (void)cell;
+    return 1;
+}
+#endif
+
 /* Whether all that a light adds is less than half a step of the picture: what shadows it, and how uneven it is, cannot
  * be seen. Of a channel of 6 bits half a step is 1/32 or more of what is there, up to 1/4, and of black 2^-11. A cone
  * may be brighter between corners in its rim. */
@@ -186,6 +241,7 @@ GN_HOT static int add_light(gn_lattice_cell *cell, uint32_t slot)
     int realtime = find_shares(cell, slot, light),
         shadow = realtime > 0 && !faint ? gn_cell_shadow(cell, slot, light) : GN_CELL_LIT;
     if (realtime < 0 || shadow == GN_CELL_SPLIT || (cell->near < 0 && fades(light, shadow))) return 0;
+    if (shadow == GN_CELL_EDGE && !edge_product_holds(cell, slot, light)) return 0;
     if (shadow != GN_CELL_DARK && !faint) {
         uint32_t kink, strongest = strongest_of(colour);
         uint32_t error = gn_cell_unevenness_q24(cell, slot, least, most, &kink);
@@ -224,6 +280,7 @@ GN_HOT static int finish_colours(const gn_lattice_cell *cell)
     for (int i = 0; i < 4; i++)
         all |= (uint32_t)(cell->out->colour_q24[i][0] | cell->out->colour_q24[i][1] | cell->out->colour_q24[i][2]);
     if (!GN_COLOURED(cell->s) && !cell->s->specular && all < 1U << 27) return 1;
+    if (!products_hold(cell)) return 0;
     for (int i = 0; i < 4; i++)
         for (int j = 0; j < 3; j++) {
             int32_t *colour = &cell->out->colour_q24[i][j];

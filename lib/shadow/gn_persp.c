@@ -177,6 +177,14 @@ GN_HOT static void project_corner(const gn_frame *frame, const gn_light_view *vi
     *y = (int32_t)gn_clamp64(texel[1], -most, most) + centre;
 }
 
+/* gn_outcode() of a frustum that is as high as it is wide. */
+GN_HOT static inline uint32_t outcode(const int32_t v_q16[3], int32_t near_q16, int32_t side_q16)
+{
+    const int32_t x = v_q16[0], y = v_q16[1], side = gn_sat32((int64_t)v_q16[2] * side_q16 >> 16), other = ~side;
+    return (v_q16[2] < near_q16 ? GN_OUT_NEAR : 0U) | (x <= other ? GN_OUT_LEFT : 0U) | (x > side ? GN_OUT_RIGHT : 0U) |
+           (y <= other ? GN_OUT_BOTTOM : 0U) | (y > side ? GN_OUT_TOP : 0U);
+}
+
 GN_HOT int32_t gn_persp_triangle(const gn_frame *frame, const gn_light_view *view, gn_casting *casting,
                                  gn_alpha_cut *alpha)
 {
@@ -186,12 +194,18 @@ GN_HOT int32_t gn_persp_triangle(const gn_frame *frame, const gn_light_view *vie
     polygon->n = 3;
     uint32_t all = ~0U, any = 0;
     for (int i = 0; i < 3; i++) {
-        all &= gn_outcode(corner[i], fit->clip_q16, fit->side_q16, 0);
-        any |= gn_outcode(corner[i], fit->clip_q16, fit->guard_q16, 0);
+        const uint32_t out = outcode(corner[i], fit->clip_q16, fit->side_q16[0]);
+        all &= out;
+        any |= out;
+    }
+    if (all) return -1;
+    if (any) { /* whoever is within the tile's border is within the guard band */
+        any = 0;
+        for (int i = 0; i < 3; i++) any |= outcode(corner[i], fit->clip_q16, fit->guard_q16[0]);
     }
     gn_caster caster;
     gn_plane plane;
-    if (all || !persp_caster(&caster, &plane, view, corner, casting->job.two_sided)) return -1;
+    if (!persp_caster(&caster, &plane, view, corner, casting->job.two_sided)) return -1;
     if (GN_CASTER_ALPHA && GN_TEXTURES && alpha && alpha->textured)
         gn_alpha_plane(alpha, frame, corner, fit->focal2_q16, view->tile_texels, 2);
     if (any) gn_clip(polygon, &casting->with.clipping.uncut, GN_OUT_ALL, fit->clip_q16, fit->guard_q16, 0);

@@ -104,7 +104,8 @@ typedef struct {
     int32_t guard_q16[2];       /* |x|, |y| <= guard * z after clipping to the guard band */
     int32_t side_q16[2];        /* the same for the tile's own border, a little wider: a caster outside it is skipped */
     int64_t ratio_max_q28;      /* x / z beyond this would overflow, times focal2 */
-    int32_t lift_q31;           /* receivers: offset along the normal per light-plane distance; INT32_MAX: 1 or more */
+    int32_t lift_q31;           /* receivers (automatic bias: curved ones): offset along the normal per light-plane
+                                   distance; INT32_MAX: 1 or more */
     int32_t constant_share_q30; /* casters: min(1, constant bias * 2t / T) */
 } gn_persp_fit;
 

@@ -194,6 +194,35 @@ static void try_lengths(void)
     CHECK(lengths_found > 2000);
 }
 
+#if GN_PUNCTUAL_LIGHTS
+/* In place of the sun: from above, so near that its light differs over the ball; a cone's rim lies on the ball. */
+static void compare_lamps(void)
+{
+    const gn_light sun = demo.light[0];
+    for (int spot = 0; spot < 2; spot++) {
+        const gn_light lamp = {.kind = spot ? GN_LIGHT_SPOT : GN_LIGHT_POINT,
+                               .position_q16 = {GN_Q16(0.2), GN_Q16(4), GN_Q16(2)},
+                               .direction = {GN_Q16(0.2), GN_Q16(-1), GN_Q16(-0.7)},
+                               .inner_turn = GN_TURN(10),
+                               .outer_turn = GN_TURN(75),
+                               .colour_uq16 = {GN_UQ16(0.9), GN_UQ16(0.7), GN_UQ16(0.8)},
+                               .colour_exp = 4,
+                               .range_q16 = spot ? 0 : GN_UQ16(9),
+                               .near_q16 = GN_Q16(0.1),
+                               .shadow_strength_uq16 = 65536,
+                               .mask_channel = -1,
+                               .bias_normal_q16 = GN_Q16(1)};
+        demo.light[0] = lamp;
+        compare_all(spot ? "spot" : "point", 16);
+    }
+    demo.light[0] = sun;
+}
+#else
+static void compare_lamps(void)
+{
+}
+#endif
+
 int main(void)
 {
     gn_texture texture;
@@ -218,7 +247,9 @@ int main(void)
         const int16_t *normals = demo.ball.nrm_q15;
         demo.ball.nrm_q15 = NULL;
         compare_all("faceted", 16);
+        compare_lamps();
         demo.ball.nrm_q15 = normals;
+        compare_lamps();
         add_texture(&texture, 19); /* rows of more triangles, those that get deeper to the right, too */
         compare_all("stretched", 16);
         add_texture(&texture, 17);

@@ -1,0 +1,209 @@
+/* Spot and point lights on small triangles (NUMERICS 4.17): what is linear between the vertices, and how far it is off
+ * at most, against the formulas in double. */
+#include <math.h>
+
+#include "../lib/light/gn_punctual.h"
+#include "../lib/shade/gn_corner.h"
+#include "../lib/shade/gn_facet_punctual.h"
+#include "../lib/shade/gn_lattice_cell.h"
+#include "check.h"
+#include "demo_scene.h"
+#include "rng.h"
+
+#if GN_INTERPOLATES && GN_PUNCTUAL_LIGHTS && GN_VERTEX_NORMALS
+
+enum { WIDTH = 32, HEIGHT = 24, CASES = 60000, PER_SIDE = 9 };
+
+static gn_renderer renderer;
+static demo_scene demo;
+static gn_shading shading;
+static rng random_state = {40417};
+static int n_lit, n_rims, n_dark, n_split, n_ranges;
+static double nearest_to_bound;
+
+static double uniform(double lo, double hi)
+{
+    return lo + (hi - lo) * rng_u32(&random_state) / 4294967296.0;
+}
+
+static void direction(double out[3])
+{
+    double length = 0;
+    while (length < 0.1 || length > 1) {
+        length = 0;
+        for (int i = 0; i < 3; i++) out[i] = uniform(-1, 1), length += out[i] * out[i];
+    }
+    for (int i = 0; i < 3; i++) out[i] /= sqrt(length);
+}
+
+static void no_pixels(void *user, int x, int y, int w, int h, const void *pixels)
+{
+    (void)user, (void)x, (void)y, (void)w, (void)h, (void)pixels;
+}
+
+static double dot(const double a[3], const double b[3])
+{
+    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+}
+
+/* A triangle before the camera, smooth or flat. */
+static void draw_triangle(gn_surface *s, double distance)
+{
+    const double size = distance * pow(2, uniform(-7, -1.5)), turn = rng_below(&random_state, 4) ? uniform(0, 0.8) : 0;
+    double n[3];
+    direction(n);
+    for (int k = 0; k < 3; k++) {
+        double own[3], length = 0;
+        for (int i = 0; i < 3; i++) {
+            s->v_q16[k][i] = (int32_t)lround(ldexp((i == 2 ? 20 : 0) + size * uniform(-1, 1), 16));
+            own[i] = n[i] + turn * uniform(-1, 1);
+            length += own[i] * own[i];
+        }
+        for (int i = 0; i < 3; i++) {
+            const int32_t at = (int32_t)lround(ldexp((turn > 0 ? own[i] / sqrt(length) : n[i]) * 0.999999, 30));
+            s->normal_q30[k][i] = at - (k ? s->normal_q30[0][i] : 0);
+        }
+    }
+    s->smooth = turn > 0;
+}
+
+static void draw_light(const gn_frame *frame, gn_light *light, double distance)
+{
+    double away[3], aside[3];
+    direction(away);
+    direction(aside);
+    const double outer = uniform(0.02, 3), wide = rng_below(&random_state, 3) ? uniform(0, 1) : 1;
+    light->kind = rng_below(&random_state, 2) ? GN_LIGHT_SPOT : GN_LIGHT_POINT;
+    light->outer_turn = (uint16_t)lround(outer / 6.283185307 * 65536);
+    light->inner_turn = (uint16_t)lround(outer * wide / 6.283185307 * 65536);
+    if (!light->inner_turn) light->inner_turn = 1;
+    for (int i = 0; i < 3; i++) {
+        light->position_q16[i] =
+            frame->cam.eye_q16[i] +
+            (int32_t)lround(ldexp(20 * ldexp(frame->cam.axis_q30[2][i], -30) + distance * away[i], 16));
+        light->direction[i] = (int32_t)lround(ldexp(-away[i] + tan(outer / 4) * 1.5 * uniform(0, 1) * aside[i], 16));
+        light->colour_uq16[i] = 65536;
+    }
+    light->colour_exp = (int8_t)lround(2 * log2(distance));
+    light->range_q16 =
+        rng_below(&random_state, 3) ? 0 : (uint32_t)lround(ldexp(distance * pow(2, uniform(-0.1, 3)), 16));
+}
+
+/* The light of colour 1 at a point of the triangle, not divided by the normal's length, and the share of the rim. */
+static double light_at(const gn_light_state *light, const gn_facet_vertices *v, const double b[3], double *rim)
+{
+    double from[3], n[3], to_light[3];
+    for (int i = 0; i < 3; i++) {
+        from[i] = n[i] = 0;
+        for (int k = 0; k < 3; k++) {
+            from[i] += b[k] * ldexp((double)v->ray_q16[k][i] + (double)light->from_light[i].d_q16, -16);
+            n[i] += b[k] * ldexp(v->normal_q30[k][i], -30);
+        }
+        to_light[i] = ldexp(light->to_light_q30[i], -30);
+    }
+    const double d2 = dot(from, from), range2 = ldexp((double)light->range2_q32, -32);
+    double window = 1;
+    *rim = 1;
+    if (light->kind == GN_LIGHT_SPOT)
+        *rim = (-dot(from, to_light) / sqrt(d2) - ldexp(light->cos_outer_q30, -30)) *
+               ldexp((double)light->angle_scale.mant, light->angle_scale.exp + 30);
+    if (light->range2_q32 != UINT64_MAX) window = d2 < range2 ? pow(1 - d2 * d2 / (range2 * range2), 2) : 0;
+    return ldexp(-dot(n, from) / (d2 * sqrt(d2)) * window, light->colour_exp + 24);
+}
+
+static double squared(double rim)
+{
+    return pow(fmax(0, fmin(rim, 1)), 2);
+}
+
+static void compare(const gn_light_state *light, const gn_facet_vertices *v, const gn_facet_lamp *lamp, int dark)
+{
+    double nearest2 = 1e30;
+    for (int k = 0; k < 3; k++) {
+        double d2 = 0;
+        for (int i = 0; i < 3; i++)
+            d2 += pow(ldexp((double)v->ray_q16[k][i] + (double)light->from_light[i].d_q16, -16), 2);
+        nearest2 = fmin(nearest2, d2);
+    }
+    const double full = ldexp(1 / nearest2, light->colour_exp + 24), rounding = full * ldexp(1, -13) + 4;
+    double worst = 0;
+    for (int i = 0; i <= PER_SIDE; i++)
+        for (int j = 0; i + j <= PER_SIDE; j++) {
+            const double b[3] = {1 - (double)(i + j) / PER_SIDE, (double)i / PER_SIDE, (double)j / PER_SIDE};
+            double rim, linear = 0, linear_rim = 0;
+            const double e = light_at(light, v, b, &rim);
+            for (int k = 0; k < 3; k++) {
+                linear += b[k] * lamp->irradiance_q24[k];
+                linear_rim += b[k] * ldexp(lamp->rim_q20[k], -20);
+            }
+            if (!lamp->has_rim) linear_rim = 1;
+            const double is = fmax(0, e) * squared(rim), says = dark ? 0 : fmax(0, linear) * squared(linear_rim);
+            worst = fmax(worst, fabs(is - says) - rounding);
+        }
+    nearest_to_bound = fmax(nearest_to_bound, worst / (lamp->error_q24 + 1.0));
+    CHECK(worst <= lamp->error_q24);
+}
+
+static void try_case(gn_frame *frame)
+{
+    static const uint32_t unknown[3] = {0, 0, 0};
+    gn_surface *s = &shading.surface;
+    gn_light *light = &demo.light[0];
+    gn_facet_vertices v;
+    gn_facet_lamp lamp;
+    uint32_t turn_q28[3] = {unknown[0], unknown[1], unknown[2]};
+    const double distance = pow(2, uniform(-2, 5));
+    draw_triangle(s, distance);
+    draw_light(frame, light, distance);
+    frame->light[0].kind = (uint8_t)light->kind;
+    double axis[3], length = 0;
+    for (int i = 0; i < 3; i++) axis[i] = light->direction[i], length += axis[i] * axis[i];
+    for (int i = 0; i < 3; i++)
+        frame->light[0].to_light_q30[i] = (int32_t)lround(ldexp(-axis[i] / sqrt(length), 30) * 0.9999999);
+    gn_punctual_setup(frame, 0);
+    for (int k = 0; k < 3; k++)
+        for (int i = 0; s->smooth && i < 3; i++) {
+            const int32_t *n1 = s->normal_q30[1], *n2 = s->normal_q30[2];
+            const double d = ldexp(k == 0 ? n1[i] : k == 1 ? n2[i] : (double)n2[i] - n1[i], -30);
+            turn_q28[k] += (uint32_t)lround(ldexp(d * d, 28));
+        }
+    if (!CHECK(gn_facet_vertices_find(&v, frame, s, turn_q28))) return;
+    const int said = gn_facet_punctual(&shading, &v, 0, 1 << 24, &lamp);
+    if (said == GN_CELL_SPLIT) {
+        n_split++;
+        return;
+    }
+    if (said == GN_CELL_DARK) n_dark++;
+    else {
+        n_lit++;
+        n_rims += lamp.has_rim;
+        n_ranges += light->range_q16 != 0;
+    }
+    compare(&frame->light[0], &v, &lamp, said == GN_CELL_DARK);
+}
+
+int main(void)
+{
+    const gn_picture target = {.width = WIDTH, .height = HEIGHT, .format = GN_FORMAT_RGB888};
+    demo_scene_make(&demo, 1);
+    if (!CHECK(gn_init(&renderer, &target) == GN_OK)) return check_report();
+    if (!CHECK(gn_render(&renderer, &demo.scene, no_pixels, NULL) == GN_OK)) return check_report();
+    shading.frame = &renderer.frame;
+    shading.surface.light[0].state = &renderer.frame.light[0];
+    for (int c = 0; c < 3; c++) shading.surface.light[0].radiance_uq16[c] = 65536;
+    shading.surface.n_lights = shading.surface.n_punctual = 1;
+    for (int i = 0; i < CASES; i++) try_case(&renderer.frame);
+    printf("%d lit, %d of them in a rim, %d with a range; %d dark, %d split; off by up to %.2f of the bound\n", n_lit,
+           n_rims, n_ranges, n_dark, n_split, nearest_to_bound);
+    CHECK(n_lit > 5000 && n_rims > 1000 && n_ranges > 1000 && n_dark > 1000 && n_split > 1000);
+    return check_report();
+}
+
+#else
+
+int main(void)
+{
+    return check_report();
+}
+
+#endif
