@@ -179,24 +179,24 @@ GN_HOT static void begin_colours(gn_facet *f)
 GN_HOT int gn_facet_shade(gn_shading *s, const gn_rect *box, int32_t n_px)
 {
     const gn_surface *surface = &s->surface;
-    gn_facet f;
+    gn_facet *f = &s->lattice.from.facet;
     if (box->x1 - box->x0 > GN_FACET_PX || box->y1 - box->y0 > GN_FACET_PX) return 0;
     if (surface->masked | surface->specular | surface->baked || GN_GLOWS(surface)) return 0;
-    f.s = s;
-    if (surface->plane.det <= 0 || !find_turns(&f) || !use_vertices(&f)) return 0;
+    f->s = s;
+    if (surface->plane.det <= 0 || !find_turns(f) || !use_vertices(f)) return 0;
     s->lattice.cascade = -1;
 #if GN_SHADOWS
     gn_corner_begin_box(&s->lattice, s->frame, surface, box);
 #endif
     if (surface->shadowed && s->lattice.cascade < 0) return 0;
-    f.n_px = n_px;
-    f.screen.found = f.screen.steep = 0;
-    f.n_lights = 0;
-    begin_colours(&f);
+    f->n_px = n_px;
+    f->screen.found = f->screen.steep = 0;
+    f->n_lights = 0;
+    begin_colours(f);
     for (uint32_t slot = 0; slot < surface->n_lights; slot++)
-        if (!add_vertex_light(&f, slot)) return 0;
+        if (!add_vertex_light(f, slot)) return 0;
     GN_COUNT(facets, 1);
-    return gn_facet_draw(&f);
+    return gn_facet_draw(f);
 }
 
 #endif

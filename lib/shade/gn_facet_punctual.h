@@ -4,16 +4,8 @@
 
 #include "gnomon.h"
 
-#if GN_INTERPOLATES
+#if GN_INTERPOLATES && GN_PUNCTUAL_LIGHTS
 
-/* The vertices, along the world's axes. */
-typedef struct {
-    int32_t ray_q16[3][3], normal_q30[3][3]; /* from the eye; normals */
-    uint64_t longest2_q32;                   /* the square of the longest edge */
-    uint32_t turn2_q28;                      /* that of the largest difference of normals */
-} gn_facet_vertices;
-
-#if GN_PUNCTUAL_LIGHTS
 /* Returns 0 if a vertex lies beyond the reach of 32 bits. `turn_q28`: squares of what normals differ by. */
 int gn_facet_vertices_find(gn_facet_vertices *out, const gn_frame *frame, const gn_surface *surface,
                            const uint32_t turn_q28[3]);
@@ -30,8 +22,6 @@ typedef struct {
  * anywhere; GN_CELL_SPLIT: it is not close to linear. */
 int gn_facet_punctual(gn_shading *s, const gn_facet_vertices *vertices, uint32_t slot, int32_t base_q24,
                       gn_facet_lamp *out);
-
-#endif
 
 #endif
 

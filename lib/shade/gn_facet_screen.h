@@ -6,14 +6,6 @@
 
 #if GN_INTERPOLATES
 
-typedef struct {
-    int16_t found;           /* 0: not asked for yet; -1: it is large, deep or narrow */
-    int16_t steep;           /* some value changes too fast */
-    int32_t x0, y0;          /* the pixel of vertex 0, from which others are counted: right and down */
-    int32_t along_q24[2][2]; /* the change per pixel, right and down, of what is 1 more at vertex 1, or at vertex 2 */
-    int32_t to_first_q13[2]; /* pixels from vertex 0 to the centre of its pixel, right and down */
-} gn_facet_screen;
-
 enum { GN_FACET_PX = 16 };
 
 /* Found once, when something varies. Returns 0 if the triangle is large, deep, or narrower than half a pixel. */

@@ -7,14 +7,6 @@
 
 #if GN_INTERPOLATES
 
-/* A shadow that has an edge in the triangle: places of its pixels. */
-typedef struct {
-    const gn_light_view *view;
-    gn_slope u_q16, v_q16, depth_q30;
-    int32_t slope_q28[2];
-    int32_t spacing_log2; /* pixels of a row between two that are looked up */
-} gn_facet_edge;
-
 /* GN_CELL_LIT, _DARK or _EDGE, which is set then; GN_CELL_SPLIT if it cannot be told. `vertices`: of spot and point
  * lights. */
 int gn_facet_shadow(gn_shading *s, gn_facet_screen *screen, const gn_facet_vertices *vertices, int32_t n_px,

@@ -6,13 +6,6 @@
 
 #if GN_INTERPOLATES && GN_TEXTURES
 
-/* Coordinates times 1 + e, where nearness is 1 + e times that of the middle depth: both are linear on the screen. */
-typedef struct {
-    const gn_texture *texture;
-    gn_slope e_q30, from_first_q17[2]; /* texels, from vertex 0 */
-    int32_t first_q17[2];              /* of vertex 0, less half a texel if the texture is bilinear */
-} gn_facet_texture;
-
 /* Returns 0 if the triangle is to be textured by cells. */
 int gn_facet_texture_begin(gn_facet_texture *out, const gn_frame *frame, gn_surface *surface, gn_facet_screen *screen);
 

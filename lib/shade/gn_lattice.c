@@ -77,7 +77,7 @@ GN_HOT static GN_NOINLINE uint32_t new_corner(gn_shading *s, int32_t x, int32_t 
         l->next_corner = i + 1 < GN_CORNERS ? i + 1 : 0;
     } while (l->corner_key[i] != UINT32_MAX && l->now - l->corner_used[i] < 4);
     l->corner_key[i] = key;
-    gn_corner_find(l, s->frame, &s->surface, x, y, &s->sample, &l->corners[i]);
+    gn_corner_find(l, s->frame, &s->surface, x, y, &s->sample, &l->from.corners[i]);
     return i;
 }
 
@@ -91,7 +91,7 @@ GN_HOT static inline gn_corner *corner_at(gn_shading *s, int32_t x, int32_t y)
     if (l->corner_key[*at] != key) *at = (uint8_t)new_corner(s, x, y, key);
     i = *at;
     l->corner_used[i] = l->now;
-    return &l->corners[i];
+    return &l->from.corners[i];
 }
 
 GN_HOT static void find_corners(gn_shading *s, int32_t x, int32_t y, int32_t size_log2, gn_corner *corner[4])

@@ -2,7 +2,7 @@
 #ifndef GN_SHADE_TYPES_H
 #define GN_SHADE_TYPES_H
 
-#include "shadow/gn_shadow_types.h"
+#include "shade/gn_facet_types.h"
 #include "visible/gn_visible_types.h"
 
 /* n . L of a directional light at the vertices, for Gouraud shading; otherwise at the first. */
@@ -310,11 +310,6 @@ typedef struct {
     uint32_t lit_uq16, dark_uq16; /* what is left of it without a mask, where shadows do not fade */
 } gn_lattice_light;
 
-/* Linear on the screen: the value at a pixel, and its change per pixel to the right and down. */
-typedef struct {
-    int32_t at, dx, dy;
-} gn_slope;
-
 /* A surface's plane on the screen, 32 bits: n . ray and the barycentrics times it, at one scale; orthographic: the
  * barycentrics themselves, Q28. */
 typedef struct {
@@ -386,12 +381,15 @@ typedef struct gn_lattice {
     int32_t n_rows;                   /* of the part */
     int32_t part_end;                 /* columns before it */
     uint32_t bits[GN_PART_WIDTH / 32][GN_PART_ROWS]; /* its pixels */
-    gn_corner corners[GN_CORNERS];                   /* those of the part that were asked for last */
-    uint32_t corner_key[GN_CORNERS];                 /* y * 2^16 + x; all ones: none */
-    uint32_t corner_used[GN_CORNERS], now;           /* when they were, counted */
-    uint32_t next_corner;                            /* to be replaced */
-    uint8_t corner_at[8][8];                         /* which of them is that of a pixel, by bits of y and x */
-    gn_split_cell split[4];                          /* of 16, 8, 4 and 2 pixels, one in the other */
+    union {
+        gn_corner corners[GN_CORNERS]; /* those of the part that were asked for last */
+        gn_facet facet;                /* a surface that is shaded at once has no corners */
+    } from;
+    uint32_t corner_key[GN_CORNERS];       /* y * 2^16 + x; all ones: none */
+    uint32_t corner_used[GN_CORNERS], now; /* when they were, counted */
+    uint32_t next_corner;                  /* to be replaced */
+    uint8_t corner_at[8][8];               /* which of them is that of a pixel, by bits of y and x */
+    gn_split_cell split[4];                /* of 16, 8, 4 and 2 pixels, one in the other */
 #if GN_SHADOWS
     gn_window window[GN_WINDOWS];
 #endif
@@ -423,7 +421,7 @@ typedef struct {
 } gn_mixture;
 
 /* The tile, and the triangle at hand. */
-typedef struct {
+typedef struct gn_shading {
     const struct gn_frame *frame;
     struct gn_scratch *scratch;
     gn_rect rect;
