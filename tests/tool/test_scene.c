@@ -628,8 +628,8 @@ static void test_obj_errors(void)
     snprintf(text, sizeof text,
              "mtllib a.mtl b.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nv 0.2 0.2 0\nf 1 2 3 4\nf 1 2 3\nf 1 2 3 4\nf 1 2 3 4");
     if (CHECK_EQ_INT(load_text(TMP ".obj", text), 0)) {
-        CHECK(has_note("'a.mtl' cannot be opened") && has_note("'b.mtl'") && has_note("line 6: a concave polygon"));
-        CHECK(has_note("so are 2 more concave polygons") && !has_note("line 8"));
+        CHECK(has_note("'a.mtl' cannot be opened") && has_note("'b.mtl'"));
+        CHECK(s.n_remarks == 2 && s.meshes[0].n_triangles == 7);
         CHECK(!s.meshes[0].nrm && !s.meshes[0].rgb);
         scene_free(&s);
     }

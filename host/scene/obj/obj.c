@@ -1,13 +1,9 @@
 /* Wavefront OBJ: vertices, texture coordinates, normals and faces. Vertex colours (v x y z r g b) are taken as linear
- * light. Polygons are cut into fans, which is only right for convex ones (a note tells of others). */
+ * light. */
 #include "obj.h"
 
 #include <stdlib.h>
 #include <string.h>
-
-#include "../core/vec.h"
-
-enum { MAX_CORNERS = 4096 };
 
 /* As affine_z_up. */
 static void turn_up(const obj_file *o, double *v)
@@ -102,7 +98,7 @@ static bool read_corner(obj_file *o, obj_text *t, char *word, obj_corner *out)
     return *at == '\0' || obj_fail(t, "'%.40s' is not a corner of a face", word);
 }
 
-static bool add_triangle(obj_file *o, const obj_corner *a, const obj_corner *b, const obj_corner *c)
+bool obj_add_triangle(obj_file *o, const obj_corner *a, const obj_corner *b, const obj_corner *c)
 {
     obj_corner *corner = loader_grow(o->l, o->corner, o->n_triangles, 3 * sizeof *corner);
     uint32_t *material_of = loader_grow(o->l, o->material_of, o->n_triangles, sizeof *material_of);
@@ -119,45 +115,19 @@ static bool add_triangle(obj_file *o, const obj_corner *a, const obj_corner *b, 
     return true;
 }
 
-static void fan_normal(const obj_file *o, const obj_corner *corners, size_t i, double *out)
-{
-    double u[3], v[3];
-    vec_sub(u, o->v + 3 * (size_t)corners[i].v, o->v + 3 * (size_t)corners[0].v);
-    vec_sub(v, o->v + 3 * (size_t)corners[i + 1].v, o->v + 3 * (size_t)corners[0].v);
-    vec_cross(out, u, v);
-}
-
-/* A fan is wrong where one of its triangles turns against the sum of all. */
-static bool fan_folds(const obj_file *o, const obj_corner *corners, size_t n)
-{
-    double sum[3] = {0, 0, 0}, normal[3];
-    for (size_t i = 1; i + 1 < n; i++) {
-        fan_normal(o, corners, i, normal);
-        for (int k = 0; k < 3; k++) sum[k] += normal[k];
-    }
-    for (size_t i = 1; i + 1 < n; i++) {
-        fan_normal(o, corners, i, normal);
-        if (vec_dot(normal, sum) < -1e-9 * vec_dot(sum, sum)) return true;
-    }
-    return false;
-}
-
 static bool read_face(obj_file *o, obj_text *t)
 {
-    obj_corner corners[MAX_CORNERS];
+    obj_corner corners[OBJ_MAX_CORNERS];
     size_t n = 0;
     for (char *word = obj_next_word(t); word; word = obj_next_word(t)) {
-        if (n == MAX_CORNERS) return obj_fail(t, "a face of more than %d corners", MAX_CORNERS);
+        if (n == OBJ_MAX_CORNERS) return obj_fail(t, "a face of more than %d corners", OBJ_MAX_CORNERS);
         if (!read_corner(o, t, word, &corners[n++])) return false;
     }
     if (n < 3) return loader_remark(t->l, "faces of less than 3 corners are left out");
-    if (n > 3 && fan_folds(o, corners, n) && o->n_concave++ == 0 &&
-        !obj_remark(t, "a concave polygon is cut into a fan: it may look wrong"))
-        return false;
-    for (size_t i = 1; i + 1 < n; i++) {
-        if (!add_triangle(o, &corners[0], &corners[i], &corners[i + 1])) return false;
-    }
-    return true;
+    bool crosses;
+    if (!obj_cut_polygon(o, corners, n, &crosses)) return false;
+    return !crosses || o->n_crossing++ > 0 ||
+           obj_remark(t, "a polygon crosses itself, or there are too many large ones: it may look wrong");
 }
 
 /* Without a name, as the format has it: from here on no material. */
@@ -231,6 +201,6 @@ bool obj_load(loader *l)
         if (!read_statement(&o, &t)) return false;
     }
     if (o.n_triangles == 0) return loader_fail(l, "%s: the file has no faces", l->path);
-    if (o.n_concave > 1 && !loader_remark(l, "so are %zu more concave polygons", o.n_concave - 1)) return false;
+    if (o.n_crossing > 1 && !loader_remark(l, "so may %zu more polygons", o.n_crossing - 1)) return false;
     return obj_note_undefined_materials(&o) && obj_emit(&o);
 }
