@@ -106,8 +106,10 @@ static const change gltf_errors[] = {
     {"\"2.0\"", "2", "/asset/version: a string"},
     {"d\":[\"KHR_lights_punctual\"]", "d\":[\"KHR_draco\"]",
      "the required extension KHR_draco is not supported: export without compression"},
-    {"d\":[\"KHR_lights_punctual\"]", "d\":[\"KHR_texture_basisu\"]",
-     "/extensionsRequired/0: the required extension KHR_texture_basisu is not supported: export textures as PNG"},
+    {"d\":[\"KHR_lights_punctual\"]", "d\":[\"EXT_meshopt_compression\"]",
+     "EXT_meshopt_compression is not supported: export without compression"},
+    {"d\":[\"KHR_lights_punctual\"]", "d\":[\"EXT_mesh_gpu_instancing\"]",
+     "/extensionsRequired/0: the required extension EXT_mesh_gpu_instancing is not supported"},
     {"d\":[\"KHR_lights_punctual\"]", "d\":[1]", "/extensionsRequired/0: a string"},
     {"\"scene\":0", "\"scene\":1", "/scene: there are only 1"},
     {"\"scene\":0", "\"scene\":-1", "/scene: an integer"},
@@ -236,6 +238,9 @@ static const change gltf_errors[] = {
 /* What is accepted, with a note. */
 static const change gltf_notes[] = {
     {"\"KHR_materials_unlit\"]", "\"EXT_fog\"]", "extension EXT_fog ignored"},
+    {"d\":[\"KHR_lights_punctual\"]", "d\":[\"KHR_texture_basisu\"]",
+     "extension KHR_texture_basisu ignored: it is not supported, export textures as PNG"},
+    {"\"path\":\"scale\"", "\"path\":\"pointer\"", "KHR_animation_pointer ignored"},
     {"\"mode\":4", "\"mode\":4,\"targets\":[]", "morph targets"},
     {"\"pbrMetallicRoughness\":{", "\"pbrMetallicRoughness\":{\"metallicRoughnessTexture\":{},",
      "metallic-roughness texture of material 'paint' ignored: only base colour"},

@@ -349,14 +349,6 @@ static void test_instances(void)
     scene_free(&s);
 }
 
-static bool has_remark(const char *part)
-{
-    for (size_t i = 0; i < s.n_remarks; i++) {
-        if (strstr(s.remarks[i], part)) return has_note(part);
-    }
-    return false;
-}
-
 /* A node that the scene names although it is a child: drawn once, by its own transform, whether its parent is shown,
  * too; what is below it goes with it. */
 static void test_named_children(void)

@@ -74,6 +74,7 @@ static bool read_target(gltf *g, const json_value *target, channel *out)
     out->node = &g->node[node];
     if (strcmp(path, "weights") == 0)
         return loader_remark(g->l, "animation of morph weights ignored: it is not supported");
+    if (strcmp(path, "pointer") == 0) return loader_remark(g->l, "animation by KHR_animation_pointer ignored");
     bool translation = strcmp(path, "translation") == 0, rotation = strcmp(path, "rotation") == 0;
     if (!translation && !rotation && strcmp(path, "scale") != 0)
         return gltf_fail(g, target, "path '%s' is unknown", path);

@@ -45,19 +45,26 @@ static bool read_position(gltf *g, const json_value *attributes, scene_mesh *out
     return check_range(g, where, &a, "coordinate");
 }
 
-/* Float or normalised, of a fixed number of components. */
-static bool read_real(gltf *g, const json_value *attributes, const char *name, size_t n_components, size_t n_vertices,
-                      double **out)
+/* Of a fixed number of components. */
+static bool read_numbers(gltf *g, const json_value *attributes, const char *name, size_t n_components,
+                         size_t n_vertices, bool any_integer, double **out)
 {
     gltf_array a;
     if (!read_attribute(g, attributes, name, n_vertices, &a)) return false;
     *out = a.values;
     if (!a.values) return true;
-    if (a.n_components != n_components || !is_float_or_normalized(&a)) {
+    if (a.n_components != n_components || !(any_integer || is_float_or_normalized(&a))) {
         return gltf_fail(g, json_get(attributes, name), "VEC%zu of float or normalized integers is expected",
                          n_components);
     }
     return check_range(g, json_get(attributes, name), &a, "value");
+}
+
+/* Float or normalised. */
+static bool read_real(gltf *g, const json_value *attributes, const char *name, size_t n_components, size_t n_vertices,
+                      double **out)
+{
+    return read_numbers(g, attributes, name, n_components, n_vertices, false, out);
 }
 
 static bool read_colour(gltf *g, const json_value *attributes, scene_mesh *out)
@@ -89,7 +96,8 @@ static void transform(double *uv, size_t n, const gltf_uv_transform *t)
 static bool read_texture_coordinates(gltf *g, const json_value *attributes, const gltf_wants *wants, scene_mesh *out)
 {
     const char *name = wants->uv_set == 1 ? "TEXCOORD_1" : "TEXCOORD_0";
-    if (wants->uv_set != GLTF_NONE && !read_real(g, attributes, name, 2, out->n_vertices, &out->uv)) return false;
+    if (wants->uv_set != GLTF_NONE && !read_numbers(g, attributes, name, 2, out->n_vertices, true, &out->uv))
+        return false; /* any integer: of KHR_mesh_quantization */
     if (out->uv) {
         transform(out->uv, out->n_vertices, wants->uv);
         const gltf_array moved = {.count = out->n_vertices, .n_components = 2, .values = out->uv};
