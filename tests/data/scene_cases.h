@@ -291,21 +291,22 @@ static const struct {
     {"vt\n", "vt takes 2"},
     {"vt 1 2 3 4\n", "more than 3"},
     {"v 0 0 0\nf 1 1 1/x\n", "index of a texture coordinate is missing"},
-    {"mtllib # x\n", "mtllib without"},
 };
 
 static const struct {
     const char *text, *why;
+    double red; /* of material a */
 } mtl_errors[] = {
-    {"Kd 1 1 1\n", ".mtl:1: Kd before any newmtl"},
-    {"newmtl\n", "newmtl without"},
-    {"newmtl a\nKd 1 2\n", ".mtl:2: Kd takes 3"},
-    {"newmtl a\nKd 1 2 red\n", "'red' is not"},
-    {"newmtl a\nd\n", "d takes a number"},
-    {"newmtl a\nTr 1 2\n", "more than 1"},
-    {"newmtl a\nmap_Kd\n", "map_Kd without"},
-    {"map_Kd a.png\n", "map_Kd before any newmtl"},
-    {"newmtl a\nmap_Kd -s 1 1 1 -clamp on\n", "map_Kd without"},
+    {"Kd 1 1 1\nd 0.5\n", "line 1: Kd before any newmtl", 0.8},
+    {"newmtl\nKd 1 0 0\nnewmtl a\nKd 0.5 0 0\n", "line 1: newmtl without a name", 0.5},
+    {"newmtl a\nKd 0.5 0 0\nnewmtl # b\nKd 1 0 0\n", "line 3: newmtl without a name", 0.5},
+    {"newmtl a\nKd 0.5 0 0\nKd 1 2\n", "line 3: Kd takes 3", 0.5},
+    {"newmtl a\nKd 1 2 red\nKd 0.25 0 0\n", "'red' is not", 0.25},
+    {"newmtl a\nd\n", "d takes a number", 0.8},
+    {"newmtl a\nTr 1 2\n", "more than 1", 0.8},
+    {"newmtl a\nmap_Kd\n", "map_Kd without", 0.8},
+    {"map_Kd a.png\n", "map_Kd before any newmtl", 0.8},
+    {"newmtl a\nmap_Kd -s 1 1 1 -clamp on\n", "map_Kd without", 0.8},
 };
 
 #endif

@@ -192,7 +192,8 @@ bool obj_load(loader *l)
     obj_text t;
     uint8_t *bytes;
     size_t n_bytes;
-    if (!loader_read_file(l, l->path, &bytes, &n_bytes) || !obj_open(&t, l, l->path, bytes, n_bytes)) return false;
+    if (!loader_read_file(l, l->path, &bytes, &n_bytes) || !obj_open(&t, l, l->path, bytes, n_bytes, false))
+        return false;
     o.object_word = find_object_word(l, bytes, n_bytes);
     if (!begin_object(&o, "")) return false;
     if (!obj_find_material(&o, &t, "default", &o.current_material)) return false;

@@ -12,12 +12,14 @@ typedef struct {
     const char *path;
     char *next; /* behind the current line */
     char *end;
-    char *at;       /* within the current line, which is zero-terminated */
-    size_t line;    /* number of its first line */
-    size_t n_lines; /* lines read so far */
+    char *at;        /* within the current line, which is zero-terminated */
+    size_t line;     /* number of its first line */
+    size_t n_lines;  /* lines read so far */
+    bool forgiving;  /* obj_fail does not end the load: it sets ... */
+    char wrong[512]; /* ... what is wrong with the line, or the file; else empty */
 } obj_text;
 
-bool obj_open(obj_text *t, loader *l, const char *path, uint8_t *bytes, size_t n_bytes);
+bool obj_open(obj_text *t, loader *l, const char *path, uint8_t *bytes, size_t n_bytes, bool forgiving);
 /* The next line that is not empty, without comment; backslash at a line's end joins it with the next. */
 bool obj_next_line(obj_text *t);
 /* The next blank-separated word, or NULL. */

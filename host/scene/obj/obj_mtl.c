@@ -1,5 +1,5 @@
 /* OBJ materials: Kd, taken as linear light as it stands (the format does not say, and exporters differ), its
- * texture, and opacity. */
+ * texture, and opacity. What is wrong in them is a remark. */
 #include "obj.h"
 
 #include <stdio.h>
@@ -152,24 +152,41 @@ static bool read_map(obj_file *o, obj_text *t, obj_material *material)
     return material->texture_idx != SCENE_NONE || load_texture(o, t, path, &use, &material->texture_idx);
 }
 
+/* What stands before any material, or behind one without a name, is of a material that no face can name. */
+enum { UNNAMED = OBJ_NONE - 1 };
+
 static bool read_statement(obj_file *o, obj_text *t, const char *word, uint32_t *current)
 {
     if (strcmp(word, "newmtl") == 0) {
         const char *name = obj_rest(t);
+        *current = UNNAMED;
         if (!*name) return obj_fail(t, "newmtl without a name");
         if (!obj_find_material(o, t, name, current)) return false;
         o->material[*current].defined = true;
         return true;
     }
-    obj_material *material = *current != OBJ_NONE ? &o->material[*current] : NULL;
     bool kd = strcmp(word, "Kd") == 0, d = strcmp(word, "d") == 0, tr = strcmp(word, "Tr") == 0;
     bool map = strcmp(word, "map_Kd") == 0, map_d = strcmp(word, "map_d") == 0;
     if (!(kd || d || tr || map || map_d)) return true; /* gloss and the like: nothing here could show it */
-    if (!material) return obj_fail(t, "%s before any newmtl", word);
+    if (*current == UNNAMED) return true;
+    if (*current == OBJ_NONE) {
+        *current = UNNAMED;
+        return obj_fail(t, "%s before any newmtl", word);
+    }
+    obj_material *material = &o->material[*current];
     if (kd) return read_kd(t, material);
     if (d || tr) return read_opacity(t, material, word);
     if (map) return read_map(o, t, material);
     return loader_remark(t->l, "opacity texture of material '%s' ignored: it is not supported", material->name);
+}
+
+/* A remark on what is wrong. False: it is something else. */
+static bool forgive(obj_text *t, const char *result)
+{
+    bool ok = t->wrong[0] &&
+              loader_remark(t->l, "material library '%.200s' line %zu: %s: %s", t->path, t->line, t->wrong, result);
+    t->wrong[0] = '\0';
+    return ok;
 }
 
 /* A missing library is a remark: the shape is worth showing without its colours. */
@@ -194,11 +211,12 @@ static bool read_library(obj_file *o, const char *name, const char **missing)
     if (!loader_try_file(o->l, path, &bytes, &n_bytes, missing)) return false;
     if (*missing) return true;
     const char **grown = loader_grow(o->l, o->library, o->n_libraries, sizeof *grown);
-    if (!grown || !obj_open(&t, o->l, path, bytes, n_bytes)) return false;
+    if (!grown) return false;
     o->library = grown;
     o->library[o->n_libraries++] = path;
+    if (!obj_open(&t, o->l, path, bytes, n_bytes, true)) return forgive(&t, "its colours are missing");
     while (obj_next_line(&t)) {
-        if (!read_statement(o, &t, obj_next_word(&t), &current)) return false;
+        if (!read_statement(o, &t, obj_next_word(&t), &current) && !forgive(&t, "the line is ignored")) return false;
     }
     return true;
 }
@@ -208,7 +226,7 @@ bool obj_read_libraries(obj_file *o, obj_text *t)
 {
     const char *missing;
     char *rest = obj_rest(t);
-    if (!*rest) return obj_fail(t, "mtllib without a name");
+    if (!*rest) return obj_remark(t, "mtllib without a name: colours are missing");
     if (!read_library(o, rest, &missing)) return false;
     if (!missing) return true;
     t->at = rest;
