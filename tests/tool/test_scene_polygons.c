@@ -1,6 +1,9 @@
 /* Faces of OBJ files of more than three corners: concave ones, corners in line, holes with a bridge, and what crosses
  * itself. Run from the project's folder. */
-#define TMP "build/tmp/test_scene_polygons"
+#define _POSIX_C_SOURCE 200809L
+#define TMP             "build/tmp/test_scene_polygons"
+
+#include <sys/stat.h>
 
 #include "data/scene_fixture.h"
 #include "rng.h"
@@ -237,6 +240,8 @@ static void test_large(void)
 
 int main(void)
 {
+    mkdir("build", 0777);
+    mkdir("build/tmp", 0777);
     test_shapes();
     test_stars();
     test_spiral();

@@ -189,7 +189,8 @@ bool gltf_keep_poses(gltf *g, const json_value *used_scene)
     scene_poses p = {.n = count_poses(g, n_frames), .n_affines = poses_count_affines(s), .n_lights = s->n_lights};
     p.affines = loader_alloc(g->l, (p.n + 1) * p.n_affines, sizeof *p.affines);
     p.light = loader_alloc(g->l, p.n * p.n_lights + 1, sizeof *p.light);
-    if (!p.affines || !p.light) return false;
+    if (g->l->has_camera) p.camera = loader_alloc(g->l, p.n, sizeof *p.camera);
+    if (!p.affines || !p.light || (g->l->has_camera && !p.camera)) return false;
     poses_store(&p, p.n, s);
     s->stage = (scene_stage){.moves = true, .camera = s->camera.to_world};
     for (size_t i = 0; i < p.n; i++) {
@@ -201,9 +202,9 @@ bool gltf_keep_poses(gltf *g, const json_value *used_scene)
         poses_store(&p, i, s);
         for (size_t k = 0; k < p.n_lights; k++)
             affine_column(p.light[i * p.n_lights + k], &g->node[s->lights[k].node_idx].world, 3);
-        if (i == 0 && g->l->has_camera && !gltf_camera_axes(g, &g->node[g->camera_node], &s->stage.camera))
-            return false;
+        if (p.camera && !gltf_camera_axes(g, &g->node[g->camera_node], &p.camera[i])) return false;
     }
+    if (p.camera) s->stage.camera = p.camera[0];
     poses_apply(&p, p.n, s);
     g->l->poses = p;
     return true;
