@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "bounds.h"
+#include "place.h"
 #include "vec.h"
 #include "view_range.h"
 
@@ -361,7 +362,10 @@ bool loader_add_defaults(loader *l)
     static const double ambient[3] = {0.18, 0.18, 0.18}, background[3] = {0.35, 0.45, 0.6};
     scene *s = l->s;
     bounds b;
-    if (!find_bounds(l, &b) || !remark_on_up(l, &b) || !lights_dim(l, b.centre, b.radius)) return false;
+    bool changed;
+    if (!find_bounds(l, &b) || !place_objects(l, &b, &changed) || (changed && !find_bounds(l, &b)) ||
+        !remark_on_up(l, &b) || !lights_dim(l, b.centre, b.radius))
+        return false;
     const floor_parts parts = find_floor(l, &b);
     l->wants_ground = decide_ground(l, &b, &parts);
     s->added = (scene_added){.ground = l->wants_ground, .camera = !l->has_camera, .light = s->n_lights == 0};

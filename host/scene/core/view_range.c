@@ -53,7 +53,7 @@ static void cut_to_view(polygon *p, const scene_camera *camera, double aspect)
     const bool parallel = camera->half_height > 0;
     const double side = aspect * (parallel ? camera->half_height : 1 / camera->focal), half = side / aspect;
     const double planes[4][3] = {{1, 0, side}, {-1, 0, side}, {0, 1, half}, {0, -1, half}};
-    cut(p, (const double[3]){0, 0, 1}, camera->near);
+    cut(p, (const double[3]){0, 0, 1}, fmax(camera->near, 1e-100)); /* its square is a number */
     for (int i = 0; i < 4 && p->n > 0; i++) {
         const double *a = planes[i];
         if (parallel) cut(p, (const double[3]){a[0], a[1], 0}, -a[2]);

@@ -139,7 +139,9 @@ static bool load_json(loader *l, const char *text, size_t n_bytes, gltf_bytes gl
 {
     json_doc doc;
     char error[200];
-    if (json_parse(&doc, text, n_bytes, error, sizeof error) != 0) return loader_fail(l, "%s:%s", l->path, error);
+    const size_t mark = n_bytes >= 3 && memcmp(text, "\xEF\xBB\xBF", 3) == 0 ? 3 : 0; /* of UTF-8 */
+    if (json_parse(&doc, text + mark, n_bytes - mark, error, sizeof error) != 0)
+        return loader_fail(l, "%s:%s", l->path, error);
     gltf g = {.l = l, .root = doc.root, .glb = glb, .fps = DEFAULT_FPS};
     const json_value *used_scene;
     bool ok = check_asset(&g) && find_arrays(&g) && spend_arrays(&g, &doc) && gltf_load_buffers(&g) &&

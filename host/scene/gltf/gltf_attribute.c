@@ -11,7 +11,11 @@ static bool read_attribute(gltf *g, const json_value *attributes, const char *na
     *out = (gltf_array){0};
     if (!gltf_get_ref(g, attributes, name, g->accessors, &accessor)) return false;
     if (accessor == GLTF_NONE) return true;
-    if (!gltf_read_accessor(g, accessor, out)) return false;
+    const bool must = strcmp(name, "POSITION") == 0; /* a shape can do without the others */
+    if (!(must ? gltf_read_accessor(g, accessor, out) : gltf_read_loosely(g, accessor, out))) return false;
+    if (out->n_not_finite > 0 &&
+        !loader_remark(g->l, "%zu numbers of a %s are not finite: 0 is taken", out->n_not_finite, name))
+        return false;
     if (n_vertices != 0 && out->count != n_vertices) {
         return gltf_fail(g, json_get(attributes, name), "%zu elements, but POSITION has %zu", out->count, n_vertices);
     }
@@ -67,15 +71,22 @@ static bool read_real(gltf *g, const json_value *attributes, const char *name, s
     return read_numbers(g, attributes, name, n_components, n_vertices, false, out);
 }
 
+/* Integers that nobody said to be normalised, and which cannot be meant otherwise. */
+static bool normalise(gltf *g, gltf_array *a, const char *mesh_name)
+{
+    const double most = a->component_type == GLTF_UBYTE ? 255 : a->component_type == GLTF_USHORT ? 65535 : 1;
+    for (size_t i = 0; i < a->count * a->n_components; i++) a->values[i] /= most;
+    return loader_remark(g->l, "vertex colours of '%s' are integers that are not normalized: taken for %gths",
+                         mesh_name, most);
+}
+
 static bool read_colour(gltf *g, const json_value *attributes, scene_mesh *out)
 {
     gltf_array a;
     if (!read_attribute(g, attributes, "COLOR_0", out->n_vertices, &a)) return false;
     if (!a.values) return true;
-    if (a.n_components < 3 || !is_float_or_normalized(&a)) {
-        return gltf_fail(g, json_get(attributes, "COLOR_0"),
-                         "VEC3 or VEC4 of float or normalized integers is expected");
-    }
+    if (a.n_components < 3) return gltf_fail(g, json_get(attributes, "COLOR_0"), "VEC3 or VEC4 is expected");
+    if (!is_float_or_normalized(&a) && !normalise(g, &a, out->name)) return false;
     out->rgb = a.values;
     for (size_t i = 1; a.n_components == 4 && i < a.count; i++)
         memmove(a.values + 3 * i, a.values + 4 * i, 3 * sizeof *a.values);

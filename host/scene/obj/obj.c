@@ -2,8 +2,11 @@
  * light. */
 #include "obj.h"
 
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
+
+enum { OBJ_MAX_NUMBERS = 16 }; /* of a statement */
 
 /* As affine_z_up. */
 static void turn_up(const obj_file *o, double *v)
@@ -14,12 +17,13 @@ static void turn_up(const obj_file *o, double *v)
     v[2] = -y;
 }
 
+/* x y z, then a weight, a colour or both; what else there is does not count. */
 static bool read_vertex(obj_file *o, obj_text *t)
 {
-    double x[7];
+    double x[OBJ_MAX_NUMBERS];
     size_t n;
-    if (!obj_numbers(t, x, 7, &n)) return false;
-    if (n != 3 && n != 4 && n != 6 && n != 7) return obj_fail(t, "v takes 3 numbers, and 3 more for a colour");
+    if (!obj_numbers(t, x, OBJ_MAX_NUMBERS, &n)) return false;
+    if (n < 3) return obj_fail(t, "v takes 3 numbers, and 3 more for a colour");
     if (!obj_spend(t, BUDGET_VERTICES, 1)) return false;
     double *v = loader_grow(o->l, o->v, o->n_v, 3 * sizeof *v),
            *rgb = loader_grow(o->l, o->rgb, o->n_v, 3 * sizeof *rgb);
@@ -28,35 +32,64 @@ static bool read_vertex(obj_file *o, obj_text *t)
     o->rgb = rgb;
     turn_up(o, x);
     memcpy(v + 3 * o->n_v, x, 3 * sizeof *v);
+    const bool coloured = n == 6 || n == 7;
     for (size_t i = 0; i < 3; i++)
-        rgb[3 * o->n_v + i] = n < 6 ? 1 : x[n - 3 + i]; /* 4 and 7: a weight, which is ignored */
-    o->has_rgb = o->has_rgb || n >= 6;
-    if (!loader_clamp_colour(rgb + 3 * o->n_v, 3) && !loader_note(o->l, "vertex colours outside 0..1 are clamped"))
-        return false;
+        rgb[3 * o->n_v + i] = coloured ? x[n - 3 + i] : HUGE_VAL; /* none: see finish_colours */
+    o->has_rgb = o->has_rgb || coloured;
     o->n_v++;
-    return true;
+    return n <= 4 || coloured || loader_note(o->l, "numbers of vertices beyond place, weight and colour are ignored");
+}
+
+/* Colours that are all whole numbers and go far beyond 1 are of 255 levels. Vertices without one are white. */
+static bool finish_colours(obj_file *o)
+{
+    const size_t n = 3 * o->n_v;
+    double most = 0, scale = 1;
+    bool whole = true, clamped = false;
+    for (size_t i = 0; i < n; i++) {
+        if (isinf(o->rgb[i])) continue;
+        most = fmax(most, o->rgb[i]);
+        whole = whole && !(fabs(o->rgb[i] - floor(o->rgb[i])) > 0);
+    }
+    if (whole && most > 15 && most <= 255) scale = 1.0 / 255;
+    for (size_t i = 0; i < n; i++) {
+        o->rgb[i] = isinf(o->rgb[i]) ? 1 : o->rgb[i] * scale;
+        clamped = !loader_clamp_colour(&o->rgb[i], 1) || clamped;
+    }
+    if (scale < 1 && !loader_remark(o->l, "vertex colours go up to %g: they are taken for 255ths", most)) return false;
+    return !clamped || loader_note(o->l, "vertex colours outside 0..1 are clamped");
+}
+
+/* Of a normal or texture coordinates, which others must be able to name: 0 where they are none. */
+static bool read_or_zero(obj_text *t, double *out, size_t n_least, const char *what)
+{
+    size_t n;
+    t->forgiving = true;
+    const bool ok = obj_numbers(t, out, OBJ_MAX_NUMBERS, &n) && (n >= n_least || obj_fail(t, "%s", what));
+    t->forgiving = false;
+    if (ok) return true;
+    for (size_t i = 0; i < OBJ_MAX_NUMBERS; i++) out[i] = 0;
+    if (!t->wrong[0]) return false;
+    t->wrong[0] = '\0';
+    return loader_remark(t->l, "%s: where they are not there, 0 is taken", what);
 }
 
 static bool read_normal(obj_file *o, obj_text *t)
 {
-    double x[3];
-    size_t n;
-    if (!obj_numbers(t, x, 3, &n)) return false;
-    if (n != 3) return obj_fail(t, "vn takes 3 numbers");
+    double x[OBJ_MAX_NUMBERS];
+    if (!read_or_zero(t, x, 3, "vn takes 3 numbers")) return false;
     double *vn = loader_grow(o->l, o->vn, o->n_vn, 3 * sizeof *vn);
     if (!vn) return false;
     o->vn = vn;
     turn_up(o, x);
-    memcpy(vn + 3 * o->n_vn++, x, sizeof x);
+    memcpy(vn + 3 * o->n_vn++, x, 3 * sizeof *x);
     return o->n_vn < INT32_MAX || obj_fail(t, "too many normals");
 }
 
 static bool read_texture_coordinate(obj_file *o, obj_text *t)
 {
-    double x[3] = {0, 0, 0};
-    size_t n;
-    if (!obj_numbers(t, x, 3, &n)) return false;
-    if (n < 1) return obj_fail(t, "vt takes 2 numbers");
+    double x[OBJ_MAX_NUMBERS] = {0};
+    if (!read_or_zero(t, x, 1, "vt takes 2 numbers")) return false;
     double *vt = loader_grow(o->l, o->vt, o->n_vt, 2 * sizeof *vt);
     if (!vt) return false;
     o->vt = vt;
@@ -65,15 +98,14 @@ static bool read_texture_coordinate(obj_file *o, obj_text *t)
 }
 
 /* One index of a corner: 1 is the first element, -1 the last one so far. A shape can do without normals and texture
- * coordinates that are not there, OBJ_NONE, but not without vertices. */
+ * coordinates that are not there, OBJ_NONE; without a vertex there is no face. */
 static bool read_index(obj_text *t, const char *word, char **end, size_t n, const char *what, uint32_t *out)
 {
     if (strspn(word, "+-0123456789") == 0) return obj_fail(t, "an index of a %s is missing", what);
     long long value = strtoll(word, end, 10); /* saturates, and is then out of range */
     if (value < 0) value = value < -(long long)n ? 0 : value + (long long)n + 1;
     if (value < 1 || value > (long long)n) {
-        if (*what != 'v') return loader_remark(t->l, "corners that name a %s out of range have none", what);
-        return obj_fail(t, "%s index %.*s is out of range, there are %zu so far", what, (int)(*end - word), word, n);
+        return *what == 'v' || loader_remark(t->l, "corners that name a %s out of range have none", what);
     }
     *out = (uint32_t)(value - 1);
     return true;
@@ -119,10 +151,14 @@ static bool read_face(obj_file *o, obj_text *t)
 {
     obj_corner corners[OBJ_MAX_CORNERS];
     size_t n = 0;
+    bool lacks = false;
     for (char *word = obj_next_word(t); word; word = obj_next_word(t)) {
         if (n == OBJ_MAX_CORNERS) return obj_fail(t, "a face of more than %d corners", OBJ_MAX_CORNERS);
-        if (!read_corner(o, t, word, &corners[n++])) return false;
+        corners[n].v = OBJ_NONE;
+        if (!read_corner(o, t, word, &corners[n])) return false;
+        lacks = lacks || corners[n++].v == OBJ_NONE;
     }
+    if (lacks) return o->n_lost++ > 0 || obj_remark(t, "a face names a vertex that is out of range, and is left out");
     if (n < 3) return loader_remark(t->l, "faces of less than 3 corners are left out");
     bool crosses;
     if (!obj_cut_polygon(o, corners, n, &crosses)) return false;
@@ -201,7 +237,10 @@ bool obj_load(loader *l)
     while (obj_next_line(&t)) {
         if (!read_statement(&o, &t)) return false;
     }
+    if (o.n_triangles == 0 && o.n_lost > 0)
+        return loader_fail(l, "%s: all of the file's faces name vertices that are out of range", l->path);
     if (o.n_triangles == 0) return loader_fail(l, "%s: the file has no faces", l->path);
     if (o.n_crossing > 1 && !loader_remark(l, "so may %zu more polygons", o.n_crossing - 1)) return false;
-    return obj_note_undefined_materials(&o) && obj_emit(&o);
+    if (o.n_lost > 1 && !loader_remark(l, "so are %zu more faces that name such vertices", o.n_lost - 1)) return false;
+    return finish_colours(&o) && obj_note_undefined_materials(&o) && obj_emit(&o);
 }

@@ -75,6 +75,7 @@ typedef struct {
     uint32_t *object_of; /* per triangle */
     size_t n_objects;
     size_t n_crossing; /* faces */
+    size_t n_lost;     /* faces that name no vertex */
     size_t n_compared; /* corners with ears, see obj_polygon.c */
     obj_outline *flat; /* of the face that is being cut; NULL: none was yet */
     uint32_t current_object;

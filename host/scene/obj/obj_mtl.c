@@ -104,21 +104,37 @@ static bool read_map_options(obj_text *t, const obj_material *material, texture_
     return !other || obj_remark(t, "options of map_Kd of material '%s' ignored: only -clamp counts", material->name);
 }
 
+/* As written on Windows, or in quotes. */
+static void clean_name(char *name)
+{
+    const size_t n = strlen(name);
+    if (n >= 2 && name[0] == '"' && name[n - 1] == '"') {
+        memmove(name, name + 1, n - 2);
+        name[n - 2] = '\0';
+    }
+    for (char *c = name; *c; c++) *c = *c == '\\' ? '/' : *c;
+}
+
+/* Behind the last slash: what a path on another machine ends in may lie beside the scene. */
+static const char *last_part(const char *name)
+{
+    const char *slash = strrchr(name, '/');
+    return slash && slash[1] ? slash + 1 : name;
+}
+
+static const char outside[] = "is outside the folder of the scene, which only --outside allows";
+
 /* A texture that is not there, or damaged, is a remark: the shape is worth showing without its colours. */
 static bool lacks_texture(obj_text *t, const char *path, const char *why)
 {
     return loader_remark(t->l, "line %zu: texture '%.200s' %s: it is drawn without", t->line, path, why);
 }
 
-static bool load_texture(obj_file *o, obj_text *t, const char *path, const texture_use *use, size_t *out)
+static bool load_texture(obj_file *o, obj_text *t, const char *path, const uint8_t *bytes, size_t n_bytes,
+                         const texture_use *use, size_t *out)
 {
-    uint8_t *bytes = NULL;
-    size_t n_bytes = 0;
-    const char *missing;
     rgba8_picture picture;
     char problem[200];
-    if (!loader_try_file(o->l, path, &bytes, &n_bytes, &missing)) return false;
-    if (missing) return lacks_texture(t, path, missing);
     if (!picture_is(bytes, n_bytes))
         return lacks_texture(t, path, "ignored: only " PICTURE_FORMATS " images are supported");
     if (!texture_may_decode(o->l, path, bytes, n_bytes)) return false;
@@ -137,19 +153,34 @@ static size_t find_loaded(const scene *s, const char *path, const texture_use *u
     return SCENE_NONE;
 }
 
+/* *missing: why there is no such file; NULL: there is. *path: of it, or the name. */
+static bool read_map_at(obj_file *o, obj_text *t, const char *name, const texture_use *use, size_t *out,
+                        const char **path, const char **missing)
+{
+    uint8_t *bytes = NULL;
+    size_t n_bytes = 0;
+    *path = name;
+    *missing = loader_may_read(o->l, name) ? NULL : outside;
+    if (*missing) return true;
+    *path = loader_relative_path(o->l, name);
+    if (!*path) return false;
+    *out = find_loaded(o->l->s, *path, use);
+    if (*out != SCENE_NONE) return true;
+    if (!loader_try_file(o->l, *path, &bytes, &n_bytes, missing)) return false;
+    return *missing || load_texture(o, t, *path, bytes, n_bytes, use, out);
+}
+
 static bool read_map(obj_file *o, obj_text *t, obj_material *material)
 {
     texture_use use = {.bilinear = true};
     if (!read_map_options(t, material, &use)) return false;
     char *name = obj_rest(t);
     if (!*name) return obj_fail(t, "map_Kd without a name");
-    for (char *c = name; *c; c++) *c = *c == '\\' ? '/' : *c; /* as written on Windows */
-    if (!loader_may_read(o->l, name))
-        return lacks_texture(t, name, "is outside the folder of the scene, which only --outside allows");
-    const char *path = loader_relative_path(o->l, name);
-    if (!path) return false;
-    material->texture_idx = find_loaded(o->l->s, path, &use);
-    return material->texture_idx != SCENE_NONE || load_texture(o, t, path, &use, &material->texture_idx);
+    clean_name(name);
+    const char *path, *missing, *last = last_part(name), *beside, *none = outside;
+    if (!read_map_at(o, t, name, &use, &material->texture_idx, &path, &missing)) return false;
+    if (missing && last != name && !read_map_at(o, t, last, &use, &material->texture_idx, &beside, &none)) return false;
+    return !missing || !none || lacks_texture(t, path, missing);
 }
 
 /* What stands before any material, or behind one without a name, is of a material that no face can name. */
@@ -198,13 +229,13 @@ static bool is_read(const obj_file *o, const char *path)
     return false;
 }
 
-static bool read_library(obj_file *o, const char *name, const char **missing)
+static bool read_library_at(obj_file *o, const char *name, const char **missing)
 {
     uint8_t *bytes = NULL;
     size_t n_bytes = 0;
     uint32_t current = OBJ_NONE;
     obj_text t;
-    *missing = loader_may_read(o->l, name) ? NULL : "is outside the folder of the scene, which only --outside allows";
+    *missing = loader_may_read(o->l, name) ? NULL : outside;
     if (*missing) return true;
     const char *path = loader_relative_path(o->l, name);
     if (!path || is_read(o, path)) return path != NULL;
@@ -221,6 +252,16 @@ static bool read_library(obj_file *o, const char *name, const char **missing)
     return true;
 }
 
+static bool read_library(obj_file *o, char *name, const char **missing)
+{
+    clean_name(name);
+    const char *last = last_part(name), *none = outside;
+    if (!read_library_at(o, name, missing)) return false;
+    if (*missing && last != name && !read_library_at(o, last, &none)) return false;
+    if (!none) *missing = NULL;
+    return true;
+}
+
 /* The rest of the line is one name, which may hold blanks; if there is no such file, it is a list of names. */
 bool obj_read_libraries(obj_file *o, obj_text *t)
 {
@@ -230,7 +271,7 @@ bool obj_read_libraries(obj_file *o, obj_text *t)
     if (!read_library(o, rest, &missing)) return false;
     if (!missing) return true;
     t->at = rest;
-    for (const char *name = obj_next_word(t); name; name = obj_next_word(t)) {
+    for (char *name = obj_next_word(t); name; name = obj_next_word(t)) {
         if (!read_library(o, name, &missing)) return false;
         if (missing && !loader_remark(t->l, "line %zu: material library '%.200s' %s: its colours are missing", t->line,
                                       name, missing))

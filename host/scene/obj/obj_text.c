@@ -40,6 +40,8 @@ bool obj_open(obj_text *t, loader *l, const char *path, uint8_t *bytes, size_t n
     const size_t mark = n_bytes >= 3 && memcmp(bytes, "\xEF\xBB\xBF", 3) == 0 ? 3 : 0; /* of UTF-8 */
     *t = (obj_text){
         .l = l, .path = path, .next = (char *)bytes + mark, .end = (char *)bytes + n_bytes, .forgiving = forgiving};
+    if (!memchr(bytes, '\n', n_bytes)) /* of an old Macintosh */
+        for (size_t i = 0; i < n_bytes; i++) bytes[i] = bytes[i] == '\r' ? '\n' : bytes[i];
     const char *zero = memchr(bytes, 0, n_bytes);
     if (!zero) return true;
     for (const char *c = t->next; c < zero; c++) t->line += *c == '\n';
@@ -56,9 +58,9 @@ static bool take_physical_line(obj_text *t)
     t->n_lines++;
     *stop = ' ';
     while (stop > start && stop[-1] == '\r') *--stop = ' ';
-    bool joins = stop > start && stop[-1] == '\\' && t->next < t->end;
+    bool joins = stop > start && stop[-1] == '\\';
     if (joins) stop[-1] = ' ';
-    return joins;
+    return joins && t->next < t->end;
 }
 
 bool obj_next_line(obj_text *t)
