@@ -68,8 +68,8 @@ static bool local_transform(gltf *g, const gltf_node *node, scene_affine *out)
         return true;
     }
     for (int i = 0; i < 4; i++) length = fmax(length, fabs(node->rotation[i]));
-    if (!(length > 0)) return gltf_fail(g, node->json, "the rotation is zero");
-    for (int i = 0; i < 4; i++) q[i] = node->rotation[i] / length;
+    if (!(length > 0) && !loader_remark(g->l, "a rotation of a node is zero: none is taken")) return false;
+    for (int i = 0; i < 4; i++) q[i] = length > 0 ? node->rotation[i] / length : i == 3;
     length = sqrt(q[0] * q[0] + q[1] * q[1] + q[2] * q[2] + q[3] * q[3]);
     double x = q[0] / length, y = q[1] / length, z = q[2] / length, w = q[3] / length;
     const double r[3][3] = {{1 - 2 * (y * y + z * z), 2 * (x * y - z * w), 2 * (x * z + y * w)},
