@@ -273,7 +273,7 @@ static const struct {
     {"v 1 2 0x3\n", "is not a number"},
     {"v 1 2 1.2.3\n", "is not a number"},
     {"v 0 0 0\nf 1 1\n", "no faces"},
-    {"f 1 2 3\n", "all of the file's faces name vertices that are out of range"},
+    {"f 1 2 3\n", ":1: all faces name vertices that are out of range"},
     {"v 0 0 0\nf 1 1 x\n", "index of a vertex is missing"},
     {"v 0 0 0\nf 1 1 1///\n", "index of a normal"},
     {"v 0 0 0\nvt 0 0\nvn 1 0 0\nf 1 1 1/1/1/1\n", "not a corner"},

@@ -238,7 +238,8 @@ bool obj_load(loader *l)
         if (!read_statement(&o, &t)) return false;
     }
     if (o.n_triangles == 0 && o.n_lost > 0)
-        return loader_fail(l, "%s: all of the file's faces name vertices that are out of range", l->path);
+        return loader_fail(l, "%s:%zu: all faces name vertices that are out of range, from this one on", l->path,
+                           o.lost_line);
     if (o.n_triangles == 0) return loader_fail(l, "%s: the file has no faces", l->path);
     if (o.n_crossing > 1 && !loader_remark(l, "so may %zu more polygons", o.n_crossing - 1)) return false;
     if (o.n_lost > 1 && !loader_remark(l, "so are %zu more faces that name such vertices", o.n_lost - 1)) return false;

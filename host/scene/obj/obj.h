@@ -74,10 +74,10 @@ typedef struct {
     obj_object *object;  /* [0]: what is before any, or all of a file whose objects are not told apart */
     uint32_t *object_of; /* per triangle */
     size_t n_objects;
-    size_t n_crossing; /* faces */
-    size_t n_lost;     /* faces that name no vertex */
-    size_t n_compared; /* corners with ears, see obj_polygon.c */
-    obj_outline *flat; /* of the face that is being cut; NULL: none was yet */
+    size_t n_crossing;        /* faces */
+    size_t n_lost, lost_line; /* faces that name no vertex; the first */
+    size_t n_compared;        /* corners with ears, see obj_polygon.c */
+    obj_outline *flat;        /* of the face that is being cut; NULL: none was yet */
     uint32_t current_object;
     char object_word; /* of the statements that begin objects: 'o', of files without them 'g'; 0: none does */
     uint32_t bucket[OBJ_BUCKETS]; /* materials by name: the first of each, 1 + index */
