@@ -158,6 +158,7 @@ static bool read_face(obj_file *o, obj_text *t)
         if (!read_corner(o, t, word, &corners[n])) return false;
         lacks = lacks || corners[n++].v == OBJ_NONE;
     }
+    if (lacks && o->n_lost == 0) o->lost_line = t->line;
     if (lacks) return o->n_lost++ > 0 || obj_remark(t, "a face names a vertex that is out of range, and is left out");
     if (n < 3) return loader_remark(t->l, "faces of less than 3 corners are left out");
     bool crosses;
