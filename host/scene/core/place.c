@@ -205,6 +205,6 @@ bool place_objects(loader *l, const bounds *b, bool *changed)
     *changed = true;
     for (size_t i = 0; i < l->s->n_meshes; i++) centre_mesh(l, i);
     move_scene(l, b->centre);
-    return loader_note(l, "the scene is far from the origin, at %g %g %g: it is moved there", b->centre[0],
+    return loader_note(l, "the scene is far from the origin, at %g %g %g: it is moved to it", b->centre[0],
                        b->centre[1], b->centre[2]);
 }

@@ -223,7 +223,10 @@ bool gltf_keep_poses(gltf *g, const json_value *used_scene)
         poses_store(&p, i, s);
         for (size_t k = 0; k < p.n_lights; k++)
             affine_column(p.light[i * p.n_lights + k], &g->node[s->lights[k].node_idx].world, 3);
-        if (p.camera && !gltf_camera_axes(g, &g->node[g->camera_node], &p.camera[i])) return false;
+        if (p.camera && !gltf_camera_axes(g, &g->node[g->camera_node], &p.camera[i])) {
+            if (i == 0) return false;
+            p.camera[i] = p.camera[i - 1]; /* without a direction in that frame alone */
+        }
     }
     if (p.camera) s->stage.camera = p.camera[0];
     poses_apply(&p, p.n, s);
