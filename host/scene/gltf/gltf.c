@@ -44,7 +44,9 @@ static bool check_extension(gltf *g, const json_value *name, bool required)
     if (required && !changes_no_shape(name->string))
         return gltf_fail(g, name, "the required extension %s is not supported%s", name->string,
                          remedy_of(name->string));
-    return loader_remark(g->l, "extension %s ignored: it is not supported%s", name->string,
+    const bool older = strcmp(name->string, "KHR_materials_pbrSpecularGlossiness") == 0;
+    return loader_remark(g->l, "extension %s ignored%s: it is not supported%s", name->string,
+                         older ? " but for diffuse colours" : "",
                          strstr(name->string, "_texture_") ? ", export textures as PNG or JPEG" : "");
 }
 
