@@ -179,12 +179,13 @@ double ref_dither_noise(int x, int y)
     return frac(52.9829189 * frac(0.06711056 * (x + 0.5) + 0.00583715 * (y + 0.5)));
 }
 
-/* Clip cuts below the cutoff, dither below the noise. [M1] [M8] */
+/* Clip cuts below the cutoff, dither below the noise. An alpha that equals the cutoff may have been rounded below it,
+ * as a mix of equal texels or a product: it is kept. [M1] [M8] */
 bool ref_alpha_cuts(scene_alpha mode, double alpha, double cutoff, int x, int y)
 {
     switch (mode) {
     case SCENE_ALPHA_CLIP:
-        return alpha < cutoff;
+        return alpha < cutoff - 1e-12;
     case SCENE_ALPHA_DITHER:
     case SCENE_ALPHA_BLEND: /* without layers */
         return alpha < ref_dither_noise(x, y);

@@ -15,7 +15,7 @@ static double passes(const scene *s, const ref_triangle *t, const double bary[3]
 {
     switch (t->object->caster) {
     case SCENE_CASTER_CLIP:
-        return ref_alpha(s, t, bary) < t->object->alpha_cutoff ? 1.0 : 0.0;
+        return ref_alpha_cuts(SCENE_ALPHA_CLIP, ref_alpha(s, t, bary), t->object->alpha_cutoff, 0, 0) ? 1.0 : 0.0;
     case SCENE_CASTER_DITHER:
         return 1.0 - clamp(ref_alpha(s, t, bary), 0.0, 1.0);
     case SCENE_CASTER_OFF:

@@ -173,7 +173,7 @@ static int draw_scene(const tool_options *o, scene *s, const settings *set, char
 {
     engine_picture p;
     if (draw(&p, o, s, set, error, bytes)) return -1;
-    int failed = remarks_on_lights(s, error, bytes) || remarks_on_shadows(s, o->width, o->height, error, bytes);
+    int failed = remarks_on_lights(s, error, bytes) || remarks_on_shadows(s, error, bytes);
     if (!failed) {
         shown.rgb8 = view_draw(&p, (view_kind)o->view, o->light, &shown.width, &shown.height, error, bytes);
         failed = !shown.rgb8;

@@ -46,6 +46,14 @@ static inline int has_note(const char *part)
     return 0;
 }
 
+static inline int has_remark(const char *part)
+{
+    for (size_t i = 0; i < s.n_remarks; i++) {
+        if (strstr(s.remarks[i], part)) return has_note(part);
+    }
+    return 0;
+}
+
 static inline int is_empty(void)
 {
     return !s.meshes && !s.textures && !s.objects && !s.lights && !s.settings && !s.notes &&

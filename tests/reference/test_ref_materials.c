@@ -155,6 +155,45 @@ static void test_visible_alpha(void)
         }
 }
 
+/* Texels whose alpha equals the cutoff, filtered and times the object's: kept, as seen and as cast; just below it: cut.
+ */
+static void test_alpha_at_cutoff(void)
+{
+    static const struct {
+        uint8_t texel;
+        double alpha, cutoff;
+    } cases[] = {{51, 1, 0.2}, {204, 1, 0.8}, {51, 0.7, 0.14}, {255, 0.3, 0.3}, {128, 1, 128 / 255.0}};
+    const double behind[12] = {-99, -99, -8, 99, -99, -8, 99, 99, -8, -99, 99, -8},
+                 uv[8] = {0.1, 3, 2, 1, 1, 0, 0, 0.3};
+    for (size_t c = 0; c < sizeof cases / sizeof *cases; c++)
+        for (int above = 0; above < 2; above++) {
+            uint8_t rgba[4 * 15];
+            fixture f;
+            begin(&f);
+            add_quad(&f, facing)->uv = copy(uv, 8);
+            add_quad(&f, behind);
+            memset(rgba, cases[c].texel, sizeof rgba);
+            f.textures[0] = (scene_texture){.width = 5, .height = 3, .rgba = rgba, .bilinear = true};
+            f.s.n_textures = 1;
+            f.objects[0].texture_idx = 0;
+            f.objects[0].alpha = cases[c].alpha;
+            f.objects[0].alpha_cutoff = cases[c].cutoff + 1e-6 * above;
+            f.objects[0].visible_alpha = SCENE_ALPHA_CLIP;
+            f.objects[0].caster = SCENE_CASTER_CLIP;
+            f.objects[1].caster = SCENE_CASTER_OFF;
+            f.s.shadow.max_distance = 20;
+            add_light(&f, 0, 0, -1);
+            ref_picture p = render(&f, 48, 32, 64);
+            int n_cut = 0, n_cast = 0;
+            for (int k = 0; k < 48 * 32; k++) n_cut += p.triangle[k] >> 32 == 1;
+            for (int k = 0; k < 64 * 64; k++) n_cast += p.view[0][0].depth[k] < p.view[0][0].depth_range;
+            CHECK_EQ_INT(n_cut, above ? 48 * 32 : 0);
+            CHECK_EQ_INT(n_cast, above ? 0 : 14 * 14);
+            ref_free(&p);
+            end(&f);
+        }
+}
+
 static void test_hidden(void)
 {
     const double eye[3] = {0, 2, 0}, at[3] = {0, 0, -3}, up[3] = {0, 1, 0};
@@ -518,6 +557,7 @@ int main(void)
     test_bilinear();
     test_textured_plane();
     test_visible_alpha();
+    test_alpha_at_cutoff();
     test_hidden();
     test_cut_casters();
     test_caster_and_sight();

@@ -88,6 +88,9 @@ grep -q '"preset": "tiny", "persp_step": "4"' "$tmp/set.gltf" && grep -q '"stren
 printf 'v -1 0 -1\nv 1 0 -1\nv 1 0 1\nv -1 0 1\nv 0 1 0\nf 4 3 5\nf 3 2 5\nf 2 1 5\nf 1 4 5\n' >"$tmp/pyramid.obj"
 good bake "$tmp/pyramid.obj" -o "$tmp/pyramid.gltf" --size 80x60 --json
 [ "$(field masks shadow_texels)" = 0 ] && pass || fail "the pyramid still draws shadows"
+# larger than any max_distance that a file may set
+awk '$1 == "v" { print "v", $2 * 1e6, $3 * 1e6, $4 * 1e6; next } 1' "$tmp/pyramid.obj" >"$tmp/large.obj"
+good bake "$tmp/large.obj" -o "$tmp/large.gltf" --size 80x60 --json
 
 # ---- Channels ------------------------------------------------------------------------------------------------------------------
 

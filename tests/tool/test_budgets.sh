@@ -123,7 +123,7 @@ viewed sparse '"count":1000000,"sparse":{"count":1000000,"indices":{"bufferView"
 refused '/accessors/2/sparse/indices: 1000000 elements reach beyond buffer view 0 of 36 bytes' "$tmp/sparse.gltf"
 gltf keys '{"mesh":0}' "$small" ',"animations":[{"samplers":[{"input":3,"output":0}],"channels":[{"sampler":0,"target":{"node":0,"path":"translation"}}]}]'
 sed 's/,"animations"/@&/; s/\]@/,{"componentType":5126,"count":1048576,"type":"SCALAR"}]/' "$tmp/keys.gltf" >"$tmp/gltf" && mv "$tmp/gltf" "$tmp/keys.gltf"
-refused '/animations/0/samplers/0/input: time 1 does not increase' "$tmp/keys.gltf"
+drawn '' "$tmp/keys.gltf"
 gltf joints "{\"mesh\":0,\"skin\":0},$(repeat 65000 '{}')" '{"primitives":[{"attributes":{"POSITION":2,"JOINTS_0":3,"WEIGHTS_0":4}}]}' ",\"skins\":[{\"joints\":[$(awk 'BEGIN { for (i = 1; i < 65000; i++) printf "%d,", i; print 65000 }')]}]"
 sed 's/,"skins"/@&/; s/\]@/,{"componentType":5123,"count":3,"type":"VEC4"},{"componentType":5126,"count":3,"type":"VEC4"}]/' "$tmp/joints.gltf" >"$tmp/gltf" && mv "$tmp/gltf" "$tmp/joints.gltf"
 drawn 'a skin of 65000 joints is ignored' "$tmp/joints.gltf"
@@ -288,9 +288,9 @@ for name in ../out.png '..\out.png' "$here/out.png" 'C:\textures\out.png'; do
     drawn "line 2: texture '.*out.png' is outside the folder of the scene, which only --outside allows: it is drawn without" "$tmp/in/p.obj"
     case $name in C*) ;; *) drawn '' "$tmp/in/p.obj" --outside ;; esac
 done
-printf 'v 0 0 0\nv 1 0 0\nv 0 1 0\nmtllib ../p.mtl\nf 1 2 3\n' >"$tmp/in/l.obj"
-echo 'newmtl a' >"$tmp/p.mtl"
-drawn "line 4: material library '../p.mtl' is outside the folder of the scene.*: its colours are missing" "$tmp/in/l.obj"
+printf 'v 0 0 0\nv 1 0 0\nv 0 1 0\nmtllib ../q.mtl\nf 1 2 3\n' >"$tmp/in/l.obj"
+echo 'newmtl a' >"$tmp/q.mtl"
+drawn "line 4: material library '../q.mtl' is outside the folder of the scene.*: its colours are missing" "$tmp/in/l.obj"
 drawn '' "$tmp/in/l.obj" --outside
 
 echo "$passed passed, $failed failed"

@@ -5,7 +5,9 @@
 #include <string.h>
 
 #include "bounds.h"
+#include "place.h"
 #include "vec.h"
+#include "view_range.h"
 
 static const double camera_azimuth_deg = 30; /* from +Z towards +X */
 static const double camera_elevation_deg = 25;
@@ -21,6 +23,12 @@ static const double standing = 0.05;              /* on a plane: as near as this
 static const double inside = 0.2;                 /* away from both ends, of the size */
 static const double shadow_extent_radii = 3;      /* behind the object's centre, at most: a low sun casts without end */
 static const double shadow_fade = 6554.0 / 65536; /* scene_share(0.1) */
+static const double usual_distance = 100;         /* of shadows: for a file's camera no more, ... */
+static const double few = 1.0 / 10;               /* ... unless only this share of what is seen is nearer */
+static const double most = 0.98;                  /* of what is seen has shadows: the rest is about the horizon */
+static const double one_cascade = 3, two_cascades = 10; /* the deepest to the nearest of what is seen, at most */
+static const double tiny_near = 1.0 / 16384;            /* of the depth of what is seen: depths lose digits to it */
+static const double least_near = 1.0 / (1 << 18);       /* of the scene's extent: the library has no nearer planes */
 
 static bool check_object(loader *l, const scene_object *object)
 {
@@ -262,8 +270,7 @@ static bool remark_on_up(loader *l, const bounds *b)
 
 static void default_shadow(const loader *l, scene_shadow *out)
 {
-    *out = (scene_shadow){.max_distance = fmin(100, l->s->camera.far),
-                          .distance_fade = shadow_fade,
+    *out = (scene_shadow){.distance_fade = shadow_fade,
                           .cascade_fade = scene_share(0.1),
                           .filter = SCENE_FILTER_3X3,
                           .other_filter = SCENE_FILTER_3X3,
@@ -276,24 +283,96 @@ static void default_shadow(const loader *l, scene_shadow *out)
                           .fit = SCENE_FIT_TIGHT,
                           .refresh = {1, 1, 1, 1},
                           .object_lights = 8,
-                          .n_cascades = l->has_camera ? 4 : 1,
+                          .n_cascades = 1,
                           .blend = SCENE_BLEND_HARD,
                           .distance_mode = SCENE_DISTANCE_DEPTH};
     scene_default_ratios(out);
 }
+
+/* ---- A file's camera -------------------------------------------------------------------------------------------- */
+
+static void find_view_range(loader *l, view_range *r)
+{
+    const double aspect = (double)l->options->width / l->options->height;
+    view_range_begin(r);
+    if (l->poses.n == 0) view_range_add(r, l->s, &l->s->camera.to_world, aspect);
+    for (size_t i = 0; i < l->poses.n; i++) {
+        poses_apply(&l->poses, i, l->s);
+        view_range_add(r, l->s, &l->poses.camera[i], aspect);
+    }
+    poses_apply(&l->poses, l->poses.n, l->s);
+}
+
+/* As far as what is seen. Of a wide view that is the usual distance: the texels of the shadow map spread over it. */
+static double seen_distance(const scene_camera *camera, const view_range *r)
+{
+    double distance = r->area > 0 ? view_range_depth(r, most) / (1 - shadow_fade) : usual_distance;
+    if (distance > usual_distance && view_range_share(r, usual_distance) >= few) distance = usual_distance;
+    return fmin(fmax(distance, 2 * camera->near), camera->far);
+}
+
+/* No more cascades than have something to show: of two the first ends in the geometric mean of what is seen. */
+static void set_cascades(scene_shadow *shadow, const view_range *r)
+{
+    const double near = fmax(view_range_depth(r, 1 - most), r->nearest);
+    const double range = r->area > 0 ? shadow->max_distance / near : HUGE_VAL;
+    shadow->n_cascades = range < one_cascade ? 1 : range < two_cascades ? 2 : 4;
+    scene_default_ratios(shadow);
+    if (shadow->n_cascades == 2) shadow->cascade_ratio[0] = scene_share(sqrt(1 / range));
+}
+
+/* Of everything, from the origin. */
+static double extent_of(const loader *l, const bounds *b)
+{
+    const scene *s = l->s;
+    double extent = fmax(s->camera.half_height, s->shadow.max_distance);
+    for (int k = 0; k < 3; k++)
+        extent = fmax(extent, fmax(fabs(s->camera.to_world.m[k][3]), fmax(fabs(b->low[k]), fabs(b->high[k]))));
+    return extent;
+}
+
+/* A near plane that is hardly before the eye, as files have that nobody thought about, is moved towards what is seen.
+ */
+static bool move_near(loader *l, const bounds *b, const view_range *r)
+{
+    scene_camera *camera = &l->s->camera;
+    const double was = camera->near, least = least_near * extent_of(l, b);
+    if (was >= least && was >= tiny_near * r->deepest) return true;
+    camera->near = fmax(fmax(was, least), fmin(r->nearest / 2, r->deepest / 1000));
+    camera->far = fmax(camera->far, 2 * camera->near);
+    if (r->nearest >= camera->near)
+        return loader_note(l, "the camera's near plane is moved from %g to %g: nothing is nearer", was, camera->near);
+    return loader_remark(l, "the camera's near plane is moved from %g to %g, and what is nearer is cut off", was,
+                         camera->near);
+}
+
+static bool adapt_camera(loader *l, const bounds *b)
+{
+    view_range r;
+    find_view_range(l, &r);
+    l->s->shadow.max_distance = seen_distance(&l->s->camera, &r);
+    set_cascades(&l->s->shadow, &r);
+    return move_near(l, b, &r);
+}
+
+/* ---- All of it -------------------------------------------------------------------------------------------------- */
 
 bool loader_add_defaults(loader *l)
 {
     static const double ambient[3] = {0.18, 0.18, 0.18}, background[3] = {0.35, 0.45, 0.6};
     scene *s = l->s;
     bounds b;
-    if (!find_bounds(l, &b) || !remark_on_up(l, &b) || !lights_dim(l, b.centre, b.radius)) return false;
+    bool changed;
+    if (!find_bounds(l, &b) || !place_objects(l, &b, &changed) || (changed && !find_bounds(l, &b)) ||
+        !remark_on_up(l, &b) || !lights_dim(l, b.centre, b.radius))
+        return false;
     const floor_parts parts = find_floor(l, &b);
     l->wants_ground = decide_ground(l, &b, &parts);
     s->added = (scene_added){.ground = l->wants_ground, .camera = !l->has_camera, .light = s->n_lights == 0};
     memcpy(s->ambient, ambient, sizeof ambient);
     memcpy(s->background, background, sizeof background);
     default_shadow(l, &s->shadow);
+    if (l->has_camera && !adapt_camera(l, &b)) return false;
     if (!l->has_camera) {
         make_camera(l, &b);
         s->stage.camera = s->camera.to_world;

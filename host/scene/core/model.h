@@ -157,7 +157,7 @@ typedef enum { SCENE_BLEND_HARD, SCENE_BLEND_SOFT, SCENE_BLEND_DITHER } scene_bl
 typedef enum { SCENE_DISTANCE_DEPTH, SCENE_DISTANCE_RADIUS } scene_distance_mode;
 
 typedef struct {
-    double max_distance;       /* D5: default min(100, camera far) */
+    double max_distance;       /* D5: default as far as what is seen, of a wide view 100 */
     double distance_fade;      /* D5: 0.001..1, default 0.1 */
     double cascade_fade;       /* D3, D6: 0.001..1, default 0.1 */
     scene_filter filter;       /* of the directional atlas */
@@ -173,7 +173,7 @@ typedef struct {
     int refresh[4]; /* A5: cascade i is drawn anew every refresh[i]th frame; default 1. Changes single pictures not at
                        all */
     int object_lights;       /* P9: 0 (no limit) .. 8, default 8 */
-    int n_cascades;          /* 1..4; default 1 with the default camera, else 4 */
+    int n_cascades;          /* 1..4; default 1, with a camera of the file as many as have something to show */
     double cascade_ratio[3]; /* of the max distance, ascending; the last cascade always reaches it, and what is not used
                                 is 1 */
     scene_blend blend;       /* D7, default hard */

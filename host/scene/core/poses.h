@@ -11,7 +11,8 @@ typedef struct {
     scene_affine
         *affines; /* per pose, object by object: its to_world and its joints; behind the last pose the scene's */
     size_t n_lights;
-    double (*light)[3]; /* positions, per pose, light by light of the file */
+    double (*light)[3];   /* positions, per pose, light by light of the file */
+    scene_affine *camera; /* per pose, of the file's; NULL: it has none */
 } scene_poses;
 
 /* Of one pose of this scene. */

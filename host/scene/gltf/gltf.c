@@ -21,11 +21,33 @@ static bool is_supported(const char *extension)
     return false;
 }
 
+/* How surfaces and light look, what moves, and what is beside them: without it the shape is the same. */
+static bool changes_no_shape(const char *extension)
+{
+    static const char *const parts[] = {"_materials_", "_texture_", "_lights_", "_animation_", "_xmp"};
+    for (size_t i = 0; i < sizeof parts / sizeof *parts; i++) {
+        if (strstr(extension, parts[i])) return true;
+    }
+    return false;
+}
+
 /* What to do about a file that needs what is not read. */
 static const char *remedy_of(const char *extension)
 {
-    if (strstr(extension, "draco") || strstr(extension, "meshopt")) return GLTF_COMPRESSED;
-    return strstr(extension, "texture") ? ": export textures as PNG or JPEG" : "";
+    return strstr(extension, "draco") || strstr(extension, "meshopt") ? GLTF_COMPRESSED : "";
+}
+
+static bool check_extension(gltf *g, const json_value *name, bool required)
+{
+    if (name->type != JSON_STRING) return gltf_fail(g, name, "a string is expected");
+    if (is_supported(name->string)) return true;
+    if (required && !changes_no_shape(name->string))
+        return gltf_fail(g, name, "the required extension %s is not supported%s", name->string,
+                         remedy_of(name->string));
+    const bool older = strcmp(name->string, "KHR_materials_pbrSpecularGlossiness") == 0;
+    return loader_remark(g->l, "extension %s ignored%s: it is not supported%s", name->string,
+                         older ? " but for diffuse colours" : "",
+                         strstr(name->string, "_texture_") ? ", export textures as PNG or JPEG" : "");
 }
 
 static bool check_extensions(gltf *g, const char *key, bool required)
@@ -33,13 +55,7 @@ static bool check_extensions(gltf *g, const char *key, bool required)
     const json_value *list = NULL;
     if (!gltf_get(g, g->root, key, JSON_ARRAY, &list)) return false;
     for (size_t i = 0; list && i < list->n_children; i++) {
-        const json_value *name = list->children[i];
-        if (name->type != JSON_STRING) return gltf_fail(g, name, "a string is expected");
-        if (is_supported(name->string)) continue;
-        if (required)
-            return gltf_fail(g, name, "the required extension %s is not supported%s", name->string,
-                             remedy_of(name->string));
-        if (!loader_remark(g->l, "extension %s ignored: it is not supported", name->string)) return false;
+        if (!check_extension(g, list->children[i], required)) return false;
     }
     return true;
 }
@@ -125,7 +141,9 @@ static bool load_json(loader *l, const char *text, size_t n_bytes, gltf_bytes gl
 {
     json_doc doc;
     char error[200];
-    if (json_parse(&doc, text, n_bytes, error, sizeof error) != 0) return loader_fail(l, "%s:%s", l->path, error);
+    const size_t mark = n_bytes >= 3 && memcmp(text, "\xEF\xBB\xBF", 3) == 0 ? 3 : 0; /* of UTF-8 */
+    if (json_parse(&doc, text + mark, n_bytes - mark, error, sizeof error) != 0)
+        return loader_fail(l, "%s:%s", l->path, error);
     gltf g = {.l = l, .root = doc.root, .glb = glb, .fps = DEFAULT_FPS};
     const json_value *used_scene;
     bool ok = check_asset(&g) && find_arrays(&g) && spend_arrays(&g, &doc) && gltf_load_buffers(&g) &&

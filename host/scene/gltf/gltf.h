@@ -110,9 +110,11 @@ typedef struct {
     size_t count, n_components;
     size_t component_type;
     bool normalized;
-    double *values; /* count * n_components, normalised ones in -1..1 or 0..1; finite */
+    double *values;                  /* count * n_components, normalised ones in -1..1 or 0..1; finite */
+    size_t n_not_finite, not_finite; /* numbers of the file's that are none: 0 in values; the element of the first */
 } gltf_array;
-bool gltf_read_accessor(gltf *g, size_t accessor_idx, gltf_array *out);
+bool gltf_read_accessor(gltf *g, size_t accessor_idx, gltf_array *out); /* without such numbers */
+bool gltf_read_loosely(gltf *g, size_t accessor_idx, gltf_array *out);
 
 /* gltf_attribute.c: every attribute of ours but texture coordinates, which are read where something looks them up. */
 typedef struct {

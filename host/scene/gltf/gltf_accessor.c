@@ -85,14 +85,15 @@ static bool locate(gltf *g, const json_value *owner, size_t element_bytes, size_
     return true;
 }
 
-static bool read_element(gltf *g, const json_value *where, const gltf_array *a, const uint8_t *bytes, size_t element,
-                         double *out)
+/* What is no number is 0, and counts. */
+static void read_element(gltf_array *a, const uint8_t *bytes, size_t element, double *out)
 {
     for (size_t i = 0; i < a->n_components; i++) {
         out[i] = read_component(bytes + i * component_bytes(a->component_type), a->component_type, a->normalized);
-        if (!isfinite(out[i])) return gltf_fail(g, where, "element %zu is not finite", element);
+        if (isfinite(out[i])) continue;
+        out[i] = 0;
+        if (a->n_not_finite++ == 0) a->not_finite = element;
     }
-    return true;
 }
 
 static bool read_dense(gltf *g, const json_value *accessor, gltf_array *out)
@@ -103,8 +104,7 @@ static bool read_dense(gltf *g, const json_value *accessor, gltf_array *out)
     out->values = loader_alloc(g->l, out->count * out->n_components, sizeof *out->values);
     if (!out->values) return false;
     for (size_t i = 0; i < out->count; i++) {
-        if (!read_element(g, accessor, out, run.bytes + i * run.stride, i, out->values + i * out->n_components))
-            return false;
+        read_element(out, run.bytes + i * run.stride, i, out->values + i * out->n_components);
     }
     return true;
 }
@@ -146,7 +146,7 @@ static bool read_sparse(gltf *g, const json_value *sparse, gltf_array *out)
         if (target >= out->count)
             return gltf_fail(g, indices, "index %zu is %zu, the accessor has %zu elements", i, target, out->count);
         double *to = out->values + target * out->n_components;
-        if (!read_element(g, values, out, value_run.bytes + i * value_run.stride, i, to)) return false;
+        read_element(out, value_run.bytes + i * value_run.stride, i, to);
         next = target + 1;
     }
     return true;
@@ -172,7 +172,7 @@ static bool read_type(gltf *g, const json_value *accessor, gltf_array *out)
            gltf_fail(g, accessor, "type '%s' is not SCALAR, VEC2, VEC3, VEC4, or MAT4 of floats", type);
 }
 
-bool gltf_read_accessor(gltf *g, size_t accessor_idx, gltf_array *out)
+bool gltf_read_loosely(gltf *g, size_t accessor_idx, gltf_array *out)
 {
     const json_value *accessor = g->accessors->children[accessor_idx], *sparse = NULL;
     *out = (gltf_array){0};
@@ -183,4 +183,11 @@ bool gltf_read_accessor(gltf *g, size_t accessor_idx, gltf_array *out)
     bool dense = json_get(accessor, "bufferView") != NULL;
     if (!(dense ? read_dense(g, accessor, out) : read_zeros(g, accessor, out))) return false;
     return !sparse || read_sparse(g, sparse, out);
+}
+
+bool gltf_read_accessor(gltf *g, size_t accessor_idx, gltf_array *out)
+{
+    if (!gltf_read_loosely(g, accessor_idx, out)) return false;
+    return out->n_not_finite == 0 ||
+           gltf_fail(g, g->accessors->children[accessor_idx], "element %zu is not finite", out->not_finite);
 }

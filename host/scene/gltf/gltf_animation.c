@@ -26,7 +26,7 @@ static bool check_times(gltf *g, const json_value *where, const gltf_array *time
     if (times->n_components != 1 || times->component_type != GLTF_FLOAT)
         return gltf_fail(g, where, "times must be SCALAR floats");
     for (size_t i = 1; i < times->count; i++) {
-        if (!(times->values[i] > times->values[i - 1])) return gltf_fail(g, where, "time %zu does not increase", i);
+        if (times->values[i] < times->values[i - 1]) return gltf_fail(g, where, "time %zu is before the last", i);
     }
     return true;
 }
@@ -39,6 +39,22 @@ static bool check_values(gltf *g, const json_value *where, const sampler *s)
     if (v->component_type != GLTF_FLOAT && !(s->width == 4 && v->normalized))
         return gltf_fail(g, where, "floats are expected");
     return v->count == n || gltf_fail(g, where, "%zu values are expected, %zu are there", n, v->count);
+}
+
+/* Of keys at one time the last counts. */
+static bool join_keys(gltf *g, sampler *s)
+{
+    const size_t n = s->times.count, width = s->width * (s->kind == CURVE_CUBIC ? 3 : 1);
+    size_t kept = 0;
+    for (size_t i = 0; i < n; i++) {
+        if (i > 0 && s->times.values[i] <= s->times.values[kept - 1]) kept--;
+        s->times.values[kept] = s->times.values[i];
+        memmove(s->values.values + kept * width, s->values.values + i * width, width * sizeof *s->values.values);
+        kept++;
+    }
+    s->times.count = kept;
+    s->values.count = kept * (width / s->width);
+    return kept == n || loader_note(g->l, "%zu keys of animations come twice for one time: the last counts", n - kept);
 }
 
 static bool read_sampler(gltf *g, const json_value *json, sampler *out)
@@ -54,7 +70,8 @@ static bool read_sampler(gltf *g, const json_value *json, sampler *out)
     else if (strcmp(kind, "CUBICSPLINE") == 0) out->kind = CURVE_CUBIC;
     else return gltf_fail(g, json, "interpolation '%s' is unknown", kind);
     return gltf_read_accessor(g, input, &out->times) && check_times(g, json_get(json, "input"), &out->times) &&
-           gltf_read_accessor(g, output, &out->values) && check_values(g, json_get(json, "output"), out);
+           gltf_read_accessor(g, output, &out->values) && check_values(g, json_get(json, "output"), out) &&
+           join_keys(g, out);
 }
 
 typedef struct {
@@ -74,10 +91,13 @@ static bool read_target(gltf *g, const json_value *target, channel *out)
     out->node = &g->node[node];
     if (strcmp(path, "weights") == 0)
         return loader_remark(g->l, "animation of morph weights ignored: it is not supported");
+    if (strcmp(path, "pointer") == 0) return loader_remark(g->l, "animation by KHR_animation_pointer ignored");
     bool translation = strcmp(path, "translation") == 0, rotation = strcmp(path, "rotation") == 0;
     if (!translation && !rotation && strcmp(path, "scale") != 0)
         return gltf_fail(g, target, "path '%s' is unknown", path);
-    if (out->node->has_matrix) return gltf_fail(g, target, "node %zu has a matrix and cannot be animated", node);
+    if (out->node->has_matrix)
+        return loader_remark(g->l, "animation of node %zu ignored: the node has a matrix, which cannot be animated",
+                             node);
     out->property = translation ? out->node->translation : rotation ? out->node->rotation : out->node->scale;
     out->width = rotation ? 4 : 3;
     out->node->moves = true;
@@ -151,7 +171,9 @@ bool gltf_pose(gltf *g, double frame)
 {
     for (size_t i = 0; i < g->n_played; i++) {
         const gltf_played *p = &g->played[i];
-        if (!curve_at(&p->curve, frame / g->fps, p->property)) return gltf_fail(g, p->sampler, "a rotation is zero");
+        if (curve_at(&p->curve, frame / g->fps, p->property)) continue;
+        memcpy(p->property, (const double[4]){0, 0, 0, 1}, 4 * sizeof *p->property);
+        if (!loader_remark(g->l, "a rotation of an animation is zero: none is taken")) return false;
     }
     return true;
 }
@@ -188,7 +210,8 @@ bool gltf_keep_poses(gltf *g, const json_value *used_scene)
     scene_poses p = {.n = count_poses(g, n_frames), .n_affines = poses_count_affines(s), .n_lights = s->n_lights};
     p.affines = loader_alloc(g->l, (p.n + 1) * p.n_affines, sizeof *p.affines);
     p.light = loader_alloc(g->l, p.n * p.n_lights + 1, sizeof *p.light);
-    if (!p.affines || !p.light) return false;
+    if (g->l->has_camera) p.camera = loader_alloc(g->l, p.n, sizeof *p.camera);
+    if (!p.affines || !p.light || (g->l->has_camera && !p.camera)) return false;
     poses_store(&p, p.n, s);
     s->stage = (scene_stage){.moves = true, .camera = s->camera.to_world};
     for (size_t i = 0; i < p.n; i++) {
@@ -200,9 +223,12 @@ bool gltf_keep_poses(gltf *g, const json_value *used_scene)
         poses_store(&p, i, s);
         for (size_t k = 0; k < p.n_lights; k++)
             affine_column(p.light[i * p.n_lights + k], &g->node[s->lights[k].node_idx].world, 3);
-        if (i == 0 && g->l->has_camera && !gltf_camera_axes(g, &g->node[g->camera_node], &s->stage.camera))
-            return false;
+        if (p.camera && !gltf_camera_axes(g, &g->node[g->camera_node], &p.camera[i])) {
+            if (i == 0) return false;
+            p.camera[i] = p.camera[i - 1]; /* without a direction in that frame alone */
+        }
     }
+    if (p.camera) s->stage.camera = p.camera[0];
     poses_apply(&p, p.n, s);
     g->l->poses = p;
     return true;

@@ -11,7 +11,11 @@ static bool read_attribute(gltf *g, const json_value *attributes, const char *na
     *out = (gltf_array){0};
     if (!gltf_get_ref(g, attributes, name, g->accessors, &accessor)) return false;
     if (accessor == GLTF_NONE) return true;
-    if (!gltf_read_accessor(g, accessor, out)) return false;
+    const bool must = strcmp(name, "POSITION") == 0; /* a shape can do without the others */
+    if (!(must ? gltf_read_accessor(g, accessor, out) : gltf_read_loosely(g, accessor, out))) return false;
+    if (out->n_not_finite > 0 &&
+        !loader_remark(g->l, "%zu numbers of a %s are not finite: 0 is taken", out->n_not_finite, name))
+        return false;
     if (n_vertices != 0 && out->count != n_vertices) {
         return gltf_fail(g, json_get(attributes, name), "%zu elements, but POSITION has %zu", out->count, n_vertices);
     }
@@ -45,19 +49,35 @@ static bool read_position(gltf *g, const json_value *attributes, scene_mesh *out
     return check_range(g, where, &a, "coordinate");
 }
 
-/* Float or normalised, of a fixed number of components. */
-static bool read_real(gltf *g, const json_value *attributes, const char *name, size_t n_components, size_t n_vertices,
-                      double **out)
+/* Of a fixed number of components. */
+static bool read_numbers(gltf *g, const json_value *attributes, const char *name, size_t n_components,
+                         size_t n_vertices, bool any_integer, double **out)
 {
     gltf_array a;
     if (!read_attribute(g, attributes, name, n_vertices, &a)) return false;
     *out = a.values;
     if (!a.values) return true;
-    if (a.n_components != n_components || !is_float_or_normalized(&a)) {
+    if (a.n_components != n_components || !(any_integer || is_float_or_normalized(&a))) {
         return gltf_fail(g, json_get(attributes, name), "VEC%zu of float or normalized integers is expected",
                          n_components);
     }
     return check_range(g, json_get(attributes, name), &a, "value");
+}
+
+/* Float or normalised. */
+static bool read_real(gltf *g, const json_value *attributes, const char *name, size_t n_components, size_t n_vertices,
+                      double **out)
+{
+    return read_numbers(g, attributes, name, n_components, n_vertices, false, out);
+}
+
+/* Integers that nobody said to be normalised, and which cannot be meant otherwise. */
+static bool normalise(gltf *g, gltf_array *a, const char *mesh_name)
+{
+    const double most = a->component_type == GLTF_UBYTE ? 255 : a->component_type == GLTF_USHORT ? 65535 : 1;
+    for (size_t i = 0; i < a->count * a->n_components; i++) a->values[i] /= most;
+    return loader_remark(g->l, "vertex colours of '%s' are integers that are not normalized: taken for %gths",
+                         mesh_name, most);
 }
 
 static bool read_colour(gltf *g, const json_value *attributes, scene_mesh *out)
@@ -65,10 +85,8 @@ static bool read_colour(gltf *g, const json_value *attributes, scene_mesh *out)
     gltf_array a;
     if (!read_attribute(g, attributes, "COLOR_0", out->n_vertices, &a)) return false;
     if (!a.values) return true;
-    if (a.n_components < 3 || !is_float_or_normalized(&a)) {
-        return gltf_fail(g, json_get(attributes, "COLOR_0"),
-                         "VEC3 or VEC4 of float or normalized integers is expected");
-    }
+    if (a.n_components < 3) return gltf_fail(g, json_get(attributes, "COLOR_0"), "VEC3 or VEC4 is expected");
+    if (!is_float_or_normalized(&a) && !normalise(g, &a, out->name)) return false;
     out->rgb = a.values;
     for (size_t i = 1; a.n_components == 4 && i < a.count; i++)
         memmove(a.values + 3 * i, a.values + 4 * i, 3 * sizeof *a.values);
@@ -89,7 +107,8 @@ static void transform(double *uv, size_t n, const gltf_uv_transform *t)
 static bool read_texture_coordinates(gltf *g, const json_value *attributes, const gltf_wants *wants, scene_mesh *out)
 {
     const char *name = wants->uv_set == 1 ? "TEXCOORD_1" : "TEXCOORD_0";
-    if (wants->uv_set != GLTF_NONE && !read_real(g, attributes, name, 2, out->n_vertices, &out->uv)) return false;
+    if (wants->uv_set != GLTF_NONE && !read_numbers(g, attributes, name, 2, out->n_vertices, true, &out->uv))
+        return false; /* any integer: of KHR_mesh_quantization */
     if (out->uv) {
         transform(out->uv, out->n_vertices, wants->uv);
         const gltf_array moved = {.count = out->n_vertices, .n_components = 2, .values = out->uv};

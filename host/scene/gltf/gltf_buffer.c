@@ -125,9 +125,6 @@ bool gltf_view_bytes(gltf *g, const json_value *view, gltf_bytes *out, size_t *s
         return false;
     if (buffer == GLTF_NONE) return gltf_fail(g, view, "buffer is missing");
     if (n_bytes == GLTF_NONE) return gltf_fail(g, view, "byteLength is missing");
-    if (json_get(view, "byteStride") && (*stride < 4 || *stride > 252 || *stride % 4 != 0)) {
-        return gltf_fail(g, view, "byteStride %zu is not a multiple of 4 in 4..252", *stride);
-    }
     const gltf_bytes *source = &g->buffer[buffer];
     if (!source->bytes) return gltf_fail(g, view, "buffer %zu has no data", buffer);
     if (offset > source->n_bytes || n_bytes > source->n_bytes - offset) {

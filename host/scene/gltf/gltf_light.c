@@ -43,7 +43,10 @@ static bool read_range(gltf *g, const json_value *json, const char *name, scene_
 {
     out->range = HUGE_VAL;
     if (!gltf_get_number(g, json, "range", &out->range)) return false;
-    if (!(out->range > 0)) return gltf_fail(g, json, "range %g is not positive", out->range);
+    if (!(out->range > 0) &&
+        !loader_remark(g->l, "range %g of light '%s' ignored: it is not positive", out->range, name))
+        return false;
+    if (!(out->range > 0)) out->range = HUGE_VAL;
     if (out->range > LOADER_MAX_COORDINATE) out->range = HUGE_VAL;
     if (out->range >= LIGHT_MIN_RANGE) return true;
     out->range = LIGHT_MIN_RANGE;
@@ -56,12 +59,16 @@ static bool read_cone(gltf *g, const json_value *json, const char *name, scene_l
     const json_value *spot = NULL;
     double inner = 0, outer = VEC_PI / 4;
     if (!gltf_get(g, json, "spot", JSON_OBJECT, &spot)) return false;
-    if (!spot) return gltf_fail(g, json, "spot is missing");
     if (!gltf_get_number(g, spot, "innerConeAngle", &inner) || !gltf_get_number(g, spot, "outerConeAngle", &outer))
         return false;
     if (!(inner >= 0)) return gltf_fail(g, spot, "innerConeAngle %g is negative", inner);
-    if (!(outer <= VEC_PI / 2 + 1e-6)) return gltf_fail(g, spot, "outerConeAngle %g exceeds pi / 2", outer);
-    if (!(inner <= outer)) return gltf_fail(g, spot, "innerConeAngle %g exceeds outerConeAngle %g", inner, outer);
+    if (outer > VEC_PI / 2 + 1e-6 || inner > outer) {
+        if (!loader_remark(g->l, "cone angles of light '%s', %g in %g, are limited to one in the other and pi / 2",
+                           name, inner, outer))
+            return false;
+        outer = fmin(outer, VEC_PI / 2);
+        inner = fmin(inner, outer);
+    }
     double degrees = outer * 360 / VEC_PI;
     double steps = fmin(fmax(round(outer / VEC_PI * angle_steps), narrowest_step), widest_step);
     out->outer = steps / angle_steps;

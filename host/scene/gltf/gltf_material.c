@@ -55,19 +55,22 @@ static bool read_texture(gltf *g, const json_value *info, const char *what, gltf
     return true;
 }
 
+/* What reflects light all around. The older model has other names for it, and goes before the core's where both are. */
 static bool read_colour(gltf *g, const json_value *json, const char *name, gltf_material *out)
 {
-    const json_value *pbr = NULL;
+    const json_value *pbr = NULL, *older;
     double factor[4] = {1, 1, 1, 1};
-    if (!gltf_get(g, json, "pbrMetallicRoughness", JSON_OBJECT, &pbr)) return false;
-    if (!gltf_get_numbers(g, pbr, "baseColorFactor", factor, 4)) return false;
+    if (!gltf_get(g, json, "pbrMetallicRoughness", JSON_OBJECT, &pbr) ||
+        !gltf_get_extension(g, json, "KHR_materials_pbrSpecularGlossiness", &older) ||
+        !gltf_get_numbers(g, older ? older : pbr, older ? "diffuseFactor" : "baseColorFactor", factor, 4))
+        return false;
     if (!loader_clamp_colour(factor, 4) &&
         !loader_note(g->l, "base colour of material '%s' outside 0..1 is clamped", name))
         return false;
     memcpy(out->surface.albedo, factor, sizeof out->surface.albedo);
     out->surface.alpha = factor[3];
     const json_value *info = NULL;
-    return gltf_get(g, pbr, "baseColorTexture", JSON_OBJECT, &info) &&
+    return gltf_get(g, older ? older : pbr, older ? "diffuseTexture" : "baseColorTexture", JSON_OBJECT, &info) &&
            read_texture(g, info, "base colour", out, name, &out->surface.texture_idx) &&
            note_texture(g, pbr, "metallicRoughnessTexture", "metallic-roughness", name) &&
            note_texture(g, json, "normalTexture", "normal", name) &&

@@ -161,9 +161,9 @@ static bool mesh_primitives(gltf *g, size_t mesh_idx, const json_value **out)
 {
     const json_value *mesh = g->meshes->children[mesh_idx];
     if (!gltf_get(g, mesh, "primitives", JSON_ARRAY, out)) return false;
-    if (!*out || (*out)->n_children == 0) return gltf_fail(g, mesh, "primitives are missing");
+    if (!*out) return gltf_fail(g, mesh, "primitives are missing");
     if (g->primitive[mesh_idx]) return true;
-    g->primitive[mesh_idx] = loader_alloc(g->l, (*out)->n_children, sizeof **g->primitive);
+    g->primitive[mesh_idx] = loader_alloc(g->l, (*out)->n_children + 1, sizeof **g->primitive);
     return g->primitive[mesh_idx] != NULL;
 }
 
@@ -187,6 +187,7 @@ bool gltf_emit_mesh(gltf *g, size_t node_idx)
     const char *name = gltf_name(g, g->meshes->children[mesh_idx], "mesh");
     if (!name || !mesh_primitives(g, mesh_idx, &primitives)) return false;
     gltf_skin skin;
+    if (primitives->n_children == 0) return loader_remark(g->l, "mesh '%s' ignored: it has no primitives", name);
     if (!gltf_read_skin(g, node_idx, &skin)) return false;
     for (size_t i = 0; i < primitives->n_children; i++) {
         const json_value *json = primitives->children[i];

@@ -68,8 +68,8 @@ static bool local_transform(gltf *g, const gltf_node *node, scene_affine *out)
         return true;
     }
     for (int i = 0; i < 4; i++) length = fmax(length, fabs(node->rotation[i]));
-    if (!(length > 0)) return gltf_fail(g, node->json, "the rotation is zero");
-    for (int i = 0; i < 4; i++) q[i] = node->rotation[i] / length;
+    if (!(length > 0) && !loader_remark(g->l, "a rotation of a node is zero: none is taken")) return false;
+    for (int i = 0; i < 4; i++) q[i] = length > 0 ? node->rotation[i] / length : i == 3;
     length = sqrt(q[0] * q[0] + q[1] * q[1] + q[2] * q[2] + q[3] * q[3]);
     double x = q[0] / length, y = q[1] / length, z = q[2] / length, w = q[3] / length;
     const double r[3][3] = {{1 - 2 * (y * y + z * z), 2 * (x * y - z * w), 2 * (x * z + y * w)},
@@ -196,9 +196,16 @@ static bool read_perspective(gltf *g, const json_value *perspective, scene_camer
         !gltf_get_number(g, perspective, "zfar", &far_distance))
         return false;
     if (!(fov > 1e-6 && fov < VEC_PI - 1e-6)) return gltf_fail(g, perspective, "yfov %g is not between 0 and pi", fov);
-    if (!(near_distance > 0)) return gltf_fail(g, perspective, "znear %g is not positive", near_distance);
-    if (!(far_distance > near_distance))
-        return gltf_fail(g, perspective, "zfar %g is not beyond znear %g", far_distance, near_distance);
+    if (!(near_distance > 0)) {
+        if (!loader_remark(g->l, "znear %g of the camera is not positive: another is taken", near_distance))
+            return false;
+        near_distance = 1e-30; /* to be moved */
+    }
+    if (!(far_distance > near_distance)) {
+        if (!loader_remark(g->l, "zfar %g of the camera is not beyond its znear, and ignored", far_distance))
+            return false;
+        far_distance = HUGE_VAL;
+    }
     out->focal = 1 / tan(fov / 2);
     out->near = near_distance;
     out->far = far_distance;

@@ -33,6 +33,7 @@ static bool keep_camera(gltf *g, size_t node_idx)
     scene_rig *rig = l->s->rig;
     const scene_camera used = l->s->camera;
     const bool has_camera = l->has_camera;
+    const size_t camera_node = g->camera_node;
     size_t idx = GLTF_NONE;
     if (!gltf_get_ref(g, g->node[node_idx].json, "camera", g->cameras, &idx)) return false;
     if (idx == GLTF_NONE || l->options->orbit) return true;
@@ -43,6 +44,7 @@ static bool keep_camera(gltf *g, size_t node_idx)
     const scene_camera camera = l->s->camera;
     l->has_camera = has_camera;
     l->s->camera = used;
+    g->camera_node = camera_node;
     if (!is_read) return ok;
     scene_view *grown = realloc(rig->cameras, (rig->n_cameras + 1) * sizeof *grown);
     if (!grown) return loader_fail(l, "out of memory");

@@ -21,7 +21,7 @@ static bool read_wrap(gltf *g, const json_value *sampler, const char *key, const
     if (wrap == WRAP_MIRROR)
         return loader_note(g->l, "mirrored repeat of texture '%s' ignored: it repeats plainly", name);
     return wrap == WRAP_CLAMP || wrap == WRAP_REPEAT ||
-           gltf_fail(g, json_get(sampler, key), "wrap mode %zu is unknown", wrap);
+           loader_note(g->l, "wrap mode %zu of texture '%s' is unknown: it repeats", wrap, name);
 }
 
 static bool read_sampler(gltf *g, const json_value *texture, const char *name, texture_use *out)

@@ -349,7 +349,8 @@ static void put_shadow(write_buffer *b, const scene *s)
         write_text(b, ", ");
         put_numbers(b, "cascade_ratios", w->cascade_ratio, (size_t)w->n_cascades - 1);
     }
-    put_member(b, "max_distance", w->max_distance);
+    if (w->max_distance >= 0.004 && w->max_distance <= 8192) /* else as a file gets that sets none */
+        put_member(b, "max_distance", w->max_distance);
     put_member(b, "distance_fade", w->distance_fade);
     put_member(b, "cascade_fade", w->cascade_fade);
     put_member(b, "penumbra", w->penumbra);

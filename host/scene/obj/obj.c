@@ -1,13 +1,12 @@
 /* Wavefront OBJ: vertices, texture coordinates, normals and faces. Vertex colours (v x y z r g b) are taken as linear
- * light. Polygons are cut into fans, which is only right for convex ones (a note tells of others). */
+ * light. */
 #include "obj.h"
 
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
-#include "../core/vec.h"
-
-enum { MAX_CORNERS = 4096 };
+enum { OBJ_MAX_NUMBERS = 16 }; /* of a statement */
 
 /* As affine_z_up. */
 static void turn_up(const obj_file *o, double *v)
@@ -18,12 +17,13 @@ static void turn_up(const obj_file *o, double *v)
     v[2] = -y;
 }
 
+/* x y z, then a weight, a colour or both; what else there is does not count. */
 static bool read_vertex(obj_file *o, obj_text *t)
 {
-    double x[7];
+    double x[OBJ_MAX_NUMBERS];
     size_t n;
-    if (!obj_numbers(t, x, 7, &n)) return false;
-    if (n != 3 && n != 4 && n != 6 && n != 7) return obj_fail(t, "v takes 3 numbers, and 3 more for a colour");
+    if (!obj_numbers(t, x, OBJ_MAX_NUMBERS, &n)) return false;
+    if (n < 3) return obj_fail(t, "v takes 3 numbers, and 3 more for a colour");
     if (!obj_spend(t, BUDGET_VERTICES, 1)) return false;
     double *v = loader_grow(o->l, o->v, o->n_v, 3 * sizeof *v),
            *rgb = loader_grow(o->l, o->rgb, o->n_v, 3 * sizeof *rgb);
@@ -32,35 +32,64 @@ static bool read_vertex(obj_file *o, obj_text *t)
     o->rgb = rgb;
     turn_up(o, x);
     memcpy(v + 3 * o->n_v, x, 3 * sizeof *v);
+    const bool coloured = n == 6 || n == 7;
     for (size_t i = 0; i < 3; i++)
-        rgb[3 * o->n_v + i] = n < 6 ? 1 : x[n - 3 + i]; /* 4 and 7: a weight, which is ignored */
-    o->has_rgb = o->has_rgb || n >= 6;
-    if (!loader_clamp_colour(rgb + 3 * o->n_v, 3) && !loader_note(o->l, "vertex colours outside 0..1 are clamped"))
-        return false;
+        rgb[3 * o->n_v + i] = coloured ? x[n - 3 + i] : HUGE_VAL; /* none: see finish_colours */
+    o->has_rgb = o->has_rgb || coloured;
     o->n_v++;
-    return true;
+    return n <= 4 || coloured || loader_note(o->l, "numbers of vertices beyond place, weight and colour are ignored");
+}
+
+/* Colours that are all whole numbers and go far beyond 1 are of 255 levels. Vertices without one are white. */
+static bool finish_colours(obj_file *o)
+{
+    const size_t n = 3 * o->n_v;
+    double most = 0, scale = 1;
+    bool whole = true, clamped = false;
+    for (size_t i = 0; i < n; i++) {
+        if (isinf(o->rgb[i])) continue;
+        most = fmax(most, o->rgb[i]);
+        whole = whole && !(fabs(o->rgb[i] - floor(o->rgb[i])) > 0);
+    }
+    if (whole && most > 15 && most <= 255) scale = 1.0 / 255;
+    for (size_t i = 0; i < n; i++) {
+        o->rgb[i] = isinf(o->rgb[i]) ? 1 : o->rgb[i] * scale;
+        clamped = !loader_clamp_colour(&o->rgb[i], 1) || clamped;
+    }
+    if (scale < 1 && !loader_remark(o->l, "vertex colours go up to %g: they are taken for 255ths", most)) return false;
+    return !clamped || loader_note(o->l, "vertex colours outside 0..1 are clamped");
+}
+
+/* Of a normal or texture coordinates, which others must be able to name: 0 where they are none. */
+static bool read_or_zero(obj_text *t, double *out, size_t n_least, const char *what)
+{
+    size_t n;
+    t->forgiving = true;
+    const bool ok = obj_numbers(t, out, OBJ_MAX_NUMBERS, &n) && (n >= n_least || obj_fail(t, "%s", what));
+    t->forgiving = false;
+    if (ok) return true;
+    for (size_t i = 0; i < OBJ_MAX_NUMBERS; i++) out[i] = 0;
+    if (!t->wrong[0]) return false;
+    t->wrong[0] = '\0';
+    return loader_remark(t->l, "%s: where they are not there, 0 is taken", what);
 }
 
 static bool read_normal(obj_file *o, obj_text *t)
 {
-    double x[3];
-    size_t n;
-    if (!obj_numbers(t, x, 3, &n)) return false;
-    if (n != 3) return obj_fail(t, "vn takes 3 numbers");
+    double x[OBJ_MAX_NUMBERS];
+    if (!read_or_zero(t, x, 3, "vn takes 3 numbers")) return false;
     double *vn = loader_grow(o->l, o->vn, o->n_vn, 3 * sizeof *vn);
     if (!vn) return false;
     o->vn = vn;
     turn_up(o, x);
-    memcpy(vn + 3 * o->n_vn++, x, sizeof x);
+    memcpy(vn + 3 * o->n_vn++, x, 3 * sizeof *x);
     return o->n_vn < INT32_MAX || obj_fail(t, "too many normals");
 }
 
 static bool read_texture_coordinate(obj_file *o, obj_text *t)
 {
-    double x[3] = {0, 0, 0};
-    size_t n;
-    if (!obj_numbers(t, x, 3, &n)) return false;
-    if (n < 1) return obj_fail(t, "vt takes 2 numbers");
+    double x[OBJ_MAX_NUMBERS] = {0};
+    if (!read_or_zero(t, x, 1, "vt takes 2 numbers")) return false;
     double *vt = loader_grow(o->l, o->vt, o->n_vt, 2 * sizeof *vt);
     if (!vt) return false;
     o->vt = vt;
@@ -69,15 +98,14 @@ static bool read_texture_coordinate(obj_file *o, obj_text *t)
 }
 
 /* One index of a corner: 1 is the first element, -1 the last one so far. A shape can do without normals and texture
- * coordinates that are not there, OBJ_NONE, but not without vertices. */
+ * coordinates that are not there, OBJ_NONE; without a vertex there is no face. */
 static bool read_index(obj_text *t, const char *word, char **end, size_t n, const char *what, uint32_t *out)
 {
     if (strspn(word, "+-0123456789") == 0) return obj_fail(t, "an index of a %s is missing", what);
     long long value = strtoll(word, end, 10); /* saturates, and is then out of range */
     if (value < 0) value = value < -(long long)n ? 0 : value + (long long)n + 1;
     if (value < 1 || value > (long long)n) {
-        if (*what != 'v') return loader_remark(t->l, "corners that name a %s out of range have none", what);
-        return obj_fail(t, "%s index %.*s is out of range, there are %zu so far", what, (int)(*end - word), word, n);
+        return *what == 'v' || loader_remark(t->l, "corners that name a %s out of range have none", what);
     }
     *out = (uint32_t)(value - 1);
     return true;
@@ -102,7 +130,7 @@ static bool read_corner(obj_file *o, obj_text *t, char *word, obj_corner *out)
     return *at == '\0' || obj_fail(t, "'%.40s' is not a corner of a face", word);
 }
 
-static bool add_triangle(obj_file *o, const obj_corner *a, const obj_corner *b, const obj_corner *c)
+bool obj_add_triangle(obj_file *o, const obj_corner *a, const obj_corner *b, const obj_corner *c)
 {
     obj_corner *corner = loader_grow(o->l, o->corner, o->n_triangles, 3 * sizeof *corner);
     uint32_t *material_of = loader_grow(o->l, o->material_of, o->n_triangles, sizeof *material_of);
@@ -119,45 +147,24 @@ static bool add_triangle(obj_file *o, const obj_corner *a, const obj_corner *b, 
     return true;
 }
 
-static void fan_normal(const obj_file *o, const obj_corner *corners, size_t i, double *out)
-{
-    double u[3], v[3];
-    vec_sub(u, o->v + 3 * (size_t)corners[i].v, o->v + 3 * (size_t)corners[0].v);
-    vec_sub(v, o->v + 3 * (size_t)corners[i + 1].v, o->v + 3 * (size_t)corners[0].v);
-    vec_cross(out, u, v);
-}
-
-/* A fan is wrong where one of its triangles turns against the sum of all. */
-static bool fan_folds(const obj_file *o, const obj_corner *corners, size_t n)
-{
-    double sum[3] = {0, 0, 0}, normal[3];
-    for (size_t i = 1; i + 1 < n; i++) {
-        fan_normal(o, corners, i, normal);
-        for (int k = 0; k < 3; k++) sum[k] += normal[k];
-    }
-    for (size_t i = 1; i + 1 < n; i++) {
-        fan_normal(o, corners, i, normal);
-        if (vec_dot(normal, sum) < -1e-9 * vec_dot(sum, sum)) return true;
-    }
-    return false;
-}
-
 static bool read_face(obj_file *o, obj_text *t)
 {
-    obj_corner corners[MAX_CORNERS];
+    obj_corner corners[OBJ_MAX_CORNERS];
     size_t n = 0;
+    bool lacks = false;
     for (char *word = obj_next_word(t); word; word = obj_next_word(t)) {
-        if (n == MAX_CORNERS) return obj_fail(t, "a face of more than %d corners", MAX_CORNERS);
-        if (!read_corner(o, t, word, &corners[n++])) return false;
+        if (n == OBJ_MAX_CORNERS) return obj_fail(t, "a face of more than %d corners", OBJ_MAX_CORNERS);
+        corners[n].v = OBJ_NONE;
+        if (!read_corner(o, t, word, &corners[n])) return false;
+        lacks = lacks || corners[n++].v == OBJ_NONE;
     }
+    if (lacks && o->n_lost == 0) o->lost_line = t->line;
+    if (lacks) return o->n_lost++ > 0 || obj_remark(t, "a face names a vertex that is out of range, and is left out");
     if (n < 3) return loader_remark(t->l, "faces of less than 3 corners are left out");
-    if (n > 3 && fan_folds(o, corners, n) && o->n_concave++ == 0 &&
-        !obj_remark(t, "a concave polygon is cut into a fan: it may look wrong"))
-        return false;
-    for (size_t i = 1; i + 1 < n; i++) {
-        if (!add_triangle(o, &corners[0], &corners[i], &corners[i + 1])) return false;
-    }
-    return true;
+    bool crosses;
+    if (!obj_cut_polygon(o, corners, n, &crosses)) return false;
+    return !crosses || o->n_crossing++ > 0 ||
+           obj_remark(t, "a polygon crosses itself, or there are too many large ones: it may look wrong");
 }
 
 /* Without a name, as the format has it: from here on no material. */
@@ -222,7 +229,8 @@ bool obj_load(loader *l)
     obj_text t;
     uint8_t *bytes;
     size_t n_bytes;
-    if (!loader_read_file(l, l->path, &bytes, &n_bytes) || !obj_open(&t, l, l->path, bytes, n_bytes)) return false;
+    if (!loader_read_file(l, l->path, &bytes, &n_bytes) || !obj_open(&t, l, l->path, bytes, n_bytes, false))
+        return false;
     o.object_word = find_object_word(l, bytes, n_bytes);
     if (!begin_object(&o, "")) return false;
     if (!obj_find_material(&o, &t, "default", &o.current_material)) return false;
@@ -230,7 +238,11 @@ bool obj_load(loader *l)
     while (obj_next_line(&t)) {
         if (!read_statement(&o, &t)) return false;
     }
+    if (o.n_triangles == 0 && o.n_lost > 0)
+        return loader_fail(l, "%s:%zu: all faces name vertices that are out of range, from this one on", l->path,
+                           o.lost_line);
     if (o.n_triangles == 0) return loader_fail(l, "%s: the file has no faces", l->path);
-    if (o.n_concave > 1 && !loader_remark(l, "so are %zu more concave polygons", o.n_concave - 1)) return false;
-    return obj_note_undefined_materials(&o) && obj_emit(&o);
+    if (o.n_crossing > 1 && !loader_remark(l, "so may %zu more polygons", o.n_crossing - 1)) return false;
+    if (o.n_lost > 1 && !loader_remark(l, "so are %zu more faces that name such vertices", o.n_lost - 1)) return false;
+    return finish_colours(&o) && obj_note_undefined_materials(&o) && obj_emit(&o);
 }

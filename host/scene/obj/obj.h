@@ -1,4 +1,5 @@
-/* The OBJ loader's inside: obj_text.c reads lines, obj_mtl.c materials, obj.c statements, obj_mesh.c makes the meshes.
+/* The OBJ loader's inside: obj_text.c reads lines, obj_mtl.c materials, obj.c statements, obj_polygon.c cuts faces,
+ * obj_mesh.c makes the meshes.
  */
 #ifndef GNOMON_HOST_OBJ_H
 #define GNOMON_HOST_OBJ_H
@@ -11,12 +12,14 @@ typedef struct {
     const char *path;
     char *next; /* behind the current line */
     char *end;
-    char *at;       /* within the current line, which is zero-terminated */
-    size_t line;    /* number of its first line */
-    size_t n_lines; /* lines read so far */
+    char *at;        /* within the current line, which is zero-terminated */
+    size_t line;     /* number of its first line */
+    size_t n_lines;  /* lines read so far */
+    bool forgiving;  /* obj_fail does not end the load: it sets ... */
+    char wrong[512]; /* ... what is wrong with the line, or the file; else empty */
 } obj_text;
 
-bool obj_open(obj_text *t, loader *l, const char *path, uint8_t *bytes, size_t n_bytes);
+bool obj_open(obj_text *t, loader *l, const char *path, uint8_t *bytes, size_t n_bytes, bool forgiving);
 /* The next line that is not empty, without comment; backslash at a line's end joins it with the next. */
 bool obj_next_line(obj_text *t);
 /* The next blank-separated word, or NULL. */
@@ -46,9 +49,17 @@ enum { OBJ_BUCKETS = 1024 };
 
 #define OBJ_NONE UINT32_MAX
 
+enum { OBJ_MAX_CORNERS = 4096 }; /* of a face */
+
 typedef struct {
     uint32_t v, vt, vn; /* indices; vt, vn OBJ_NONE where the corner has none */
 } obj_corner;
+
+/* A face in its plane: corners of which each knows its neighbours. */
+typedef struct {
+    double at[OBJ_MAX_CORNERS][2];
+    uint32_t next[OBJ_MAX_CORNERS], prev[OBJ_MAX_CORNERS];
+} obj_outline;
 
 typedef struct {
     loader *l;
@@ -63,7 +74,10 @@ typedef struct {
     obj_object *object;  /* [0]: what is before any, or all of a file whose objects are not told apart */
     uint32_t *object_of; /* per triangle */
     size_t n_objects;
-    size_t n_concave; /* faces */
+    size_t n_crossing;        /* faces */
+    size_t n_lost, lost_line; /* faces that name no vertex; the first */
+    size_t n_compared;        /* corners with ears, see obj_polygon.c */
+    obj_outline *flat;        /* of the face that is being cut; NULL: none was yet */
     uint32_t current_object;
     char object_word; /* of the statements that begin objects: 'o', of files without them 'g'; 0: none does */
     uint32_t bucket[OBJ_BUCKETS]; /* materials by name: the first of each, 1 + index */
@@ -77,6 +91,13 @@ uint32_t *obj_bucket(uint32_t bucket[OBJ_BUCKETS], const char *name);
 bool obj_find_material(obj_file *o, obj_text *t, const char *name, uint32_t *out); /* makes it if need be */
 bool obj_read_libraries(obj_file *o, obj_text *t);
 bool obj_note_undefined_materials(obj_file *o);
+
+/* obj.c */
+bool obj_add_triangle(obj_file *o, const obj_corner *a, const obj_corner *b, const obj_corner *c);
+
+/* obj_polygon.c: a face of n >= 3 corners as triangles. *crosses: it
+ * crosses itself, so that none are right; or finding them would take too long. */
+bool obj_cut_polygon(obj_file *o, const obj_corner *corners, size_t n, bool *crosses);
 
 /* obj_mesh.c: one object and mesh (more if too large) per object and its material. */
 bool obj_emit(obj_file *o);

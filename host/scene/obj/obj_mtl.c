@@ -1,5 +1,5 @@
 /* OBJ materials: Kd, taken as linear light as it stands (the format does not say, and exporters differ), its
- * texture, and opacity. */
+ * texture, and opacity. What is wrong in them is a remark. */
 #include "obj.h"
 
 #include <stdio.h>
@@ -104,21 +104,37 @@ static bool read_map_options(obj_text *t, const obj_material *material, texture_
     return !other || obj_remark(t, "options of map_Kd of material '%s' ignored: only -clamp counts", material->name);
 }
 
+/* As written on Windows, or in quotes. */
+static void clean_name(char *name)
+{
+    const size_t n = strlen(name);
+    if (n >= 2 && name[0] == '"' && name[n - 1] == '"') {
+        memmove(name, name + 1, n - 2);
+        name[n - 2] = '\0';
+    }
+    for (char *c = name; *c; c++) *c = *c == '\\' ? '/' : *c;
+}
+
+/* Behind the last slash: what a path on another machine ends in may lie beside the scene. */
+static const char *last_part(const char *name)
+{
+    const char *slash = strrchr(name, '/');
+    return slash && slash[1] ? slash + 1 : name;
+}
+
+static const char outside[] = "is outside the folder of the scene, which only --outside allows";
+
 /* A texture that is not there, or damaged, is a remark: the shape is worth showing without its colours. */
 static bool lacks_texture(obj_text *t, const char *path, const char *why)
 {
     return loader_remark(t->l, "line %zu: texture '%.200s' %s: it is drawn without", t->line, path, why);
 }
 
-static bool load_texture(obj_file *o, obj_text *t, const char *path, const texture_use *use, size_t *out)
+static bool load_texture(obj_file *o, obj_text *t, const char *path, const uint8_t *bytes, size_t n_bytes,
+                         const texture_use *use, size_t *out)
 {
-    uint8_t *bytes = NULL;
-    size_t n_bytes = 0;
-    const char *missing;
     rgba8_picture picture;
     char problem[200];
-    if (!loader_try_file(o->l, path, &bytes, &n_bytes, &missing)) return false;
-    if (missing) return lacks_texture(t, path, missing);
     if (!picture_is(bytes, n_bytes))
         return lacks_texture(t, path, "ignored: only " PICTURE_FORMATS " images are supported");
     if (!texture_may_decode(o->l, path, bytes, n_bytes)) return false;
@@ -137,39 +153,71 @@ static size_t find_loaded(const scene *s, const char *path, const texture_use *u
     return SCENE_NONE;
 }
 
+/* *missing: why there is no such file; NULL: there is. *path: of it, or the name. */
+static bool read_map_at(obj_file *o, obj_text *t, const char *name, const texture_use *use, size_t *out,
+                        const char **path, const char **missing)
+{
+    uint8_t *bytes = NULL;
+    size_t n_bytes = 0;
+    *path = name;
+    *missing = loader_may_read(o->l, name) ? NULL : outside;
+    if (*missing) return true;
+    *path = loader_relative_path(o->l, name);
+    if (!*path) return false;
+    *out = find_loaded(o->l->s, *path, use);
+    if (*out != SCENE_NONE) return true;
+    if (!loader_try_file(o->l, *path, &bytes, &n_bytes, missing)) return false;
+    return *missing || load_texture(o, t, *path, bytes, n_bytes, use, out);
+}
+
 static bool read_map(obj_file *o, obj_text *t, obj_material *material)
 {
     texture_use use = {.bilinear = true};
     if (!read_map_options(t, material, &use)) return false;
     char *name = obj_rest(t);
     if (!*name) return obj_fail(t, "map_Kd without a name");
-    for (char *c = name; *c; c++) *c = *c == '\\' ? '/' : *c; /* as written on Windows */
-    if (!loader_may_read(o->l, name))
-        return lacks_texture(t, name, "is outside the folder of the scene, which only --outside allows");
-    const char *path = loader_relative_path(o->l, name);
-    if (!path) return false;
-    material->texture_idx = find_loaded(o->l->s, path, &use);
-    return material->texture_idx != SCENE_NONE || load_texture(o, t, path, &use, &material->texture_idx);
+    clean_name(name);
+    const char *path, *missing, *last = last_part(name), *beside, *none = outside;
+    if (!read_map_at(o, t, name, &use, &material->texture_idx, &path, &missing)) return false;
+    if (missing && last != name && !read_map_at(o, t, last, &use, &material->texture_idx, &beside, &none)) return false;
+    return !missing || !none || lacks_texture(t, path, missing);
 }
+
+/* What stands before any material, or behind one without a name, is of a material that no face can name. */
+enum { UNNAMED = OBJ_NONE - 1 };
 
 static bool read_statement(obj_file *o, obj_text *t, const char *word, uint32_t *current)
 {
     if (strcmp(word, "newmtl") == 0) {
         const char *name = obj_rest(t);
+        *current = UNNAMED;
         if (!*name) return obj_fail(t, "newmtl without a name");
         if (!obj_find_material(o, t, name, current)) return false;
         o->material[*current].defined = true;
         return true;
     }
-    obj_material *material = *current != OBJ_NONE ? &o->material[*current] : NULL;
     bool kd = strcmp(word, "Kd") == 0, d = strcmp(word, "d") == 0, tr = strcmp(word, "Tr") == 0;
     bool map = strcmp(word, "map_Kd") == 0, map_d = strcmp(word, "map_d") == 0;
     if (!(kd || d || tr || map || map_d)) return true; /* gloss and the like: nothing here could show it */
-    if (!material) return obj_fail(t, "%s before any newmtl", word);
+    if (*current == UNNAMED) return true;
+    if (*current == OBJ_NONE) {
+        *current = UNNAMED;
+        return obj_fail(t, "%s before any newmtl", word);
+    }
+    obj_material *material = &o->material[*current];
     if (kd) return read_kd(t, material);
     if (d || tr) return read_opacity(t, material, word);
     if (map) return read_map(o, t, material);
     return loader_remark(t->l, "opacity texture of material '%s' ignored: it is not supported", material->name);
+}
+
+/* A remark on what is wrong. False: it is something else. */
+static bool forgive(obj_text *t, const char *result)
+{
+    bool ok = t->wrong[0] &&
+              loader_remark(t->l, "material library '%.200s' line %zu: %s: %s", t->path, t->line, t->wrong, result);
+    t->wrong[0] = '\0';
+    return ok;
 }
 
 /* A missing library is a remark: the shape is worth showing without its colours. */
@@ -181,25 +229,36 @@ static bool is_read(const obj_file *o, const char *path)
     return false;
 }
 
-static bool read_library(obj_file *o, const char *name, const char **missing)
+static bool read_library_at(obj_file *o, const char *name, const char **missing)
 {
     uint8_t *bytes = NULL;
     size_t n_bytes = 0;
     uint32_t current = OBJ_NONE;
     obj_text t;
-    *missing = loader_may_read(o->l, name) ? NULL : "is outside the folder of the scene, which only --outside allows";
+    *missing = loader_may_read(o->l, name) ? NULL : outside;
     if (*missing) return true;
     const char *path = loader_relative_path(o->l, name);
     if (!path || is_read(o, path)) return path != NULL;
     if (!loader_try_file(o->l, path, &bytes, &n_bytes, missing)) return false;
     if (*missing) return true;
     const char **grown = loader_grow(o->l, o->library, o->n_libraries, sizeof *grown);
-    if (!grown || !obj_open(&t, o->l, path, bytes, n_bytes)) return false;
+    if (!grown) return false;
     o->library = grown;
     o->library[o->n_libraries++] = path;
+    if (!obj_open(&t, o->l, path, bytes, n_bytes, true)) return forgive(&t, "its colours are missing");
     while (obj_next_line(&t)) {
-        if (!read_statement(o, &t, obj_next_word(&t), &current)) return false;
+        if (!read_statement(o, &t, obj_next_word(&t), &current) && !forgive(&t, "the line is ignored")) return false;
     }
+    return true;
+}
+
+static bool read_library(obj_file *o, char *name, const char **missing)
+{
+    clean_name(name);
+    const char *last = last_part(name), *none = outside;
+    if (!read_library_at(o, name, missing)) return false;
+    if (*missing && last != name && !read_library_at(o, last, &none)) return false;
+    if (!none) *missing = NULL;
     return true;
 }
 
@@ -208,11 +267,11 @@ bool obj_read_libraries(obj_file *o, obj_text *t)
 {
     const char *missing;
     char *rest = obj_rest(t);
-    if (!*rest) return obj_fail(t, "mtllib without a name");
+    if (!*rest) return obj_remark(t, "mtllib without a name: colours are missing");
     if (!read_library(o, rest, &missing)) return false;
     if (!missing) return true;
     t->at = rest;
-    for (const char *name = obj_next_word(t); name; name = obj_next_word(t)) {
+    for (char *name = obj_next_word(t); name; name = obj_next_word(t)) {
         if (!read_library(o, name, &missing)) return false;
         if (missing && !loader_remark(t->l, "line %zu: material library '%.200s' %s: its colours are missing", t->line,
                                       name, missing))

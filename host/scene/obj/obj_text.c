@@ -14,7 +14,9 @@ bool obj_fail(obj_text *t, const char *format, ...)
     va_start(arguments, format);
     vsnprintf(what, sizeof what, format, arguments);
     va_end(arguments);
-    return loader_fail(t->l, "%s:%zu: %s", t->path, t->line, what);
+    if (!t->forgiving) return loader_fail(t->l, "%s:%zu: %s", t->path, t->line, what);
+    snprintf(t->wrong, sizeof t->wrong, "%s", what);
+    return false;
 }
 
 bool obj_remark(obj_text *t, const char *format, ...)
@@ -30,13 +32,16 @@ bool obj_remark(obj_text *t, const char *format, ...)
 bool obj_spend(obj_text *t, budget_kind kind, size_t n)
 {
     const char *over = budget_spend(t->l, kind, n);
-    return !over || obj_fail(t, "%s", over);
+    return !over || loader_fail(t->l, "%s:%zu: %s", t->path, t->line, over);
 }
 
-bool obj_open(obj_text *t, loader *l, const char *path, uint8_t *bytes, size_t n_bytes)
+bool obj_open(obj_text *t, loader *l, const char *path, uint8_t *bytes, size_t n_bytes, bool forgiving)
 {
     const size_t mark = n_bytes >= 3 && memcmp(bytes, "\xEF\xBB\xBF", 3) == 0 ? 3 : 0; /* of UTF-8 */
-    *t = (obj_text){.l = l, .path = path, .next = (char *)bytes + mark, .end = (char *)bytes + n_bytes};
+    *t = (obj_text){
+        .l = l, .path = path, .next = (char *)bytes + mark, .end = (char *)bytes + n_bytes, .forgiving = forgiving};
+    if (!memchr(bytes, '\n', n_bytes)) /* of an old Macintosh */
+        for (size_t i = 0; i < n_bytes; i++) bytes[i] = bytes[i] == '\r' ? '\n' : bytes[i];
     const char *zero = memchr(bytes, 0, n_bytes);
     if (!zero) return true;
     for (const char *c = t->next; c < zero; c++) t->line += *c == '\n';
@@ -53,9 +58,9 @@ static bool take_physical_line(obj_text *t)
     t->n_lines++;
     *stop = ' ';
     while (stop > start && stop[-1] == '\r') *--stop = ' ';
-    bool joins = stop > start && stop[-1] == '\\' && t->next < t->end;
+    bool joins = stop > start && stop[-1] == '\\';
     if (joins) stop[-1] = ' ';
-    return joins;
+    return joins && t->next < t->end;
 }
 
 bool obj_next_line(obj_text *t)

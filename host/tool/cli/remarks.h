@@ -18,8 +18,7 @@ void remarks_on_brightness(const scene *s, const settings *set, const engine_pic
  * baked (M9). 0, or -1 with one line in error. */
 int remarks_on_lights(scene *s, char *error, size_t error_bytes);
 
-/* Adds a note for every light all of whose casters are nearer than its near plane, and one if (nearly) all that is in
- * view lies beyond the shadow distance that a file gets which sets none. 0, or -1 with one line in error. */
-int remarks_on_shadows(scene *s, int width, int height, char *error, size_t error_bytes);
+/* Adds a note for every light all of whose casters are nearer than its near plane. 0, or -1 with one line in error. */
+int remarks_on_shadows(scene *s, char *error, size_t error_bytes);
 
 #endif

@@ -239,8 +239,7 @@ static int compare(comparison *c, const tool_options *o)
     scene s;
     settings set;
     if (tool_load(o, &s, &set)) return TOOL_FAILED;
-    int failed = draw_all(c, o, &s, &set, error, sizeof error) ||
-                 remarks_on_shadows(&s, o->width, o->height, error, sizeof error);
+    int failed = draw_all(c, o, &s, &set, error, sizeof error) || remarks_on_shadows(&s, error, sizeof error);
     if (!failed && !o->json) {
         remarks_on_settings(&s);
         remarks_on_view(&s, o->width, o->height);

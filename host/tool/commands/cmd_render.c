@@ -67,8 +67,7 @@ static uint8_t *draw_frame(const tool_options *o, bool remarks, int *w, int *h, 
     settings set;
     engine_picture p;
     if (tool_load(o, &s, &set)) return NULL;
-    int failed =
-        draw(&p, o, &s, &set, error, sizeof error) || remarks_on_shadows(&s, o->width, o->height, error, sizeof error);
+    int failed = draw(&p, o, &s, &set, error, sizeof error) || remarks_on_shadows(&s, error, sizeof error);
     if (!failed && remarks) say_remarks(o, &s, &set, &p);
     describe(&s, what, what_bytes);
     scene_free(&s);

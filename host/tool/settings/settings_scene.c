@@ -48,7 +48,7 @@ typedef struct {
 
 static const scene_knob scene_knobs[] = {
     SHADOW_("max_distance", NUMBER, max_distance, 0.004, 8192,
-            "no shadow beyond this view depth; unset, with a camera of the file's, at most 100 (D5)"),
+            "no shadow beyond this view depth; unset, about as far as what is seen (D5)"),
     SHADOW_("distance_fade", RATIO, distance_fade, 0.001, 1, "fraction of it over which shadows fade (D5)"),
     SHADOW_("cascade_fade", RATIO, cascade_fade, 0.001, 1, "margin of the bounding sphere (D3)"),
     SHADOW_("penumbra", NUMBER, penumbra, 0, 64,

@@ -1,0 +1,210 @@
+/* Where objects are, as far as the engines could not take it: fixed point has no digits for a model of two units five
+ * million units from the origin, and a transform without an inverse has no normals. */
+#include "place.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "vec.h"
+
+static const double far_radii = 1000; /* farther from the origin, in its own size: moved there */
+static const double flat = 1.0 / (1 << 24),
+                    thinnest = 1.0 / (1 << 16); /* of a transform's largest scale: below, and instead */
+static const double speck = 1e-5;               /* of the scene: the size of what is scaled to nothing */
+
+/* Of object i in the pose; pose poses.n is the scene's own, which is stored twice. */
+typedef void (*change)(scene_affine *to_world, const void *how);
+
+static void change_object(loader *l, size_t object_idx, change apply, const void *how)
+{
+    scene *s = l->s;
+    const scene_poses *p = &l->poses;
+    size_t at = 0;
+    for (size_t i = 0; i < object_idx; i++) at += 1 + s->objects[i].n_joints;
+    apply(&s->objects[object_idx].to_world, how);
+    apply(&s->objects[object_idx].at_rest, how);
+    for (size_t k = 0; p->n > 0 && k <= p->n; k++) apply(&p->affines[k * p->n_affines + at], how);
+}
+
+/* ---- Flat transforms --------------------------------------------------------------------------------------------- */
+
+/* What the column adds to the directions of the others, u and v (which may be NULL); the rest of its length. */
+static double part_beside(double *out, const double *column, const double *u, const double *v)
+{
+    memcpy(out, column, 3 * sizeof *out);
+    const double *others[2] = {u, v};
+    for (int k = 0; k < 2; k++) {
+        const double along = others[k] ? vec_dot(out, others[k]) : 0;
+        for (int i = 0; others[k] && i < 3; i++) out[i] -= along * others[k][i];
+    }
+    return sqrt(vec_dot(out, out));
+}
+
+static void add_to_column(scene_affine *a, int column, const double *direction, double length)
+{
+    for (int i = 0; i < 3; i++) a->m[i][column] += length * direction[i];
+}
+
+/* A direction at right angles to u. */
+static void beside(double *out, const double *u)
+{
+    double axis[3] = {0, 0, 0};
+    int k = 0;
+    for (int i = 1; i < 3; i++)
+        if (fabs(u[i]) < fabs(u[k])) k = i;
+    axis[k] = 1;
+    vec_cross(out, u, axis);
+    vec_normalise(out);
+}
+
+static void order_columns(int order[3], double length[3], const scene_affine *a)
+{
+    for (int k = 0; k < 3; k++) {
+        double column[3];
+        affine_column(column, a, k);
+        length[k] = sqrt(vec_dot(column, column));
+        order[k] = k;
+    }
+    for (int k = 0; k < 2; k++)
+        for (int j = 0; j < 2; j++)
+            if (length[order[j]] < length[order[j + 1]]) {
+                const int swap = order[j];
+                order[j] = order[j + 1];
+                order[j + 1] = swap;
+            }
+}
+
+/* Columns that the transform lacks, or nearly so, get a length that nobody sees. how: the length where all are 0. */
+static void thicken(scene_affine *a, const void *how)
+{
+    int order[3];
+    double length[3], u[3], v[3], w[3], column[3];
+    order_columns(order, length, a);
+    double longest = length[order[0]];
+    if (!isfinite(longest)) return;
+    if (!(longest > 1e-150)) {
+        longest = *(const double *)how;
+        for (int k = 0; k < 3; k++)
+            for (int i = 0; i < 3; i++) a->m[i][k] = i == k ? longest : 0;
+        return;
+    }
+    affine_column(u, a, order[0]);
+    vec_normalise(u);
+    affine_column(column, a, order[1]);
+    if (part_beside(v, column, u, NULL) < flat * longest) {
+        beside(v, u);
+        add_to_column(a, order[1], v, thinnest * longest);
+    }
+    vec_normalise(v);
+    affine_column(column, a, order[2]);
+    const double left = part_beside(w, column, u, v);
+    if (left >= flat * longest) return;
+    const bool even = order[1] == (order[0] + 1) % 3; /* u, v, w wind as the columns do */
+    double normal[3];
+    vec_cross(normal, u, v);
+    const bool mirrors = left > 0 && (vec_dot(w, normal) < 0) == even;
+    add_to_column(a, order[2], normal, (even == mirrors ? -1 : 1) * thinnest * longest);
+}
+
+static bool is_thin(const scene_affine *a)
+{
+    scene_affine thick = *a;
+    const double any = 1;
+    thicken(&thick, &any);
+    return memcmp(&thick, a, sizeof thick) != 0;
+}
+
+static double radius_of(const scene_mesh *mesh)
+{
+    double most = 0;
+    for (size_t i = 0; i < mesh->n_vertices; i++)
+        most = fmax(most, sqrt(vec_dot(mesh->pos + 3 * i, mesh->pos + 3 * i)));
+    return most;
+}
+
+static bool is_ever_thin(const loader *l, size_t object_idx, size_t at)
+{
+    const scene_poses *p = &l->poses;
+    bool thin = is_thin(&l->s->objects[object_idx].to_world);
+    for (size_t k = 0; k < p->n && !thin; k++) thin = is_thin(&p->affines[k * p->n_affines + at]);
+    return thin;
+}
+
+static bool thicken_objects(loader *l, const bounds *b)
+{
+    scene *s = l->s;
+    bool any = false;
+    for (size_t i = 0, at = 0; i < s->n_objects; at += 1 + s->objects[i++].n_joints) {
+        if (!is_ever_thin(l, i, at)) continue;
+        const double radius = radius_of(&s->meshes[s->objects[i].mesh_idx]);
+        const double length = radius > 0 ? speck * b->radius / radius : 1;
+        change_object(l, i, thicken, &length);
+        any = true;
+    }
+    return any;
+}
+
+/* ---- Far from the origin ----------------------------------------------------------------------------------------- */
+
+static bool is_far(const double *centre, double radius)
+{
+    return fmax(fabs(centre[0]), fmax(fabs(centre[1]), fabs(centre[2]))) > far_radii * radius;
+}
+
+static void move(scene_affine *a, const void *how)
+{
+    const double *by = how;
+    for (int k = 0; k < 3; k++) a->m[k][3] -= by[k];
+}
+
+/* how: in the space of the mesh */
+static void move_inside(scene_affine *a, const void *how)
+{
+    double at[3];
+    affine_point(at, a, how);
+    for (int k = 0; k < 3; k++) a->m[k][3] = at[k];
+}
+
+/* A mesh whose vertices are far from its own origin. */
+static void centre_mesh(loader *l, size_t mesh_idx)
+{
+    scene_mesh *mesh = &l->s->meshes[mesh_idx];
+    double low[3] = {HUGE_VAL, HUGE_VAL, HUGE_VAL}, high[3] = {-HUGE_VAL, -HUGE_VAL, -HUGE_VAL}, centre[3], half = 0;
+    for (size_t i = 0; i < 3 * mesh->n_vertices; i++) {
+        low[i % 3] = fmin(low[i % 3], mesh->pos[i]);
+        high[i % 3] = fmax(high[i % 3], mesh->pos[i]);
+    }
+    for (int k = 0; k < 3; k++) {
+        centre[k] = low[k] / 2 + high[k] / 2;
+        half = fmax(half, (high[k] - low[k]) / 2);
+    }
+    if (mesh->joint || !is_far(centre, half)) return;
+    for (size_t i = 0; i < 3 * mesh->n_vertices; i++) mesh->pos[i] -= centre[i % 3];
+    for (size_t i = 0; i < l->s->n_objects; i++)
+        if (l->s->objects[i].mesh_idx == mesh_idx) change_object(l, i, move_inside, centre);
+}
+
+static void move_scene(loader *l, const double *by)
+{
+    scene *s = l->s;
+    const scene_poses *p = &l->poses;
+    for (size_t i = 0; i < s->n_objects; i++) change_object(l, i, move, by);
+    for (size_t i = 0; i < s->n_lights; i++) vec_sub(s->lights[i].position, s->lights[i].position, by);
+    for (size_t i = 0; i < p->n * p->n_lights; i++) vec_sub(p->light[i], p->light[i], by);
+    for (size_t i = 0; p->camera && i < p->n; i++) move(&p->camera[i], by);
+    move(&s->camera.to_world, by);
+    move(&s->stage.camera, by);
+}
+
+bool place_objects(loader *l, const bounds *b, bool *changed)
+{
+    *changed = false;
+    if (l->options->rig) return true; /* whoever poses the nodes has them as they are */
+    *changed = thicken_objects(l, b);
+    if (!is_far(b->centre, b->radius)) return true;
+    *changed = true;
+    for (size_t i = 0; i < l->s->n_meshes; i++) centre_mesh(l, i);
+    move_scene(l, b->centre);
+    return loader_note(l, "the scene is far from the origin, at %g %g %g: it is moved to it", b->centre[0],
+                       b->centre[1], b->centre[2]);
+}

@@ -1,0 +1,126 @@
+/* Cameras of files: near planes that are too near, scenes of any size before them, and how far their shadows reach. Run
+ * from the project's folder. */
+#define _POSIX_C_SOURCE 200809L
+#define TMP             "build/tmp/test_scene_cameras"
+
+#include <sys/stat.h>
+
+#include "../host/scene/core/view_range.h"
+#include "data/scene_fixture.h"
+
+/* A floor of 20 x 20 and a wall of 2 x 3 on it, times a size, seen from 12 before the wall and 3.6 above the floor;
+ * %s: the lens, the floor's half, and what else the camera's node has. */
+static const char text_of_room[] =
+    "{\"asset\":{\"version\":\"2.0\"},\"scene\":0,\"scenes\":[{\"nodes\":[0,1]}],\"nodes\":[{\"mesh\":0,"
+    "\"scale\":[%g,%g,%g]},{\"camera\":0,\"translation\":[0,%g,%g],\"rotation\":[-0.13,0,0,0.9915]}],"
+    "\"cameras\":[{\"type\":\"perspective\",\"perspective\":{\"yfov\":0.8,%s}}],"
+    "\"meshes\":[{\"primitives\":[{\"attributes\":{\"POSITION\":0}}]}],"
+    "\"accessors\":[{\"bufferView\":0,\"componentType\":5126,\"count\":12,\"type\":\"VEC3\"}],"
+    "\"bufferViews\":[{\"buffer\":0,\"byteLength\":144}],\"buffers\":[{\"byteLength\":144,\"uri\":\"%s\"}]}";
+
+static int load_room(double size, float floor_half, double distance, const char *lens)
+{
+    const float f = floor_half;
+    const float pos[36] = {-f, 0, f, f, 0, f, f, 0, -f, -f, 0, f, f, 0, -f, -f, 0, -f,
+                           -1, 0, 0, 1, 0, 0, 1, 3, 0,  -1, 0, 0, 1, 3, 0,  -1, 3, 0};
+    char text[2000];
+    write_file(TMP ".bin", pos, sizeof pos);
+    snprintf(text, sizeof text, text_of_room, size, size, size, 0.3 * distance * size, distance * size, lens,
+             "test_scene_cameras.bin");
+    return load_text(TMP ".gltf", text);
+}
+
+/* Whatever the size of the scene and the planes of the lens: the same picture, with shadows as far as what is seen. */
+static void test_sizes(void)
+{
+    static const double sizes[] = {1e-6, 1e-3, 1, 1e3, 1e6, 1e12};
+    static const char *const lenses[] = {"\"znear\":1e-9", "\"znear\":1e-9,\"zfar\":1e15"};
+    for (size_t i = 0; i < sizeof sizes / sizeof *sizes; i++)
+        for (size_t k = 0; k < 2; k++) {
+            if (!CHECK_EQ_INT(load_room(sizes[i], 10, 12, lenses[k]), 0)) return (void)puts(error);
+            check_invariants();
+            const double nearest = 5.4 * sizes[i], deepest = 22.2 * sizes[i];
+            CHECK(s.camera.near < nearest / 2 && s.camera.near > deepest / 16384 && s.camera.near > 1e-8);
+            CHECK(s.shadow.max_distance > 0.9 * deepest && s.shadow.max_distance < 1.3 * deepest);
+            CHECK(s.shadow.n_cascades == 2 && s.n_remarks == 0);
+            CHECK_NEAR(s.shadow.cascade_ratio[0], 0.4845, 0.006);
+            CHECK(s.n_notes == 1 && has_note("nothing is nearer"));
+            scene_free(&s);
+        }
+}
+
+/* A near plane that somebody thought about stays, and so does a far one that ends shadows. */
+static void test_given(void)
+{
+    if (!CHECK_EQ_INT(load_room(1, 10, 12, "\"znear\":0.1,\"zfar\":15"), 0)) return (void)puts(error);
+    CHECK_NEAR(s.camera.near, 0.1, 0);
+    CHECK_NEAR(s.camera.far, 15, 0);
+    CHECK_NEAR(s.shadow.max_distance, 15, 0);
+    CHECK_EQ_INT(s.n_notes, 0);
+    scene_free(&s);
+    if (!CHECK_EQ_INT(load_room(1, 10, 12, "\"znear\":150"), 0)) return (void)puts(error); /* sees nothing */
+    CHECK(s.shadow.max_distance > s.camera.near);
+    check_invariants();
+    scene_free(&s);
+}
+
+/* To the horizon: the usual distance and cascades. From afar: beyond it. */
+static void test_wide(void)
+{
+    if (!CHECK_EQ_INT(load_room(1, 5000, 12, "\"znear\":0.1"), 0)) return (void)puts(error);
+    CHECK_NEAR(s.shadow.max_distance, 100, 0);
+    CHECK(s.shadow.n_cascades == 4 && s.shadow.cascade_ratio[0] == scene_share(0.1));
+    scene_free(&s);
+    if (!CHECK_EQ_INT(load_room(1, 10, 500, "\"znear\":0.1"), 0)) return (void)puts(error);
+    CHECK(s.shadow.max_distance > 530 && s.shadow.max_distance < 630 && s.shadow.n_cascades == 1);
+    scene_free(&s);
+}
+
+/* What no place of the near plane can show is cut off, and that is said. */
+static void test_too_near(void)
+{
+    if (!CHECK_EQ_INT(load_room(1, 1e7F, 1e-3, "\"znear\":1e-6"), 0)) return (void)puts(error);
+    CHECK(has_remark("the camera's near plane is moved from 1e-06 to ") && has_remark("what is nearer is cut off"));
+    check_invariants();
+    scene_free(&s);
+}
+
+/* Areas by depth: a wall that fills the view, and half of one twice as far away. */
+static void test_view_range(void)
+{
+    double pos[24] = {-9, -9, -2, 9, -9, -2, 9, 9, -2, -9, 9, -2, -9, -9, -4, 0, -9, -4, 0, 9, -4, -9, 9, -4};
+    uint32_t idx[12] = {0, 1, 2, 0, 2, 3, 4, 5, 6, 4, 6, 7};
+    scene_mesh mesh = {.n_vertices = 8, .n_triangles = 4, .pos = pos, .idx = idx};
+    const scene_affine one = {{{1, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, 1, 0}}};
+    scene_object object = {.to_world = one, .receives = true};
+    scene view = {.n_meshes = 1, .meshes = &mesh, .n_objects = 1, .objects = &object};
+    for (int parallel = 0; parallel < 2; parallel++) {
+        view_range r;
+        view.camera = (scene_camera){.to_world = one, .focal = 1, .half_height = parallel, .near = 0.1, .far = 9};
+        view_range_begin(&r);
+        view_range_add(&r, &view, &one, 2);
+        CHECK_NEAR(r.nearest, 2, 1e-12);
+        CHECK_NEAR(r.deepest, 4, 1e-12);
+        CHECK_NEAR(r.area, 8 + 4, 1e-9);
+        CHECK_NEAR(view_range_share(&r, 3), 2.0 / 3, 1e-9);
+        CHECK(view_range_depth(&r, 0.5) >= 2 && view_range_depth(&r, 0.5) < 2.5);
+        CHECK_NEAR(view_range_depth(&r, 0.9), 4, 1e-9);
+        object.receives = false;
+        view_range_begin(&r);
+        view_range_add(&r, &view, &one, 2);
+        CHECK(r.nearest < 3 && !(r.area > 0));
+        object.receives = true;
+    }
+}
+
+int main(void)
+{
+    mkdir("build", 0777);
+    mkdir("build/tmp", 0777);
+    test_sizes();
+    test_given();
+    test_wide();
+    test_too_near();
+    test_view_range();
+    return check_report();
+}
