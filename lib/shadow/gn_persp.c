@@ -177,6 +177,37 @@ GN_HOT static void project_corner(const gn_frame *frame, const gn_light_view *vi
     *y = (int32_t)gn_clamp64(texel[1], -most, most) + centre;
 }
 
+/* Both of a corner within the tile's border, up to 8 times as far aside as away: nothing is limited there. */
+GN_HOT static inline void project_inner(const gn_light_view *view, int32_t bits, const int32_t v_q16[3], int32_t *x,
+                                        int32_t *y)
+{
+    const int32_t clz = gn_clz32((uint32_t)v_q16[2]), centre = (view->tile_texels << bits) >> 1, down = 45 - bits;
+    const uint32_t recip = gn_recip_norm((uint32_t)v_q16[2] << clz, 2);
+    const int32_t focal2 = (int32_t)view->fit.persp.focal2_q16;
+    const int32_t u_q28 = (int32_t)((((int64_t)v_q16[0] * (int64_t)recip >> (34 - clz)) + 1) >> 1),
+                  v_q28 = (int32_t)((((int64_t)v_q16[1] * (int64_t)recip >> (34 - clz)) + 1) >> 1);
+    const int64_t half = (int64_t)1 << (down - 1);
+    *x = (int32_t)(((int64_t)u_q28 * focal2 + half) >> down) + centre;
+    *y = (int32_t)(((int64_t)v_q28 * focal2 + half) >> down) + centre;
+}
+
+/* A triangle within the tile's border: most are smaller than a texel, and cover none. */
+GN_HOT static int32_t draw_inner(const gn_frame *frame, const gn_light_view *view, gn_casting *casting)
+{
+    int32_t(*corner)[3] = casting->with.clipping.polygon.v_q16, x[3], y[3];
+    const int two_sided = casting->job.two_sided;
+    gn_caster caster;
+    gn_plane plane;
+    for (int i = 0; i < 3; i++) project_inner(view, GN_K(frame, shadow_subpixel_bits), corner[i], &x[i], &y[i]);
+    const int32_t n_rows = gn_caster_begin(frame, view, &casting->walk, x, y);
+    if (!n_rows) { /* for the statistics */
+        const int64_t area = (int64_t)(x[1] - x[0]) * (y[2] - y[0]) - (int64_t)(y[1] - y[0]) * (x[2] - x[0]);
+        return area == 0 || (area > 0 && !two_sided) ? -1 : 0;
+    }
+    if (!persp_caster(&caster, &plane, view, corner, two_sided)) return -1;
+    return gn_caster_rows(view, &caster, &casting->walk, n_rows, NULL);
+}
+
 /* gn_outcode() of a frustum that is as high as it is wide. */
 GN_HOT static inline uint32_t outcode(const int32_t v_q16[3], int32_t near_q16, int32_t side_q16)
 {
@@ -199,10 +230,10 @@ GN_HOT int32_t gn_persp_triangle(const gn_frame *frame, const gn_light_view *vie
         any |= out;
     }
     if (all) return -1;
-    if (any) { /* whoever is within the tile's border is within the guard band */
-        any = 0;
-        for (int i = 0; i < 3; i++) any |= outcode(corner[i], fit->clip_q16, fit->guard_q16[0]);
-    }
+    const int inner = !any && !alpha && fit->side_q16[0] >> 19 == 0 && !(fit->focal2_q16 >> 31);
+    if (inner) return draw_inner(frame, view, casting);
+    any = 0;
+    for (int i = 0; i < 3; i++) any |= outcode(corner[i], fit->clip_q16, fit->guard_q16[0]);
     gn_caster caster;
     gn_plane plane;
     if (!persp_caster(&caster, &plane, view, corner, casting->job.two_sided)) return -1;
