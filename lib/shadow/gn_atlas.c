@@ -155,14 +155,6 @@ static inline int cached_corners(caster_job *job, const uint16_t idx[3], const i
     return 1;
 }
 
-static inline int32_t draw_small_perspective(gn_casting *casting, const int32_t *const c[3])
-{
-    const caster_job *job = &casting->job;
-    for (int i = 0; i < 3; i++)
-        for (int k = 0; k < 3; k++) casting->with.clipping.polygon.v_q16[i][k] = c[i][k];
-    return gn_persp_triangle(job->frame, job->view, casting, NULL);
-}
-
 /* The common case: a caster that is neither shrunk nor cut by alpha, and not far outside. Returns 0 for others. */
 static inline int draw_small(gn_casting *casting, const uint16_t idx[3], int32_t *n_texels)
 {
@@ -170,7 +162,8 @@ static inline int draw_small(gn_casting *casting, const uint16_t idx[3], int32_t
     const int32_t *c[3];
     if (GN_CASTER_BIAS && job->shrink_q16) return 0;
     if (job->object->caster_alpha != GN_ALPHA_OPAQUE || !cached_corners(job, idx, c)) return 0;
-    if (GN_PUNCTUAL_LIGHTS && job->view->perspective) *n_texels = draw_small_perspective(casting, c);
+    if (GN_PUNCTUAL_LIGHTS && job->view->perspective)
+        *n_texels = gn_persp_small_triangle(job->frame, job->view, casting, c);
     else *n_texels = gn_ortho_small_triangle(job->frame, job->view, casting, c);
     return 1;
 }

@@ -191,29 +191,53 @@ GN_HOT static inline void project_inner(const gn_light_view *view, int32_t bits,
     *y = (int32_t)(((int64_t)v_q28 * focal2 + half) >> down) + centre;
 }
 
-/* A triangle within the tile's border: most are smaller than a texel, and cover none. */
-GN_HOT static int32_t draw_inner(const gn_frame *frame, const gn_light_view *view, gn_casting *casting)
-{
-    int32_t(*corner)[3] = casting->with.clipping.polygon.v_q16, x[3], y[3];
-    const int two_sided = casting->job.two_sided;
-    gn_caster caster;
-    gn_plane plane;
-    for (int i = 0; i < 3; i++) project_inner(view, GN_K(frame, shadow_subpixel_bits), corner[i], &x[i], &y[i]);
-    const int32_t n_rows = gn_caster_begin(frame, view, &casting->walk, x, y);
-    if (!n_rows) { /* for the statistics */
-        const int64_t area = (int64_t)(x[1] - x[0]) * (y[2] - y[0]) - (int64_t)(y[1] - y[0]) * (x[2] - x[0]);
-        return area == 0 || (area > 0 && !two_sided) ? -1 : 0;
-    }
-    if (!persp_caster(&caster, &plane, view, corner, two_sided)) return -1;
-    return gn_caster_rows(view, &caster, &casting->walk, n_rows, NULL);
-}
-
 /* gn_outcode() of a frustum that is as high as it is wide. */
 GN_HOT static inline uint32_t outcode(const int32_t v_q16[3], int32_t near_q16, int32_t side_q16)
 {
     const int32_t x = v_q16[0], y = v_q16[1], side = gn_sat32((int64_t)v_q16[2] * side_q16 >> 16), other = ~side;
     return (v_q16[2] < near_q16 ? GN_OUT_NEAR : 0U) | (x <= other ? GN_OUT_LEFT : 0U) | (x > side ? GN_OUT_RIGHT : 0U) |
            (y <= other ? GN_OUT_BOTTOM : 0U) | (y > side ? GN_OUT_TOP : 0U);
+}
+
+GN_HOT static inline void copy_corners(int32_t out[3][3], const int32_t *const c[3])
+{
+    for (int i = 0; i < 3; i++)
+        for (int k = 0; k < 3; k++) out[i][k] = c[i][k];
+}
+
+/* A triangle within the tile's border: most are smaller than a texel, and cover none. */
+GN_HOT static int32_t draw_inner(const gn_frame *frame, const gn_light_view *view, gn_casting *casting,
+                                 const int32_t *const c[3])
+{
+    int32_t(*corner)[3] = casting->with.clipping.polygon.v_q16, x[3], y[3];
+    const int two_sided = casting->job.two_sided;
+    gn_caster caster;
+    gn_plane plane;
+    for (int i = 0; i < 3; i++) project_inner(view, GN_K(frame, shadow_subpixel_bits), c[i], &x[i], &y[i]);
+    const int32_t n_rows = gn_caster_begin(frame, view, &casting->walk, x, y);
+    if (!n_rows) { /* for the statistics */
+        const int64_t area = (int64_t)(x[1] - x[0]) * (y[2] - y[0]) - (int64_t)(y[1] - y[0]) * (x[2] - x[0]);
+        return area == 0 || (area > 0 && !two_sided) ? -1 : 0;
+    }
+    copy_corners(corner, c);
+    if (!persp_caster(&caster, &plane, view, corner, two_sided)) return -1;
+    return gn_caster_rows(view, &caster, &casting->walk, n_rows, NULL);
+}
+
+GN_HOT int32_t gn_persp_small_triangle(const gn_frame *frame, const gn_light_view *view, gn_casting *casting,
+                                       const int32_t *const c[3])
+{
+    const gn_persp_fit *fit = &view->fit.persp;
+    uint32_t all = ~0U, any = 0;
+    for (int i = 0; i < 3; i++) {
+        const uint32_t out = outcode(c[i], fit->clip_q16, fit->side_q16[0]);
+        all &= out;
+        any |= out;
+    }
+    if (all) return -1;
+    if (!any && fit->side_q16[0] >> 19 == 0 && !(fit->focal2_q16 >> 31)) return draw_inner(frame, view, casting, c);
+    copy_corners(casting->with.clipping.polygon.v_q16, c);
+    return gn_persp_triangle(frame, view, casting, NULL);
 }
 
 GN_HOT int32_t gn_persp_triangle(const gn_frame *frame, const gn_light_view *view, gn_casting *casting,
@@ -225,15 +249,10 @@ GN_HOT int32_t gn_persp_triangle(const gn_frame *frame, const gn_light_view *vie
     polygon->n = 3;
     uint32_t all = ~0U, any = 0;
     for (int i = 0; i < 3; i++) {
-        const uint32_t out = outcode(corner[i], fit->clip_q16, fit->side_q16[0]);
-        all &= out;
-        any |= out;
+        all &= outcode(corner[i], fit->clip_q16, fit->side_q16[0]);
+        any |= outcode(corner[i], fit->clip_q16, fit->guard_q16[0]);
     }
     if (all) return -1;
-    const int inner = !any && !alpha && fit->side_q16[0] >> 19 == 0 && !(fit->focal2_q16 >> 31);
-    if (inner) return draw_inner(frame, view, casting);
-    any = 0;
-    for (int i = 0; i < 3; i++) any |= outcode(corner[i], fit->clip_q16, fit->guard_q16[0]);
     gn_caster caster;
     gn_plane plane;
     if (!persp_caster(&caster, &plane, view, corner, casting->job.two_sided)) return -1;

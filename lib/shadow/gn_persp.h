@@ -22,4 +22,8 @@ void gn_persp_face_axis(int32_t out_q30[3], int32_t face);
  * -1 if it is culled. */
 int32_t gn_persp_triangle(const gn_frame *frame, const gn_light_view *view, gn_casting *casting, gn_alpha_cut *alpha);
 
+/* The same of corners below 2^29, of casters that alpha does not cut. */
+int32_t gn_persp_small_triangle(const gn_frame *frame, const gn_light_view *view, gn_casting *casting,
+                                const int32_t *const c[3]);
+
 #endif
