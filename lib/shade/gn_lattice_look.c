@@ -137,7 +137,7 @@ GN_HOT static uint32_t strongest_of(const uint32_t colour_uq16[3])
  * at most. `light` is that of a colour, at the corners. */
 GN_HOT static int product_holds(const gn_lattice_cell *cell, int channel, const int32_t light_q24[4])
 {
-    const int32_t log2 = gn_max32(gn_cell_light_log2(cell->frame) - 2, 3 - gn_cell_sum_log2(cell->frame));
+    const int32_t log2 = gn_max32(gn_cell_light_log2(cell->frame) - 2, 1 - gn_cell_sum_log2(cell->frame));
     int32_t tint[4];
     for (int i = 0; i < 4; i++) tint[i] = cell->corner[i]->tint_q16[channel];
     const uint32_t change = gn_cell_spread(light_q24[0], light_q24[1], light_q24[2], light_q24[3]),
