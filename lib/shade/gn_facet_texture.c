@@ -74,7 +74,7 @@ GN_HOT static int find_coordinate(gn_facet_texture *out, const gn_frame *frame, 
     gn_slope *slope = &out->from_first_q17[axis];
     gn_facet_slope(screen, slope, at);
     out->first_q17[axis] = (int32_t)first - (out->texture->flags & GN_TEXTURE_BILINEAR ? (1 << 16) - (1 << 8) : 0);
-    return error_q17(slope, &out->e_q30, e_most, most) >> (17 - gn_cell_texture_log2(frame)) == 0;
+    return error_q17(slope, &out->e_q30, e_most, most) >> (17 - gn_cell_texture_log2(frame, out->texture)) == 0;
 }
 
 GN_HOT int gn_facet_texture_begin(gn_facet_texture *out, const gn_frame *frame, gn_surface *s, gn_facet_screen *screen)

@@ -58,11 +58,13 @@ GN_HOT static inline int32_t gn_cell_place_log2(const gn_frame *frame)
 #endif
 
 #if GN_TEXTURES
-/* Texture coordinates may be off by 2^-this texels. */
-GN_HOT static inline int32_t gn_cell_texture_log2(const gn_frame *frame)
+/* Texture coordinates may be off by 2^-this texels; where the nearest texel is taken, a whole texel is at stake. */
+GN_HOT static inline int32_t gn_cell_texture_log2(const gn_frame *frame, const gn_texture *texture)
 {
+    const int nearest = texture && !(texture->flags & GN_TEXTURE_BILINEAR);
     (void)frame;
-    return GN_K(frame, persp_step) == 16 ? 6 : 9;
+    if (GN_K(frame, persp_step) == 16) return 5 + nearest;
+    return GN_K(frame, persp_step) == 8 && !nearest ? 6 : 9;
 }
 #endif
 

@@ -88,12 +88,19 @@ GN_HOT static uint32_t level_size(const gn_lattice_cell *cell, int axis)
     return size > glow ? size : glow;
 }
 
+/* The tolerance of both textures. */
+GN_HOT static int32_t finest_log2_of(const gn_lattice_cell *cell)
+{
+    const int32_t log2 = gn_cell_texture_log2(cell->frame, cell->s->object->texture);
+    return gn_max32(log2, gn_cell_texture_log2(cell->frame, GN_GLOW_TEXTURE(cell->s)));
+}
+
 /* Where coordinates along one axis of the texture are to be quadratics. */
 GN_HOT static int32_t bends_of(const gn_lattice_cell *cell, int axis)
 {
     gn_corner *const *c = cell->corner;
     const int32_t at[4] = {c[0]->uv_q20[axis], c[1]->uv_q20[axis], c[2]->uv_q20[axis], c[3]->uv_q20[axis]};
-    uint64_t size = level_size(cell, axis), least = 1U << (20 - gn_cell_texture_log2(cell->frame));
+    uint64_t size = level_size(cell, axis), least = 1U << (20 - finest_log2_of(cell));
     uint64_t linear[2], sum = 0; /* what is left, of texels, Q20: NUMERICS 4.12 */
     uint32_t change[2];
     int32_t bends = 0;

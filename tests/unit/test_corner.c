@@ -270,8 +270,8 @@ static void check_patch(const gn_surface *s, const plane *p, const gn_lattice *l
                     double bound = ldexp(6, -17) + ldexp(2, -12);
                     if (orthographic) bound += corner_off * sides[axis];
                     else
-                        bound += ldexp(1, -gn_cell_texture_log2(&renderer.frame)) + 1.5625 * corner_off * sides[axis] +
-                                 bends;
+                        bound += ldexp(1, -gn_cell_texture_log2(&renderer.frame, &texture)) +
+                                 1.5625 * corner_off * sides[axis] + bends;
                     record(STAGE_QUADRATIC, fabs(error), bound, ldexp(1, -17));
                 }
         }
