@@ -353,7 +353,8 @@ GN_HOT static void textured_any(const gn_frame *frame, const gn_pixel_rows *rows
         if (!(bits >> i & 1U)) continue;
         colour_at(line, i, colour);
         for (int c = 0; c < 3; c++) {
-            q20[c] = (uint32_t)((uint64_t)(uint32_t)gn_max32(colour[c], 0) * texel_channel(*texel, c) >> 20);
+            uint64_t light_uq16 = (uint32_t)gn_max32(colour[c], 0) >> 8; /* as tinted_q24() has it */
+            q20[c] = (uint32_t)(light_uq16 * texel_channel(*texel, c) >> 12);
 #if GN_GLOW_APART
             q20[c] += glow_q20(line, texel, c);
 #endif
