@@ -46,6 +46,7 @@ endif
 
 BOARD_OPT ?= -O2
 FW_OPT ?= $(BOARD_OPT)
+FW_DEBUG ?= -g
 IMAGE ?= $(APP)$(if $(SCENE),-$(basename $(notdir $(SCENE))))$(if $(PRESET),-$(PRESET))$(if $(SCREEN_OF),-$(SCREEN_OF))
 FW := $(BUILD)/firmware/$(BOARD)
 FIRMWARE := $(FW)/$(IMAGE).elf
@@ -83,7 +84,7 @@ ifneq ($(BOARD_PORT),)
 FW_PORT := -Iport/$(firstword $(BOARD_PORT)) '-DGN_PORT="gn_port_$(notdir $(firstword $(BOARD_PORT))).h"'
 FW_SRC += $(filter-out port/portable/gn_port_oracle.c,$(foreach port,$(BOARD_PORT),$(wildcard port/$(port)/*.c)))
 endif
-FW_CFLAGS := $(BOARD_CPU) -std=c99 $(FW_OPT) -g $(WARN) $(FW_FREE) -ffunction-sections -fdata-sections -Ilib -Iport -Iboards/common -Iboards/apps \
+FW_CFLAGS := $(BOARD_CPU) -std=c99 $(FW_OPT) $(FW_DEBUG) $(WARN) $(FW_FREE) -ffunction-sections -fdata-sections -Ilib -Iport -Iboards/common -Iboards/apps \
   $(FW_SCENE) $(FW_PRESET) $(FW_PORT) $(FW_HOT) $(BOARD_FLAGS) $(APP_FLAGS) $(FW_FLAGS)
 FW_OBJ := $(FW_SRC:%.c=$(FW_OBJ_DIR)/%.o) $(FW_SCENE_OBJ) $(APP_OBJ)
 

@@ -66,8 +66,9 @@ sanitizers="-g1 -fsanitize=address,undefined -fno-sanitize-recover=all" # -g1: l
 # Pictures by the hundred, against floors: they take five times as long under sanitizers, where make soak runs them, too.
 # The random scenes of test_golden_random are others there: the compiler chooses the order of some random numbers.
 pictures="test_accuracy test_rows test_seams test_views test_golden_random"
-build all $(for name in $pictures test_extremes test_extremes_light test_extremes_many test_oiio make_report gen_tables; do echo "build/$name"; done)
+build all $(for name in $pictures test_fit test_extremes test_extremes_light test_extremes_many test_oiio make_report gen_tables; do echo "build/$name"; done)
 for name in $pictures; do job $name build/$name; done
+job test_fit build/test_fit # and a quarter of its scenes under sanitizers
 
 # Scripts that take long go first, so that none of them is left alone in the end; before those that fill two cores, those that fill one.
 scripts="tests/firmware/test_absent.sh tests/tool/test_sweep.sh tests/tool/test_compile.sh tests/tool/test_tool.sh tests/firmware/test_boards.sh
@@ -84,7 +85,10 @@ job run 'make -s run >build/tmp/run.log 2>&1 && echo "1 passed, 0 failed" || { c
 # made before it optimises.
 build test-programs BUILD=build/test/gcc CC=gcc HOST_OPT=-O1 SAN="$sanitizers"
 for name in $(names unit oracle reference property tool firmware); do
-    case " $pictures " in *" $name "*) ;; *) job "gcc-O2/$name" build/test/gcc/$name ;; esac
+    case " $pictures " in *" $name "*) continue ;; esac
+    few=
+    [ "$name$THOROUGH" != test_fit ] || few="SCENES=60 "
+    job "gcc-O2/$name" "${few}build/test/gcc/$name"
 done
 build alone-programs BUILD=build/test/clang CC=clang OPT=-O1 SAN="$sanitizers"
 for program in build/test/clang/test_*; do job "clang-O1/$(basename "$program")" "$program"; done

@@ -110,6 +110,7 @@ done
 # The same but for digits of its numbers, and both engines agree in every picture. 8 bits of depth, 4 bits and one bit
 # of grey have steps so large that a rounding is seen.
 mkdir -p "$tmp/again" "$tmp/exact"
+export FW_OPT=-O0 # of programs that draw one picture
 if sh docs/gallery.sh "$tool" "$tmp/again" >"$tmp/log" 2>&1; then pass
 else fail "docs/gallery.sh fails: $(tail -n 1 "$tmp/log")"; fi
 without_numbers() { sed -E '/^identical /s/[0-9.]+/0/g' "$1"; }

@@ -57,6 +57,10 @@ flags_of() {
 
 # ---- Measuring --------------------------------------------------------------------------------------------------------------
 
+# By lines, flash is found by file: slower to compile, and the same code.
+debug=
+case ${1:-} in --write | --document | --files) debug=-g ;; esac
+
 # object SOURCE FILE: compiled, or a copy of what the same lines came to before
 object() {
     same=$work/same.$prefix$($compile -E -P "$1" | { echo "$core_flags"; cat; } | cksum | tr " " .)
@@ -78,7 +82,7 @@ image() {
     prefix=$3
     compile="$prefix"
     core_flags=$(shift 3 && echo "$*")
-    compile="${prefix}gcc $core_flags -std=c99 -Os -g -ffreestanding -isystem boards/common/include -ffunction-sections -fdata-sections -Ilib $(flags_of "$2")"
+    compile="${prefix}gcc $core_flags -std=c99 -Os $debug -ffreestanding -isystem boards/common/include -ffunction-sections -fdata-sections -Ilib $(flags_of "$2")"
     (cd "$dir" && for source in ../../../../lib/*.c ../../../../tests/firmware/size_app.c; do echo "$source"; done) | sed 's|^\(../\)*||' >"$dir/sources"
     while read -r source; do
         object "$source" "$dir/$(basename "$source" .c)"

@@ -22,7 +22,7 @@ build() { # build WHAT MAKE-ARGUMENT...: once, quietly
 # display BOARD ERROR: ERROR is what the emulated controller prints of commands that it does not know
 display() {
     build "the clock of $1" firmware BOARD="$1" APP=clock
-    build "the prediction for $1" firmware BOARD=host APP=predict SCREEN_OF="$1" FW_OPT=-O1
+    build "the prediction for $1" firmware BOARD=host APP=predict SCREEN_OF="$1" FW_OPT=-O0
     for hour in $hours; do
         if ! make -s screen BOARD="$1" ARGS="$(from "$hour") $hour" SCREEN_OUT="$tmp/$1-$hour.ppm" >"$tmp/log" 2>&1; then
             fail "$1 at $hour: $(tail -n 2 "$tmp/log" | tr '\n' ' ')"

@@ -150,7 +150,7 @@ some_draw() {
         [ $((line % 2)) = "$1" ] || continue
         case $words in
         "all "*=0) compiler=gcc ;;
-        *) [ $((line / 2 % 4)) = 0 ] && compiler=gcc || compiler=clang ;;
+        *) [ $((line / 2 % 6)) = 0 ] && compiler=gcc || compiler=clang ;;
         esac
         if [ $compiler = gcc ]; then draws "$1" gcc clang $words; else draws "$1" clang gcc $words; fi
     done <"$tmp/wanted"
@@ -321,7 +321,7 @@ EOF_C
 program() {
     program_name=$1
     shift
-    gcc $strict -Itests/support -O0 "$@" -o "$tmp/$program_name.run" "$tmp/picture.c" lib/gnomon.c >"$tmp/$program_name.log" 2>&1 || {
+    clang $strict -Itests/support -O0 "$@" -o "$tmp/$program_name.run" "$tmp/picture.c" lib/gnomon.c >"$tmp/$program_name.log" 2>&1 || {
         fail "no program with $*: $(grep -m 1 error "$tmp/$program_name.log")"
         return 1
     }

@@ -23,7 +23,7 @@ asset() {
     set -- $roomy $knobs $clips $size "-DFPS=${fps:-24}" "-DHEADER=\"$name.h\"" "-DMODEL(x)=${name}_##x"
     ok gcc -std=c99 -pedantic-errors $strict "$@" -fsyntax-only "$tmp/$name.c" tests/tool/asset_picture.c
     ok g++ -std=c++11 -x c++ $strict "$@" -fsyntax-only "$tmp/$name.c" tests/tool/asset_picture.c
-    ok gcc -std=c99 -w -O0 -Ilib -I"$tmp" "$@" -o "$tmp/$name.run" lib/gnomon.c "$tmp/$name.c" tests/tool/asset_picture.c
+    ok clang -std=c99 -w -O0 -Ilib -I"$tmp" "$@" -o "$tmp/$name.run" lib/gnomon.c "$tmp/$name.c" tests/tool/asset_picture.c
 }
 # shows NAME SCENE "OPTIONS of render" FRAMES...: bytes that differ, of each frame
 shows() {
@@ -128,7 +128,7 @@ for language in c c++; do
     standard=$([ $language = c ] && echo c99 || echo c++11)
     ok gcc -x $language -std=$standard $strict $roomy -O1 -c "$tmp/toys.c" -o "$tmp/toys-$language.o"
     ok gcc -x $language -std=$standard $strict $roomy -O1 -c $program -o "$tmp/program-$language.o"
-    ok gcc -std=c99 -w $roomy -Ilib -O0 -o "$tmp/program-$language" lib/gnomon.c "$tmp/toys-$language.o" "$tmp/program-$language.o"
+    ok clang -std=c99 -w $roomy -Ilib -O0 -o "$tmp/program-$language" lib/gnomon.c "$tmp/toys-$language.o" "$tmp/program-$language.o"
     "$tmp/program-$language" >"$tmp/$language.txt" 2>&1 && pass || fail "the program in $language: $(head -n 1 "$tmp/$language.txt")"
 done
 cmp -s "$tmp/c.txt" "$tmp/c++.txt" && [ "$(sort -u "$tmp/c.txt" | wc -l)" = 8 ] && pass || fail "8 pictures: $(tr '\n' ' ' <"$tmp/c.txt")"
@@ -142,7 +142,7 @@ ok "$tool" compile host/scenes/sundial.gltf -o "$tmp/open" --open --frames 0-3 -
 open="-DGN_USER_CONFIG=\"gn_scene_config.h\" -I$tmp/open $strict -Itests/tool"
 ok gcc -std=c99 $open -fsyntax-only "$tmp/open/scene.c" tests/tool/open_picture.c
 ok g++ -std=c++11 -x c++ $open -fsyntax-only "$tmp/open/scene.c"
-ok gcc -std=c99 -w $open -O0 -o "$tmp/open/run" lib/gnomon.c "$tmp/open/scene.c" tests/tool/open_picture.c
+ok clang -std=c99 -w $open -O0 -o "$tmp/open/run" lib/gnomon.c "$tmp/open/scene.c" tests/tool/open_picture.c
 "$tool" render host/scenes/sundial.gltf -o "$tmp/2.png" --frame 2 --size 96x64 >"$tmp/log" 2>&1
 "$tmp/open/run" 2>"$tmp/log" | "$tmp/same" "$tmp/2.png" "$tmp/2.png" >"$tmp/differ"
 grep -q "bytes differ" "$tmp/differ" && [ "$(wc -l <"$tmp/differ")" = 1 ] && pass || fail "compile --open: $(cat "$tmp/differ" "$tmp/log")"

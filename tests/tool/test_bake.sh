@@ -71,7 +71,7 @@ good compile "$tmp/room.gltf" -o "$tmp/compiled" --size 160x120
 grep -q '^#define GN_SHADOWS  *0 ' "$tmp/compiled/gn_scene_config.h" && pass || fail "the compiled scene still has shadow rendering"
 good render "$tmp/room.gltf" -o "$tmp/room.png" --size 160x120
 if gcc -std=c11 -D_POSIX_C_SOURCE=200809L -O1 -Itests -o "$tmp/same" tests/tool/same_pictures.c host/scene/image/*.c host/base/arena.c -lm 2>"$tmp/err" &&
-    gcc -std=c99 -w -Ilib -O1 -I"$tmp/compiled" '-DGN_USER_CONFIG="gn_scene_config.h"' -o "$tmp/program" lib/gnomon.c "$tmp/compiled/scene.c" tests/tool/compiled_picture.c 2>"$tmp/err" &&
+    clang -std=c99 -w -Ilib -O0 -I"$tmp/compiled" '-DGN_USER_CONFIG="gn_scene_config.h"' -o "$tmp/program" lib/gnomon.c "$tmp/compiled/scene.c" tests/tool/compiled_picture.c 2>"$tmp/err" &&
     "$tmp/program" 0 2>"$tmp/err" | "$tmp/same" "$tmp/room.png" 2>>"$tmp/err"; then pass
 else fail "the compiled room: $(grep -m 1 . "$tmp/err")"; fi
 
