@@ -149,6 +149,7 @@ GN_HOT static int add_vertex_light(gn_facet *f, uint32_t slot)
         said = find_punctual(f, slot, out, e);
         if (said != GN_CELL_LIT) return said == GN_CELL_DARK;
     }
+    if (gn_cell_is_limited(&f->s->surface, light->radiance_uq16, gn_max32(e[0], gn_max32(e[1], e[2])))) return 0;
     int ends = (e[0] | e[1] | e[2]) < 0 || out->has_rim;
     if (gn_facet_shows_shadow(f) && (e[0] != e[1] || e[0] != e[2])) return 0;
     if (lattice_light->realtime) said = gn_facet_shadow(f->s, &f->screen, vertices_of(f), f->n_px, slot, &out->edge);
@@ -193,6 +194,8 @@ GN_HOT int gn_facet_shade(gn_shading *s, const gn_rect *box, int32_t n_px)
     f->screen.found = f->screen.steep = 0;
     f->n_lights = 0;
     begin_colours(f);
+    for (int c = 0; c < 3; c++) /* limited before it is multiplied: cells know */
+        if (surface->base_q20[c] > 1U << 23 && (GN_COLOURED(surface) || surface->textured)) return 0;
     for (uint32_t slot = 0; slot < surface->n_lights; slot++)
         if (!add_vertex_light(f, slot)) return 0;
     GN_COUNT(facets, 1);

@@ -96,8 +96,7 @@ GN_HOT static uint32_t error_q24(const gn_facet_vertices *v, const light_at_vert
 GN_HOT static int is_uneven(const gn_frame *frame, const gn_surface_light *light, uint32_t error, int32_t least_q24,
                             int32_t base_q24)
 {
-    const uint32_t *c = light->radiance_uq16;
-    const uint32_t strongest = c[0] > c[1] ? (c[0] > c[2] ? c[0] : c[2]) : c[1] > c[2] ? c[1] : c[2];
+    const uint32_t strongest = gn_cell_strongest(light->radiance_uq16);
     const uint64_t seen = (uint64_t)gn_corner_times(strongest, gn_max32(least_q24, 0)) + (uint32_t)base_q24 + (1 << 19);
     const int32_t log2 = gn_max32(gn_cell_light_log2(frame), 2 - gn_cell_sum_log2(frame));
     return (uint64_t)gn_corner_times(strongest, (int32_t)error) << log2 > seen;

@@ -280,7 +280,8 @@ GN_HOT static int judge(const gn_frame *frame, const gn_light_view *view, const 
 GN_HOT static int vertex_places_hold(const gn_frame *frame, const gn_surface *s, const gn_light_view *view,
                                      const vertex_places *p)
 {
-    const uint32_t most_q16 = 4U << (16 - gn_cell_place_log2(frame));
+    /* in a perspective view places bend on both axes, and by much in tiles of few texels: half of it for each */
+    const uint32_t most_q16 = (view->perspective ? 2U : 4U) << (16 - gn_cell_place_log2(frame));
     uint32_t bend_q16 = 0;
     if (!GN_FLAT_Q16(frame))
         bend_q16 = gn_quotient_q30((uint32_t)(s->z_max_q16 - s->z_min_q16), (uint32_t)s->z_min_q16) >> 14;

@@ -17,6 +17,19 @@ GN_HOT static inline int32_t gn_cell_share(int32_t v_q24, uint32_t share_uq16)
     return share_uq16 == 65536 ? v_q24 : (int32_t)gn_mul_uq16((uint32_t)v_q24, share_uq16);
 }
 
+GN_HOT static inline uint32_t gn_cell_strongest(const uint32_t colour_uq16[3])
+{
+    const uint32_t most = colour_uq16[0] > colour_uq16[1] ? colour_uq16[0] : colour_uq16[1];
+    return colour_uq16[2] > most ? colour_uq16[2] : most;
+}
+
+/* Whether light of a colour is limited, which hides how bright what texture or vertex colours dim is. */
+GN_HOT static inline int gn_cell_is_limited(const gn_surface *s, const uint32_t colour_uq16[3], int32_t most_q24)
+{
+    if (!s->textured && !GN_COLOURED(s)) return 0;
+    return most_q24 >= 1 << 27 || (uint64_t)gn_cell_strongest(colour_uq16) * (uint32_t)gn_max32(most_q24, 0) >> 43;
+}
+
 /* ---- Tolerances -------------------------------------------------------------------------------------------------- */
 
 /* Light between corners may be off by 2^-this of what arrives; 0: by as much as arrives. */

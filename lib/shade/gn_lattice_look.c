@@ -126,12 +126,6 @@ GN_HOT static GN_NOINLINE void add_colour(const gn_lattice_cell *cell, uint32_t 
     }
 }
 
-GN_HOT static uint32_t strongest_of(const uint32_t colour_uq16[3])
-{
-    uint32_t most = colour_uq16[0] > colour_uq16[1] ? colour_uq16[0] : colour_uq16[1];
-    return colour_uq16[2] > most ? colour_uq16[2] : most;
-}
-
 #if GN_VERTEX_COLOURS
 /* Whether light times the vertices' colours is close to bilinear in a channel: it is off by a quarter of both changes
  * at most. `light` is that of a colour, at the corners. */
@@ -195,7 +189,7 @@ GN_HOT static int is_faint(gn_lattice_cell *cell, uint32_t slot, int32_t least_q
     const gn_lattice_look *look = cell->out;
     const int32_t(*c)[3] = look->colour_q24;
     const gn_surface_light *light = &cell->s->light[slot];
-    uint32_t strongest = strongest_of(light->radiance_uq16), kink;
+    uint32_t strongest = gn_cell_strongest(light->radiance_uq16), kink;
     int32_t least = 1 << 22;
     if (cell->s->specular || (GN_RAW_VIEWS && cell->frame->picture.format == GN_FORMAT_RAW32)) return 0;
     for (int i = 0; i < 4; i++) least = gn_min32(least, gn_min32(c[i][0], gn_min32(c[i][1], c[i][2])));
@@ -236,6 +230,7 @@ GN_HOT static int add_light(gn_lattice_cell *cell, uint32_t slot)
 #endif
     if (!most) return 1;
     if (GN_RAW_VIEWS && least != most && cell->frame->picture.format == GN_FORMAT_RAW32) return 0;
+    if (gn_cell_is_limited(cell->s, colour, most)) return 0;
     if (!find_highlight(cell, slot, light)) return 0;
     int faint = is_faint(cell, slot, least, most);
     int realtime = find_shares(cell, slot, light),
@@ -243,7 +238,7 @@ GN_HOT static int add_light(gn_lattice_cell *cell, uint32_t slot)
     if (realtime < 0 || shadow == GN_CELL_SPLIT || (cell->near < 0 && fades(light, shadow))) return 0;
     if (shadow == GN_CELL_EDGE && !edge_product_holds(cell, slot, light)) return 0;
     if (shadow != GN_CELL_DARK && !faint) {
-        uint32_t kink, strongest = strongest_of(colour);
+        uint32_t kink, strongest = gn_cell_strongest(colour);
         uint32_t error = gn_cell_unevenness_q24(cell, slot, least, most, &kink);
         int32_t log2 = gn_cell_light_log2(cell->frame); /* where it arrives it is part of the light itself */
         if ((uint64_t)error << log2 > (uint32_t)least) cell->error_q24 += (uint64_t)strongest * error >> 16;

@@ -435,6 +435,25 @@ static void test_lamp_at_an_edge_on_ceiling(void)
         }
 }
 
+/* More light than 8 on a surface that is dark by its vertices' colours: a limit before these would dim it. [M3] */
+static void test_bright_lamp_on_dark_colours(void)
+{
+    static const double quad[12] = {-2, -1.5, -4, 2, -1.5, -4, 2, 1.5, -4, -2, 1.5, -4};
+    static double rgb[12];
+    static const double to[3] = {0.1, 0.05, -4};
+    for (int v = 0; v < 12; v++) rgb[v] = 0.02 + 0.001 * v;
+    for (int preset = SETTINGS_FAST; preset <= SETTINGS_BALANCED; preset++)
+        for (int kind = SCENE_LIGHT_SPOT; kind <= SCENE_LIGHT_POINT; kind++) {
+            begin();
+            add_lamp((scene_light_kind)kind, 0.3, to, 3);
+            f.light.outer = 0.4;
+            add(4, quad);
+            f.mesh[0].rgb = rgb;
+            const metrics m = compare_engines(preset);
+            CHECK(m.psnr_db > (preset == SETTINGS_FAST ? 41 : 45));
+        }
+}
+
 int main(void)
 {
     test_casters_across_the_border();
@@ -447,5 +466,6 @@ int main(void)
     test_cone_between_corners();
     test_terminator_of_a_lamp();
     test_lamp_at_an_edge_on_ceiling();
+    test_bright_lamp_on_dark_colours();
     return check_report();
 }

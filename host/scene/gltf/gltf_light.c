@@ -66,7 +66,7 @@ static bool read_cone(gltf *g, const json_value *json, const char *name, scene_l
         if (!loader_remark(g->l, "cone angles of light '%s', %g in %g, are limited to one in the other and pi / 2",
                            name, inner, outer))
             return false;
-        outer = fmin(outer, VEC_PI / 2);
+        outer = fmax(fmin(outer, VEC_PI / 2), 0);
         inner = fmin(inner, outer);
     }
     double degrees = outer * 360 / VEC_PI;
