@@ -7,6 +7,9 @@
 #include "geometry/gn_walk.h"
 #include "gnomon.h"
 
+/* With GN_SIZE_FIRST the general path draws small casters, too: same results. */
+#define GN_SMALL_CASTERS (!GN_SIZE_FIRST || !GN_LARGE_CASTERS)
+
 #define GN_CASTER_GRADIENT_MAX ((int64_t)1 << 33) /* twice the whole depth range per texel */
 
 /* Depth over one triangle, as fractions of the view's depth range, Q32. */

@@ -177,6 +177,15 @@ GN_HOT static void project_corner(const gn_frame *frame, const gn_light_view *vi
     *y = (int32_t)gn_clamp64(texel[1], -most, most) + centre;
 }
 
+#if GN_SMALL_CASTERS
+/* gn_outcode() of a frustum that is as high as it is wide. */
+GN_HOT static inline uint32_t outcode(const int32_t v_q16[3], int32_t near_q16, int32_t side_q16)
+{
+    const int32_t x = v_q16[0], y = v_q16[1], side = gn_sat32((int64_t)v_q16[2] * side_q16 >> 16), other = ~side;
+    return (v_q16[2] < near_q16 ? GN_OUT_NEAR : 0U) | (x <= other ? GN_OUT_LEFT : 0U) | (x > side ? GN_OUT_RIGHT : 0U) |
+           (y <= other ? GN_OUT_BOTTOM : 0U) | (y > side ? GN_OUT_TOP : 0U);
+}
+
 /* Both of a corner within the tile's border, up to 8 times as far aside as away: nothing is limited there. */
 GN_HOT static inline void project_inner(const gn_light_view *view, int32_t bits, const int32_t v_q16[3], int32_t *x,
                                         int32_t *y)
@@ -189,14 +198,6 @@ GN_HOT static inline void project_inner(const gn_light_view *view, int32_t bits,
     const int64_t half = (int64_t)1 << (down - 1);
     *x = (int32_t)(((int64_t)u_q28 * focal2 + half) >> down) + centre;
     *y = (int32_t)(((int64_t)v_q28 * focal2 + half) >> down) + centre;
-}
-
-/* gn_outcode() of a frustum that is as high as it is wide. */
-GN_HOT static inline uint32_t outcode(const int32_t v_q16[3], int32_t near_q16, int32_t side_q16)
-{
-    const int32_t x = v_q16[0], y = v_q16[1], side = gn_sat32((int64_t)v_q16[2] * side_q16 >> 16), other = ~side;
-    return (v_q16[2] < near_q16 ? GN_OUT_NEAR : 0U) | (x <= other ? GN_OUT_LEFT : 0U) | (x > side ? GN_OUT_RIGHT : 0U) |
-           (y <= other ? GN_OUT_BOTTOM : 0U) | (y > side ? GN_OUT_TOP : 0U);
 }
 
 GN_HOT static inline void copy_corners(int32_t out[3][3], const int32_t *const c[3])
@@ -239,6 +240,7 @@ GN_HOT int32_t gn_persp_small_triangle(const gn_frame *frame, const gn_light_vie
     copy_corners(casting->with.clipping.polygon.v_q16, c);
     return gn_persp_triangle(frame, view, casting, NULL);
 }
+#endif
 
 GN_HOT int32_t gn_persp_triangle(const gn_frame *frame, const gn_light_view *view, gn_casting *casting,
                                  gn_alpha_cut *alpha)
@@ -249,8 +251,8 @@ GN_HOT int32_t gn_persp_triangle(const gn_frame *frame, const gn_light_view *vie
     polygon->n = 3;
     uint32_t all = ~0U, any = 0;
     for (int i = 0; i < 3; i++) {
-        all &= outcode(corner[i], fit->clip_q16, fit->side_q16[0]);
-        any |= outcode(corner[i], fit->clip_q16, fit->guard_q16[0]);
+        all &= gn_outcode(corner[i], fit->clip_q16, fit->side_q16, 0);
+        any |= gn_outcode(corner[i], fit->clip_q16, fit->guard_q16, 0);
     }
     if (all) return -1;
     gn_caster caster;
