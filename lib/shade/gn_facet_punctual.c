@@ -27,6 +27,11 @@ GN_HOT static uint64_t between2_q32(const int32_t a[3], const int32_t b[3])
     return (uint64_t)gn_dot64(d, d);
 }
 
+GN_HOT static inline uint64_t longest2_of(const gn_facet_vertices *v)
+{
+    return (uint64_t)v->longest2_high << 32 | v->longest2_low;
+}
+
 GN_HOT int gn_facet_vertices_find(gn_facet_vertices *out, const gn_frame *frame, const gn_surface *surface,
                                   const uint32_t turn_q28[3])
 {
@@ -39,7 +44,9 @@ GN_HOT int gn_facet_vertices_find(gn_facet_vertices *out, const gn_frame *frame,
     if (all >> 29) return 0;
     const uint64_t a = between2_q32(v[0], v[1]), b = between2_q32(v[1], v[2]), c = between2_q32(v[2], v[0]);
     const uint64_t longer = a > b ? a : b;
-    out->longest2_q32 = longer > c ? longer : c;
+    const uint64_t longest = longer > c ? longer : c;
+    out->longest2_high = (uint32_t)(longest >> 32);
+    out->longest2_low = (uint32_t)longest;
     out->turn2_q28 = turn_q28[0] > turn_q28[1] ? turn_q28[0] : turn_q28[1];
     if (turn_q28[2] > out->turn2_q28) out->turn2_q28 = turn_q28[2];
     return 1;
@@ -69,8 +76,7 @@ GN_HOT static int find_distances(light_at_vertices *at, const gn_frame *frame, c
         if (at->d2_q32[k] < at->nearest_q32) at->nearest_q32 = at->d2_q32[k];
         if (at->d2_q32[k] > at->farthest_q32) at->farthest_q32 = at->d2_q32[k];
     }
-    return v->longest2_q32 <= at->nearest_q32 >> 4 && at->nearest_q32 >= 2 * frame->min2_q32 &&
-           !(at->nearest_q32 >> 62);
+    return longest2_of(v) <= at->nearest_q32 >> 4 && at->nearest_q32 >= 2 * frame->min2_q32 && !(at->nearest_q32 >> 62);
 }
 
 /* By how much light is off that is linear between the vertices: NUMERICS 4.17. */
@@ -80,8 +86,8 @@ GN_HOT static uint32_t error_q24(const gn_facet_vertices *v, const light_at_vert
     const gn_light_state *light = at->light;
     const uint64_t range2 = light->range2_q32;
     const int32_t clz = gn_clz64(at->nearest_q32), down = 69 - clz - light->colour_exp;
-    const uint32_t per_nearest = gn_recip_norm((uint32_t)(at->nearest_q32 << clz >> 32), 1);   /* 2^63 over that */
-    const uint32_t size2_q30 = (uint32_t)((v->longest2_q32 << clz >> 32) * per_nearest >> 33); /* 2^26 */
+    const uint32_t per_nearest = gn_recip_norm((uint32_t)(at->nearest_q32 << clz >> 32), 1);  /* 2^63 over that */
+    const uint32_t size2_q30 = (uint32_t)((longest2_of(v) << clz >> 32) * per_nearest >> 33); /* 2^26 */
     const uint32_t bend_q8 = at->farthest_q32 <= range2 >> 3              ? FAR_Q8
                              : at->farthest_q32 <= range2 - (range2 >> 2) ? FADES_Q8
                                                                           : ENDS_Q8;
@@ -124,7 +130,7 @@ GN_HOT int gn_facet_punctual(gn_shading *s, const gn_facet_vertices *v, uint32_t
     }
     out->has_rim = at.has_rim = !inner;
     out->error_q24 = 0;
-    if (at.nearest_q32 - (v->longest2_q32 >> 1) >= light->state->range2_q32) return GN_CELL_DARK;
+    if (at.nearest_q32 - (longest2_of(v) >> 1) >= light->state->range2_q32) return GN_CELL_DARK;
     out->error_q24 = error_q24(v, &at);
     if (most < 0 && (uint32_t)-most >= out->error_q24) return GN_CELL_DARK;
     if (is_uneven(s->frame, light, out->error_q24, least, base_q24)) return GN_CELL_SPLIT;

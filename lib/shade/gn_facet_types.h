@@ -23,7 +23,7 @@ typedef struct {
 /* The vertices, along the world's axes. */
 typedef struct {
     int32_t ray_q16[3][3], normal_q30[3][3]; /* from the eye; normals */
-    uint64_t longest2_q32;                   /* the square of the longest edge */
+    uint32_t longest2_high, longest2_low;    /* the square of the longest edge, Q32: no alignment of 64 bits */
     uint32_t turn2_q28;                      /* that of the largest difference of normals */
 } gn_facet_vertices;
 

@@ -234,7 +234,6 @@ static int32_t channel_of(gn_texel_rgb texel, int c)
 static uint32_t pixel_of_line(const gn_pixel_line *line, int32_t i)
 {
     const int32_t k = i >> line->spacing_log2, t = i - (k << line->spacing_log2);
-    const int quick = line->inside && frame.picture.format == GN_FORMAT_RGB565 && GN_K(&frame, srgb) && GN_LEVEL_TABLES;
     uint32_t q20[3];
     for (int c = 0; c < 3; c++) {
         const int64_t from = line->node[k][c],
@@ -243,12 +242,9 @@ static uint32_t pixel_of_line(const gn_pixel_line *line, int32_t i)
         const int64_t colour_q24 = from + t * step;
         q20[c] = q20_of(colour_q24);
         if (!line->texel) continue;
-        /* 16 bits of both; otherwise 24 and 16 */
-        if (quick) q20[c] = (uint32_t)i128_floor_div((i128)(colour_q24 >> 8) * channel_of(line->texel[i], c), 1 << 12);
-        else
-            q20[c] = colour_q24 < 0
-                         ? 0
-                         : (uint32_t)i128_floor_div((i128)colour_q24 * channel_of(line->texel[i], c), 1 << 20);
+        /* 16 bits of both */
+        const int64_t light = colour_q24 < 0 ? 0 : colour_q24 >> 8;
+        q20[c] = (uint32_t)i128_floor_div((i128)light * channel_of(line->texel[i], c), 1 << 12);
     }
     return gn_pixel_pack(&frame, q20);
 }
