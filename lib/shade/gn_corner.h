@@ -133,10 +133,11 @@ GN_HOT static inline void gn_corner_forget_forms(gn_lattice *l)
 
 #if GN_PUNCTUAL_LIGHTS
 /* Irradiance of a light whose colour is 1: gn_punctual_irradiance_q24() in 32 bits, which sets out->arrives. `d2` is
- * the square of the distance, `facing` the way against the normal. Not NULL: sets how far a point is from the edge of a
- * spot's cone to where its rim ends, whose square, limited to 0 .. 1, is not part of it then. */
-int32_t gn_corner_irradiance(const gn_frame *frame, const gn_light_state *light, const int32_t from_q16[3],
-                             uint64_t d2_q32, int32_t facing_q16, gn_corner_light *out, int32_t *rim_q20);
+ * the square of the distance, `facing` the way against the normal. rim_q20 not NULL: sets, in place of out->arrives,
+ * how far a point is from the edge of a spot's cone to where its rim ends, whose square, limited to 0 .. 1, is not part
+ * of it then. */
+int32_t gn_corner_irradiance(const gn_frame *frame, const gn_light_state *light, const int32_t from_q16[3], uint64_t d2,
+                             int32_t facing_q16, gn_corner_light *out, int32_t *rim_q20);
 
 /* From a spot or point light to the corner: both lie within 2^30 of the eye. */
 GN_HOT static inline void gn_corner_from(const gn_corner *c, const gn_light_state *light, int32_t from_q16[3])

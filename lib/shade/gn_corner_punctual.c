@@ -19,7 +19,8 @@ GN_HOT static int32_t rim_q30(const gn_light_state *light, int32_t cosine_q30, g
     return share >= 1U << 30 ? 1 << 30 : 4 * gn_mul_high(q30, q30);
 }
 
-/* The share alone, within 2^8. */
+/* The share alone, within 2^8: a rim is 10^-4 wide or more, so that where one vertex is limited and another is lit, the
+ * bound of what is linear in between is above 1. */
 GN_HOT static int32_t rim_share_q20(const gn_light_state *light, int32_t cosine_q30)
 {
     int32_t beyond = cosine_q30 - light->cos_outer_q30;
@@ -29,9 +30,8 @@ GN_HOT static int32_t rim_share_q20(const gn_light_state *light, int32_t cosine_
 }
 
 GN_HOT int32_t gn_corner_irradiance(const gn_frame *frame, const gn_light_state *light, const int32_t from_q16[3],
-                                    uint64_t d2_q32, int32_t facing_q16, gn_corner_light *out, int32_t *rim_q20)
+                                    uint64_t d2, int32_t facing_q16, gn_corner_light *out, int32_t *rim_q20)
 {
-    const uint64_t d2 = d2_q32;
     out->arrives = GN_CORNER_DARK;
     if (facing_q16 <= 0) return 0;
     if (d2 >= light->range2_q32 || d2 >> 62) return 0;
@@ -43,12 +43,9 @@ GN_HOT int32_t gn_corner_irradiance(const gn_frame *frame, const gn_light_state 
     if (light->kind == GN_LIGHT_SPOT) {
         int32_t reach = (int32_t)gn_clamp64(-gn_dot_q30(from_q16, light->to_light_q30), -most, most),
                 cosine = 2 * gn_mul_high(reach * (1 << half), root_q31);
-        factor = reach <= 0 ? 0 : rim_q30(light, cosine, out);
-        if (reach <= 0) out->arrives = 1 - GN_CORNER_FULLY;
-        if (rim_q20) {
-            *rim_q20 = rim_share_q20(light, cosine);
-            factor = 1 << 30;
-        }
+        if (rim_q20) *rim_q20 = rim_share_q20(light, cosine);
+        else if (reach > 0) factor = rim_q30(light, cosine, out);
+        else factor = 0, out->arrives = 1 - GN_CORNER_FULLY;
         if (!factor) return 0;
     }
     if (light->range2_q32 != UINT64_MAX) factor = 4 * gn_mul_high(factor, gn_corner_window_q30(light, d2));

@@ -98,6 +98,7 @@ if [ -n "$target" ]; then
         predicted $preset surface_lights=1 masks=0 baked_light=0 punctual_lights=0 blended_cascades=0 caster_bias=0
         predicted $preset surface_lights=1 masks=0 baked_light=0 punctual_lights=0 blended_cascades=0 textures=0 visible_alpha=0
         predicted $preset surface_lights=1 masks=0 baked_light=0 punctual_lights=0 blended_cascades=0 textures=0 caster_alpha=0 caster_bias=0
+        predicted $preset surface_lights=1 max_lights=1 shadows=0 masks=0 baked_light=0 punctual_lights=0 textures=0 specular=0 vertex_normals=0 vertex_colours=0 # a small triangle is larger than corners
         predicted $preset surface_lights=1 textures=0 specular=0 masks=0 baked_light=0 punctual_lights=0 main_light=0 shadows=0 persp_step=1
         predicted $preset triangle_groups=100 max_triangles=333
         predicted $preset triangle_groups=1 max_triangles=8 tile_width=72 tile_height=5 shadows=0 orthographic=0

@@ -96,6 +96,12 @@ static long corner_bytes(const settings *s)
     return all.size;
 }
 
+/* gn_facet of lib/shade/gn_facet_types.h */
+static long facet_bytes(const settings *s)
+{
+    return 508 + (s->feature.textures ? 48 : 0) + (s->feature.punctual_lights ? 84 : 0);
+}
+
 static int has_glow(const settings *s)
 {
     return s->feature.textures && s->feature.emissive && s->feature.emissive_textures;
@@ -110,12 +116,14 @@ static int has_levels(const settings *s)
 static long lattice_bytes(const settings *s)
 {
     layout all = {0, 4};
-    put(&all, 1, 252, 4);                                                                     /* span to plane */
-    if (s->feature.shadows) put(&all, 10, 4, 4);                                              /* matrix */
-    if (s->feature.shadows && s->feature.punctual_lights) put(&all, 8, 68, 4);                /* forms */
-    put(&all, s->capacity.surface_lights, 12, 4);                                             /* light */
-    put(&all, 1, 200, 4);                                                                     /* face_q30 to bits */
-    put(&all, 12 + 1, corner_bytes(s), 4);                                                    /* corners, corner */
+    put(&all, 1, 252, 4);                                                      /* span to plane */
+    if (s->feature.shadows) put(&all, 10, 4, 4);                               /* matrix */
+    if (s->feature.shadows && s->feature.punctual_lights) put(&all, 8, 68, 4); /* forms */
+    put(&all, s->capacity.surface_lights, 12, 4);                              /* light */
+    put(&all, 1, 200, 4);                                                      /* face_q30 to bits */
+    const long corners = 12 * corner_bytes(s), facet = facet_bytes(s);
+    put(&all, 1, corners > facet ? corners : facet, 4); /* from */
+    put(&all, 1, corner_bytes(s), 4);
     put(&all, 1, 192, 4);                                                                     /* corner_key to split */
     if (s->feature.shadows) put(&all, n_views(s) >= 4 ? 4 : n_views(s) >= 2 ? 2 : 1, 344, 4); /* windows */
     put(&all, 1, 572, 4);                                                                     /* look */
