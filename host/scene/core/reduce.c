@@ -293,7 +293,11 @@ static int end_mesh(scene *s, reduce_mesh *m, const double *world, const uint32_
     if (compact_mesh(s, m)) return -1;
     if (m->mesh->n_triangles == n_triangles) return 0;
     const reduce_surface before = {world, idx, n_triangles}, after = {m->world, m->mesh->idx, m->mesh->n_triangles};
-    const double off = fmax(reduce_distance(&before, &after), reduce_distance(&after, &before));
+    double there, back;
+    if (reduce_distance(&before, &after, &there, &out->n_compared) ||
+        reduce_distance(&after, &before, &back, &out->n_compared))
+        return -1;
+    const double off = fmax(there, back);
     if (off <= out->off) return 0;
     out->off = off;
     out->off_share = off / diagonal(world, n_vertices);
