@@ -32,11 +32,15 @@ static void add_corner(polygon *p, const double *corner)
     if (p->n < CORNERS_MAX) memcpy(p->corner[p->n++], corner, sizeof p->corner[0]);
 }
 
-/* Keeps the side where a . p >= b. */
+/* Keeps the side where a . p >= b: most polygons are there, or are not. */
 static void cut(polygon *p, const double *a, double b)
 {
+    int n_kept = 0;
+    for (int i = 0; i < p->n; i++) n_kept += vec_dot(a, p->corner[i]) >= b;
+    if (n_kept == p->n) return;
     const polygon whole = *p;
     p->n = 0;
+    if (n_kept == 0) return;
     for (int i = 0; i < whole.n; i++) {
         const double *from = whole.corner[i], *to = whole.corner[(i + 1) % whole.n];
         const double d0 = vec_dot(a, from) - b, d1 = vec_dot(a, to) - b;
@@ -110,16 +114,33 @@ static void add_triangle(view_range *r, const scene *s, const scene_object *o, p
     if (!o->unlit && o->receives) add_steps(r, p, nearest, deepest, parallel);
 }
 
-static void to_view(double *out, const scene *s, const scene_object *o, size_t vertex, const scene_affine *camera)
+typedef struct {
+    double eye[3], axis[3][3]; /* right, up, forward */
+} viewer;
+
+static void find_viewer(viewer *out, const scene_affine *camera)
 {
-    double p[3], eye[3], axis[3];
+    affine_column(out->eye, camera, 3);
+    for (int k = 0; k < 3; k++) affine_column(out->axis[k], camera, k);
+    for (int k = 0; k < 3; k++) out->axis[2][k] = -out->axis[2][k];
+}
+
+static void to_view(double *out, const scene *s, const scene_object *o, size_t vertex, const viewer *v)
+{
+    double p[3];
     scene_vertex(p, s, o, vertex);
-    affine_column(eye, camera, 3);
-    vec_sub(p, p, eye);
-    for (int k = 0; k < 3; k++) {
-        affine_column(axis, camera, k);
-        out[k] = vec_dot(p, axis) * (k == 2 ? -1 : 1);
-    }
+    vec_sub(p, p, v->eye);
+    for (int k = 0; k < 3; k++) out[k] = vec_dot(p, v->axis[k]);
+}
+
+/* Whether no part of a triangle shows its front. */
+static bool faces_away(const polygon *p, bool parallel)
+{
+    double u[3], v[3], n[3];
+    vec_sub(u, p->corner[1], p->corner[0]);
+    vec_sub(v, p->corner[2], p->corner[0]);
+    vec_cross(n, u, v);
+    return (parallel ? n[2] : vec_dot(n, p->corner[0])) < 0;
 }
 
 void view_range_begin(view_range *r)
@@ -129,13 +150,16 @@ void view_range_begin(view_range *r)
 
 void view_range_add(view_range *r, const scene *s, const scene_affine *camera, double aspect)
 {
+    viewer v;
+    polygon p;
+    find_viewer(&v, camera);
     for (size_t i = 0; i < s->n_objects; i++) {
         const scene_object *o = &s->objects[i];
         const scene_mesh *mesh = &s->meshes[o->mesh_idx];
         for (size_t t = 0; t < mesh->n_triangles && !o->hidden; t++) {
-            polygon p = {.n = 3};
-            for (size_t k = 0; k < 3; k++) to_view(p.corner[k], s, o, mesh->idx[3 * t + k], camera);
-            add_triangle(r, s, o, &p, aspect);
+            p.n = 3;
+            for (size_t k = 0; k < 3; k++) to_view(p.corner[k], s, o, mesh->idx[3 * t + k], &v);
+            if (o->two_sided || !faces_away(&p, s->camera.half_height > 0)) add_triangle(r, s, o, &p, aspect);
         }
     }
 }
