@@ -198,14 +198,14 @@ GN_HOT static uint64_t blend_at_border(const row_source *s, int kind, const int3
     const uint32_t bits_log2 = GN_TEXTURE_FORMATS == 1 ? 5 : s->bits_log2,
                    bytes_log2 = bits_log2 > 3 ? bits_log2 - 3 : 0,
                    factor = kind == TEXELS_GREY && bits_log2 == 2 ? 17 : 1; /* of 4 bits, as read_texel() has it */
-    const row_source near = {s->texture, texel, 2U << bytes_log2, bytes_log2 + 3, {0, 0}};
+    const row_source side = {s->texture, texel, 2U << bytes_log2, bytes_log2 + 3, {0, 0}};
     for (uint32_t i = 0; i < 2; i++) {
         const uint8_t *row = s->texels + y[i] * s->stride;
         uint8_t *to = texel + (i * 2 << bytes_log2);
         copy_texel(to, row, x[0], bits_log2, factor);
         copy_texel(to + (1U << bytes_log2), row, x[1], bits_log2, factor);
     }
-    return blend_kind(&near, kind, texel, (uint32_t)at_q17[0] & 0x1FFFFU, (uint32_t)at_q17[1]);
+    return blend_kind(&side, kind, texel, (uint32_t)at_q17[0] & 0x1FFFFU, (uint32_t)at_q17[1]);
 }
 
 GN_INLINE void store_both(uint64_t rgb, gn_texel_rgb *out)
