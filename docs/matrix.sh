@@ -20,6 +20,8 @@ trap 'exit 1' HUP INT TERM
 
 features=$(sed -n '/GN_FEATURE_KNOBS/,$s/^    X([a-z_0-9]*, \([A-Z_0-9]*\), .*/\1/p' lib/gn_knobs.h | grep -v -e RUNTIME_KNOBS -e RAW_VIEWS)
 most() { case $1 in FILTER_MAX | VERTEX_JOINTS) echo 4 ;; TEXTURE_FORMATS) echo 1023 ;; *) echo 1 ;; esac; }
+# Formats of textures, in the order of gn_scene_types.h
+FORMATS="RGBA8888 RGB565 RGB565A1 PALETTE8 PALETTE4 PALETTE1 GREY8 GREY4 ALPHA8 ALPHA4"
 # base FEATURE: what must be built for it to have something to do
 base() {
     case $1 in
@@ -49,6 +51,11 @@ configurations() {
     echo "glow $(with TEXTURES=1 TEXTURE_FORMATS=1 EMISSIVE=1)"
     echo "shadows+lights $(with SHADOWS=1 PUNCTUAL_LIGHTS=1)"
     echo "all $(without nothing)"
+    bit=1
+    for format in $FORMATS; do
+        [ $bit = 1 ] || echo "textures+$format $(with TEXTURES=1 TEXTURE_FORMATS=$((1 + bit)))"
+        bit=$((2 * bit))
+    done
     for feature in $features; do
         value=$(most "$feature")
         case $(base "$feature") in
@@ -123,7 +130,7 @@ measure() {
 }
 
 tables() {
-    awk -v features="$(echo $features)" -v scenes="$SCENES" '
+    awk -v features="$(echo $features)" -v scenes="$SCENES" -v formats="$FORMATS" '
         /^#/ { next }
         $1 == "work" { over[$3] = $4; work[$3] = $5; cases[++n_cases] = $3; next }
         { at[$1, $2, $3, ($1 == "data" ? $4 : "")] = $5 }
@@ -164,6 +171,13 @@ tables() {
                     minus(get("flash", "M0", "all"), get("flash", "M0", y)), minus(get("flash", "M4", "all"), get("flash", "M4", y)),
                     minus(get("ram", "M4", "all"), get("ram", "M4", y)), minus(get("stack", "M4", "all"), get("stack", "M4", y))
             }
+            print "\n## What each format of textures costs\n"
+            print "Bytes of flash more than `textures` of RGBA8888 alone.\n"
+            print "| format | M0 | M4 |\n| --- | --- | --- |"
+            n_formats = split(formats, format, " ")
+            for (i = 2; i <= n_formats; i++)
+                printf "| %s | %s | %s |\n", format[i], minus(get("flash", "M0", "textures+" format[i]), get("flash", "M0", "textures")),
+                    minus(get("flash", "M4", "textures+" format[i]), get("flash", "M4", "textures"))
             print "\n## What using it costs\n"
             print "Instructions of one picture of 160×120 pixels on Cortex-M4, -O2, every feature built in (`boards/apps/features.c`: a box, a ball and a ground), per picture pixel, shadow tiles included; what the case takes more than the one that it is over. *ground*: it alone fills the picture; its textures have about a texel per pixel, hardly one like the next, and are bilinear but for *nearest*.\n"
             print "| in use | over | instructions per pixel | more |"

@@ -49,21 +49,6 @@ GN_HOT static gn_texel_rgb texel_of_channels(const uint16_t rgb[3])
     return out;
 }
 
-GN_HOT static GN_NOINLINE void any_pixel(const gn_texture *t, int32_t at_q17[2], gn_texel_rgb *out)
-{
-    uint32_t x[2], y[2], weight[4];
-    uint16_t texel[4][3];
-    find_pair(t, 0, &at_q17[0], x);
-    find_pair(t, 1, &at_q17[1], y);
-    gn_texture_texel(t, x[0], y[0], texel[0]);
-    if (t->flags & GN_TEXTURE_BILINEAR) {
-        for (int i = 1; i < 4; i++) gn_texture_texel(t, x[i & 1], y[i >> 1], texel[i]);
-        find_weights((uint32_t)at_q17[0], (uint32_t)at_q17[1], weight);
-        for (int c = 0; c < 3; c++) texel[0][c] = weigh(weight, texel[0][c], texel[1][c], texel[2][c], texel[3][c]);
-    }
-    *out = texel_of_channels(texel[0]);
-}
-
 /* ---- Pixels whose texels lie inside ------------------------------------------------------------------------------ */
 
 #if !GN_SIZE_FIRST
@@ -193,10 +178,55 @@ GN_INLINE uint64_t blend_kind(const row_source *s, int kind, const uint8_t *at, 
     return kind == TEXELS_PALETTE ? blend_palette(s, at, u_q17, v_q17) : blend_grey(s, at, u_q17, v_q17);
 }
 
+/* Copies a texel, one of less than a byte into a whole one. Memory that may be read at any address takes one load. */
+GN_INLINE void copy_texel(uint8_t *to, const uint8_t *row, uint32_t x, uint32_t bits_log2, uint32_t factor)
+{
+    if (bits_log2 == 5) {
+        const uint8_t *from = row + 4 * x;
+        to[0] = from[0], to[1] = from[1], to[2] = from[2], to[3] = from[3];
+    } else if (bits_log2 == 4) {
+        const uint8_t *from = row + 2 * x;
+        to[0] = from[0], to[1] = from[1];
+    } else to[0] = (uint8_t)(gn_texel_index(row, x, bits_log2) * factor);
+}
+
+/* Between the four texels of a pixel at the texture's borders, brought side by side: a texture of two by two. */
+GN_HOT static uint64_t blend_at_border(const row_source *s, int kind, const int32_t at_q17[2], const uint32_t x[2],
+                                       const uint32_t y[2])
+{
+    uint8_t texel[16];
+    const uint32_t bits_log2 = GN_TEXTURE_FORMATS == 1 ? 5 : s->bits_log2,
+                   bytes_log2 = bits_log2 > 3 ? bits_log2 - 3 : 0,
+                   factor = kind == TEXELS_GREY && bits_log2 == 2 ? 17 : 1; /* of 4 bits, as read_texel() has it */
+    const row_source side = {s->texture, texel, 2U << bytes_log2, bytes_log2 + 3, {0, 0}};
+    for (uint32_t i = 0; i < 2; i++) {
+        const uint8_t *row = s->texels + y[i] * s->stride;
+        uint8_t *to = texel + (i * 2 << bytes_log2);
+        copy_texel(to, row, x[0], bits_log2, factor);
+        copy_texel(to + (1U << bytes_log2), row, x[1], bits_log2, factor);
+    }
+    return blend_kind(&side, kind, texel, (uint32_t)at_q17[0] & 0x1FFFFU, (uint32_t)at_q17[1]);
+}
+
 GN_INLINE void store_both(uint64_t rgb, gn_texel_rgb *out)
 {
     out->red_green = (uint32_t)rgb;
     out->blue = (uint32_t)(rgb >> 32);
+}
+
+/* A pixel whose texels may lie anywhere; a coordinate that repeats is brought back to 0. */
+GN_HOT static GN_NOINLINE void any_pixel(const row_source *s, int kind, int32_t at_q17[2], gn_texel_rgb *out)
+{
+    uint32_t x[2], y[2];
+    find_pair(s->texture, 0, &at_q17[0], x);
+    find_pair(s->texture, 1, &at_q17[1], y);
+    if (s->texture->flags & GN_TEXTURE_BILINEAR) {
+        store_both(blend_at_border(s, kind, at_q17, x, y), out);
+        return;
+    }
+    uint16_t rgb[3];
+    gn_texture_texel(s->texture, x[0], y[0], rgb);
+    *out = texel_of_channels(rgb);
 }
 
 GN_INLINE void one_pixel(const row_source *s, int kind, int bilinear, uint32_t u, uint32_t v, gn_texel_rgb *out)
@@ -238,7 +268,7 @@ GN_INLINE void pixels(const row_source *s, int kind, int bilinear, const gn_text
                 one_pixel(s, kind, bilinear, (uint32_t)u, (uint32_t)v, out);
             else {
                 int32_t at[2] = {u, v}; /* not u and v themselves: they stay in registers */
-                any_pixel(s->texture, at, out);
+                any_pixel(s, kind, at, out);
                 u = at[0];
                 v = at[1];
             }
@@ -270,6 +300,21 @@ GN_HOT void gn_texture_row(const gn_texture *t, const gn_texture_line *line, uin
         for (; bits; bits >>= 1, out++) *out = GN_TEXEL_WHITE;
 }
 #else
+GN_HOT static GN_NOINLINE void any_pixel(const gn_texture *t, int32_t at_q17[2], gn_texel_rgb *out)
+{
+    uint32_t x[2], y[2], weight[4];
+    uint16_t texel[4][3];
+    find_pair(t, 0, &at_q17[0], x);
+    find_pair(t, 1, &at_q17[1], y);
+    gn_texture_texel(t, x[0], y[0], texel[0]);
+    if (t->flags & GN_TEXTURE_BILINEAR) {
+        for (int i = 1; i < 4; i++) gn_texture_texel(t, x[i & 1], y[i >> 1], texel[i]);
+        find_weights((uint32_t)at_q17[0], (uint32_t)at_q17[1], weight);
+        for (int c = 0; c < 3; c++) texel[0][c] = weigh(weight, texel[0][c], texel[1][c], texel[2][c], texel[3][c]);
+    }
+    *out = texel_of_channels(texel[0]);
+}
+
 GN_HOT void gn_texture_row(const gn_texture *t, const gn_texture_line *line, uint32_t bits, gn_texel_rgb *out)
 {
     gn_texture_line at = *line;

@@ -1,6 +1,7 @@
 /* Pixels of transparent surfaces. */
 #include "gn_internal.h"
 
+#include "base/gn_noise.h"
 #include "base/gn_q.h"
 #include "base/gn_tables.h"
 #include "geometry/gn_texture.h"
@@ -69,9 +70,6 @@ GN_HOT static void decode(const gn_frame *frame, uint32_t stored, uint32_t rgb[3
     case GN_FORMAT_GREY4:
         rgb[0] = rgb[1] = rgb[2] = decode_8(frame, 17U * stored);
         return;
-    case GN_FORMAT_MONO1:
-        rgb[0] = rgb[1] = rgb[2] = 65535U * stored;
-        return;
     default:
         for (int c = 0; c < 3; c++) rgb[c] = decode_8(frame, stored >> 8 * c & 255U);
     }
@@ -111,6 +109,12 @@ GN_HOT static uint32_t alpha_at(const gn_shading *s, int32_t x, int32_t y)
 }
 #endif
 
+/* A bit cannot be mixed: as many pixels show what is in front as alpha says. [M8] */
+GN_HOT static uint32_t choose(uint32_t front, uint32_t behind, uint32_t alpha_uq16, int32_t x, int32_t y)
+{
+    return alpha_uq16 >= gn_noise_uq16(x, y) ? front : behind;
+}
+
 GN_HOT void gn_mix_begin(gn_shading *s)
 {
     s->mixture.front = UINT32_MAX; /* of no pixel */
@@ -126,6 +130,10 @@ GN_HOT void gn_mix_run(gn_shading *s, int32_t x, int32_t y, int32_t n)
     for (; n > 0; n--, x++) {
         uint32_t front = load(s->frame, &s->rows, x, y), behind = load(s->frame, &tile, x, y);
         if (GN_TEXTURES && object->texture) alpha = alpha_at(s, x, y);
+        if (GN_OTHER_FORMATS && s->frame->picture.format == GN_FORMAT_MONO1) {
+            gn_pixel_store(s->frame, &tile, x, y, 65535U * choose(front, behind, alpha, x, y));
+            continue;
+        }
         if (front != known->front || behind != known->behind || alpha != known->alpha_uq16) {
             known->front = front;
             known->behind = behind;

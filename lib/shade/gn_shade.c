@@ -73,8 +73,10 @@ GN_HOT static inline void shade_those(gn_shading *s, int32_t n_spans)
     gn_lattice *l = &s->lattice;
     l->n_spans = n_spans;
     gn_lattice_shade(s);
-    if (GN_MIXES(s))
-        for (int32_t i = 0; i < l->n_spans; i++) gn_mix_run(s, l->span[i].x, l->span[i].y, l->span[i].n_px);
+    if (!GN_MIXES(s)) return;
+    if (GN_TEXTURES && s->surface.object->texture)
+        gn_surface_use_bary(s->frame, &s->surface); /* of small ones not yet */
+    for (int32_t i = 0; i < l->n_spans; i++) gn_mix_run(s, l->span[i].x, l->span[i].y, l->span[i].n_px);
 }
 
 /* Takes the triangle's runs as spans, so many at a time, and shades them. */

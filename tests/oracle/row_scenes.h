@@ -378,6 +378,31 @@ static inline void flip_subject(fixture *f)
     }
 }
 
+/* The subject, a panel of four corners, in n times n of them: of small triangles. */
+static inline void divide_subject(fixture *f, uint32_t n)
+{
+    scene_mesh *mesh = &f->meshes[SUBJECT];
+    const uint32_t side = n + 1;
+    const double *pos = mesh->pos, *uv = mesh->uv;
+    double *at = malloc((size_t)side * side * 3 * sizeof *at),
+           *coords = malloc((size_t)side * side * 2 * sizeof *coords);
+    uint32_t *idx = malloc((size_t)n * n * 6 * sizeof *idx);
+    if (!at || !coords || !idx) abort();
+    for (uint32_t i = 0; i < side * side; i++) {
+        const double x = (double)(i % side) / n, y = (double)(i / side) / n;
+        for (size_t k = 0; k < 3; k++) at[3 * i + k] = pos[k] + x * (pos[3 + k] - pos[k]) + y * (pos[9 + k] - pos[k]);
+        for (size_t k = 0; k < 2; k++) coords[2 * i + k] = uv[k] + x * (uv[2 + k] - uv[k]) + y * (uv[6 + k] - uv[k]);
+    }
+    for (uint32_t i = 0; i < n * n; i++) {
+        const uint32_t a = i / n * side + i % n, six[6] = {a, a + 1, a + side + 1, a, a + side + 1, a + side};
+        memcpy(idx + 6 * (size_t)i, six, sizeof six);
+    }
+    free(mesh->pos), free(mesh->uv), free(mesh->idx);
+    mesh->pos = at, mesh->uv = coords, mesh->idx = idx;
+    mesh->n_vertices = (size_t)side * side;
+    mesh->n_triangles = (size_t)n * n * 2;
+}
+
 static inline bool tweak_subject(fixture *f, const char *key, const char *value)
 {
     scene_object *o = &f->objects[SUBJECT];
@@ -392,6 +417,7 @@ static inline bool tweak_subject(fixture *f, const char *key, const char *value)
     else if (strcmp(key, "casts_two_sided") == 0) o->casts_two_sided = n;
     else if (strcmp(key, "receives") == 0) f->objects[GROUND].receives = n;
     else if (strcmp(key, "flip") == 0) flip_subject(f);
+    else if (strcmp(key, "parts") == 0) divide_subject(f, (uint32_t)n);
     else return false;
     return true;
 }

@@ -538,6 +538,9 @@ static const row rows[] = {
     {"M8", "yard", ".alpha=0.5 .visible=3", "transparent_layers=1", "", 0.25},
     {"M8", "yard", ".alpha=0.4 .visible=3 .light=all .colours=1 .specular=4", "transparent_layers=3", "", 0.25},
     {"M8", "yard", ".texture=soft_pickets .visible=3 .light=spot", "transparent_layers=2", "", 0.25},
+    {"M8", "yard", ".parts=5 .texture=soft_pickets .visible=3", "transparent_layers=1", "", 0.5},
+    {"M8", "yard", ".parts=8 .texture=soft_pickets .visible=3 .light=all .colours=1",
+     "transparent_layers=2 triangle_groups=16", "", 0.5},
     {"M8", "yard", ".texture=pickets .visible=3 half_height=3", "transparent_layers=1", "", 0.5},
     {"M9", "yard", "", ".baked=1", "", 0.25},
     {"M9", "yard", ".baked=1 .light=all", "mode@1=baked", "", 0.25},
@@ -611,6 +614,35 @@ static void test_outputs(void)
         engine_free(&p.fixed);
         engine_free(&p.reference);
         close_stage(&st);
+    }
+}
+
+/* How bright a panel's picture is, over all pixels. */
+static double brightness(const char *with, bool fixed)
+{
+    const row r = {"M8", "yard", ".visible=3 .unlit=1 .light=spot", with, NULL, 0};
+    stage st;
+    engine_picture p;
+    double sum = 0;
+    if (!CHECK_EQ_INT(open_stage(&st, &r, r.with, SETTINGS_BALANCED) || draw(&p, &st, fixed), 0)) return 0;
+    for (size_t i = 0; i < (size_t)3 * WIDTH * HEIGHT; i++) sum += p.rgb8[i];
+    engine_free(&p);
+    close_stage(&st);
+    return sum;
+}
+
+/* A transparent surface is as bright as it should be, all in all: of one bit, too. [M8] [R5] */
+static void test_layers_of_outputs(void)
+{
+    static const char *const names[] = {"rgb565", "grey8", "mono1"};
+    for (size_t i = 0; i < sizeof names / sizeof *names; i++) {
+        char words[64], nothing[64];
+        snprintf(words, sizeof words, ".alpha=0.6 transparent_layers=1 output=%s", names[i]);
+        snprintf(nothing, sizeof nothing, ".alpha=0 transparent_layers=1 output=%s", names[i]);
+        const double reference = brightness(words, false), adds = reference - brightness(nothing, false),
+                     off = brightness(words, true) - reference;
+        if (!CHECK(fabs(off) <= 0.15 * fabs(adds)))
+            printf("  %s: the surface adds %.0f, and the library is off by %.0f\n", names[i], adds, off);
     }
 }
 
@@ -773,6 +805,7 @@ int main(int argc, char **argv)
             if (only ? strcmp(only, rows[i].id) == 0 : optimised || (int)(i % 4) == preset - SETTINGS_FAST)
                 check_row(&rows[i], preset, list);
     test_outputs();
+    test_layers_of_outputs();
     test_caster_culling();
     test_statistics();
     return check_report();

@@ -242,6 +242,8 @@ good compare "$cube" -o "$tmp/new" --size 16x16 --view atlas --set atlas_size=64
 for name in fixed reference error; do is_png "$tmp/new/$name.png" 96x32 "compare -o --view atlas"; done
 is_png "$tmp/new/beside.png" 96x104 "compare -o --view atlas"
 bad 1 "no light 1" compare "$cube" -o "$tmp/new" --size 16x16 --view shadow --light 1
+bad 1 "tile_height: tiles of 320x240, .*65536" render "$cube" -o "$tmp/a.png" --size 320x240 --set tile_width=320 --set tile_height=240
+bad 1 "tiles of 8x1, .*triangle_groups" render "$cube" -o "$tmp/a.png" --size 320x240 --set tile_width=8 --set tile_height=1 --set triangle_groups=16
 # lamps inside of unlit bulbs: their insides are turned to the light, and what is seen of them is not
 good compare docs/scenes/cones.gltf -o "$tmp/new" --size 64x48 --view shadow --light 3
 cmp -s "$tmp/new/fixed.png" "$tmp/new/reference.png" && pass || fail "unlit surfaces in --view shadow differ"

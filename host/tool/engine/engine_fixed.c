@@ -81,6 +81,12 @@ static int explain(const job *j, gn_status status)
     else if (status == GN_ERR_SHADOW_DISTANCE)
         snprintf(j->error, j->error_bytes, "%s: it is %g, the near plane %g; --set max_distance=...",
                  gn_status_text(status), s->shadow.max_distance, s->camera.near);
+    else if (status == GN_ERR_KNOB) /* ranges of single knobs were seen to where they were set */
+        snprintf(
+            j->error, j->error_bytes,
+            "tile_width and tile_height: tiles of %dx%d, but a tile has at most 65536 pixels, a picture 16384 tiles, "
+            "with triangle_groups 128 each way",
+            (int)j->set->quality.tile_width, (int)j->set->quality.tile_height);
     else snprintf(j->error, j->error_bytes, "%s%s", culprit, gn_status_text(status));
     if (status == GN_ERR_CAMERA_DEPTH || status == GN_ERR_SHADOW_DISTANCE || status == GN_ERR_LIGHT_RANGE ||
         status == GN_ERR_LIGHT_POSITION)
