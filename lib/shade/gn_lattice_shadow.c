@@ -174,6 +174,22 @@ GN_HOT static int places_hold(const gn_lattice_cell *cell, places *p)
                                                                                                             : BEND;
 }
 
+/* Whether a texel that the cell reads is in doubt: it may be before the receiver here and behind it there, which is not
+ * smooth. */
+GN_HOT static int touches(const places *p)
+{
+    const gn_window *window = p->window;
+    int32_t lo, hi, u0, v0, w, h;
+    uint32_t some = 0;
+    range_of(p->u, &lo, &hi);
+    gn_window_reads(p->view, lo - 16, hi + 1040, &u0, &w);
+    range_of(p->v, &lo, &hi);
+    gn_window_reads(p->view, lo - 16, hi + 1040, &v0, &h);
+    if (!window || window->view != p->view || !gn_window_covers(window, u0, v0, w, h)) return 1; /* not known */
+    for (int32_t i = 0; i < h; i++) some |= window->doubt[v0 - window->v0 + i];
+    return (some >> (u0 - window->u0) & UINT32_MAX >> (32 - w)) != 0;
+}
+
 /* Pixels between lookups. */
 GN_HOT static int32_t lookup_spacing(const gn_lattice_cell *cell, const places *p)
 {
@@ -182,7 +198,7 @@ GN_HOT static int32_t lookup_spacing(const gn_lattice_cell *cell, const places *
     uint32_t across = u > v ? u : v, most = gn_cell_lookup_texels_q16(cell->frame, p->view);
     int32_t log2 = cell->size_log2;
     while (log2 > 0 && across > (uint64_t)most << (cell->size_log2 - log2)) log2--;
-    return log2;
+    return log2 > 1 && touches(p) ? 0 : log2;
 }
 
 /* Adds a light whose shadow has an edge here, with a share of what it adds without shadow. Returns 0 if there is no

@@ -571,6 +571,8 @@ static const row rows[] = {
     {"R10", "lane", "cascades=4 cascade_blend=soft", "half_height=4", "", 0.75},
     {"R10", "lane", "cascades=2 distance_mode=radius max_distance=15", "half_height=5", "", 0.5},
     {"R10", "yard", ".camera=-1.6,0.5,0.9,0.5,0.5,-4", "half_height=1", "", 0.5}, /* clipped */
+    {"R10", "yard", ".light=point filter=3x3 auto_bias=normal bias_normal=0 .camera=-5.6,3.6,1.2,-2.9,0,-2.6",
+     "half_height=0.7", "", 0.25},
     {"R12", "yard", "", ".skin=0.6", "", 0.25},
     {"R12", "yard", ".light=all .texture=bilinear .colours=1 .specular=4", ".skin=0.9", "", 0.5},
     {"R12", "yard", ".light=suns filter=2x2 .normals=0", ".skin=-0.7", "", 0.5},
