@@ -10,6 +10,7 @@
 #include "shade/gn_lattice.h"
 #include "shade/gn_lattice_window.h"
 #include "shade/gn_levels.h"
+#include "shade/gn_mix.h"
 #include "shade/gn_part.h"
 
 #if GN_INTERPOLATES
@@ -214,7 +215,10 @@ GN_HOT void gn_lattice_shade(gn_shading *s)
     gn_rect box = box_of(l);
     int reached = gn_corner_begin_lights(l, s->frame, &s->surface);
     int32_t n_px = count_pixels(l);
-    if (reached && n_px > FEW_OF_A_FACET && gn_facet_shade(s, &box, n_px)) return;
+    if (reached && n_px > FEW_OF_A_FACET && gn_facet_shade(s, &box, n_px)) {
+        if (GN_MIXES(s) && s->surface.textured) gn_surface_use_bary(s->frame, &s->surface); /* alpha is read there */
+        return;
+    }
     gn_surface_use_bary(s->frame, &s->surface);
     if (n_px <= (l->uniform ? FEW_OF_ONE_COLOUR : FEW) || !reached ||
         !gn_corner_begin(l, s->frame, &s->surface, &box)) {

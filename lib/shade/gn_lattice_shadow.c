@@ -175,17 +175,17 @@ GN_HOT static int places_hold(const gn_lattice_cell *cell, places *p)
 }
 
 /* Whether a texel that the cell reads is in doubt: it may be before the receiver here and behind it there, which is not
- * smooth. */
+ * smooth. A window of the cell, where there is one, has all of these texels: verdict(). */
 GN_HOT static int touches(const places *p)
 {
     const gn_window *window = p->window;
     int32_t lo, hi, u0, v0, w, h;
     uint32_t some = 0;
+    if (!window) return 1; /* not known */
     range_of(p->u, &lo, &hi);
     gn_window_reads(p->view, lo - 16, hi + 1040, &u0, &w);
     range_of(p->v, &lo, &hi);
     gn_window_reads(p->view, lo - 16, hi + 1040, &v0, &h);
-    if (!window || window->view != p->view || !gn_window_covers(window, u0, v0, w, h)) return 1; /* not known */
     for (int32_t i = 0; i < h; i++) some |= window->doubt[v0 - window->v0 + i];
     return (some >> (u0 - window->u0) & UINT32_MAX >> (32 - w)) != 0;
 }

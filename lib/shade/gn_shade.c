@@ -74,8 +74,6 @@ GN_HOT static inline void shade_those(gn_shading *s, int32_t n_spans)
     l->n_spans = n_spans;
     gn_lattice_shade(s);
     if (!GN_MIXES(s)) return;
-    if (GN_TEXTURES && s->surface.object->texture)
-        gn_surface_use_bary(s->frame, &s->surface); /* of small ones not yet */
     for (int32_t i = 0; i < l->n_spans; i++) gn_mix_run(s, l->span[i].x, l->span[i].y, l->span[i].n_px);
 }
 

@@ -260,7 +260,7 @@ static void test_work(void)
     torus(&r, 160, 60, 0.3);
     reduce_to(&r, 2000);
     const size_t n_points = 4 * (r.result.n_before + r.result.n_after);
-    CHECK(r.result.n_compared >= n_points / 2 && r.result.n_compared < 20 * n_points);
+    CHECK(r.result.n_compared >= n_points && r.result.n_compared < 20 * n_points);
     rig_end(&r);
 }
 

@@ -1,6 +1,6 @@
 #!/bin/sh
 # gnomon sweep and gnomon advise: the front, budgets kept, what they promise reproduced by gnomon compare. usage: test_sweep.sh [TOOL]
-# THOROUGH=1: advice at either end of the budgets for each of three scenes (else of one, at the lower), and more budgets of a second scene.
+# THOROUGH=1: advice at either end of the budgets for each of three scenes, and more budgets of a second scene.
 cd "$(dirname "$0")/../.." || exit 1
 tool=${1:-build/gnomon}
 . tests/support/check.sh
@@ -135,10 +135,10 @@ awk -F '"' 'NR > 1 { split($3, v, ","); if (v[15] != 1 || v[16] >= v[4] || v[16]
 
 # ---- Advice --------------------------------------------------------------------------------------------------------------------
 
-for name in desk ${THOROUGH:+sundial mixed}; do
+for name in ${THOROUGH:+sundial} desk mixed; do
     scene=host/scenes/$name.gltf csv=$tmp/$name.csv
     least=$(awk -F '"' 'NR > 1 { split($3, v, ","); if (!n++ || v[3] < least) least = v[3] } END { print least }' "$csv")
-    [ "$THOROUGH" ] && factors="11 60" || factors=11
+    case $name$THOROUGH in desk) factors=11 ;; mixed) factors=60 ;; *) factors='11 60' ;; esac
     for factor in $factors; do
         budget=$((least * factor / 10))
         good advise "$scene" --quick --size $size --ram $budget --json
