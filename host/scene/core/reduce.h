@@ -9,6 +9,8 @@ typedef struct {
     double off;               /* the farthest that a surface moved, in the scene's units at rest; see reduce_distance */
     double off_share;         /* the same of the diagonal of the box around that mesh */
     size_t mesh_idx;          /* which */
+    size_t n_queued;          /* work: moves that were weighed */
+    size_t n_compared;        /* and of measuring `off`: see reduce_distance */
 } reduce_result;
 
 /* Reduces the meshes together to at most n_triangles, where the scene stays what it is: no hole opens or closes,
@@ -25,7 +27,7 @@ typedef struct {
 } reduce_surface;
 
 /* The largest distance from points of a surface (corners and middles of its triangles) to the other: about the
- * one-sided Hausdorff distance. */
-double reduce_distance(const reduce_surface *from, const reduce_surface *to);
+ * one-sided Hausdorff distance. -1 if memory runs out. *n_compared grows by the boxes and triangles looked at. */
+double reduce_distance(const reduce_surface *from, const reduce_surface *to, size_t *n_compared);
 
 #endif
