@@ -42,7 +42,7 @@ const option options[] = {
     {"--outside", BY_ALL, NULL, NULL, "the scene may name files outside its folder"},
     {"--budget", BY_ALL, "N", "a number from 1 to 64",
      "load scenes N times as large as usual, in textures, vertices, triangles, materials and memory (1)"},
-    {"--triangles", BY_RENDER | BY_COMPARE | BY_INFO | BY_COMPILE | BY_ASSET, "N",
+    {"--triangles", BY_RENDER | BY_COMPARE | BY_INFO | BY_SWEEP | BY_ADVISE | BY_COMPILE | BY_ASSET, "N",
      "a number of triangles from 1 to 100000000",
      "reduce the meshes to N triangles in all, where that keeps borders, seams and skins; says how far surfaces moved"},
     {"--csv", BY_SWEEP, "FILE", "a path", "every configuration as a table"},

@@ -380,8 +380,25 @@ static void test_odd(void)
     rig_end(&r);
 }
 
+/* Work grows as the mesh does, not as its square. A point has six neighbours, so a triangle three moves at first and
+ * six more, as every second triangle's end is a collapse and the point that is left has twelve; a point that is
+ * measured meets boxes on one way down a tree, where each triangle with each were 400 and 1600. */
+static void test_work(void)
+{
+    for (uint32_t k = 1; k <= 2; k++) {
+        rig r;
+        torus(&r, 40 * k, 16 * k, 0.3);
+        reduce_to(&r, 100 * k * k);
+        const double n = (double)(r.result.n_before + r.result.n_after);
+        CHECK((double)r.result.n_queued < 12 * (double)r.result.n_before);
+        CHECK((double)r.result.n_compared < 40 * 4 * n);
+        rig_end(&r);
+    }
+}
+
 int main(void)
 {
+    test_work();
     test_closed();
     test_work();
     test_borders();

@@ -44,6 +44,23 @@ static void test_out_of_range(void)
     scene_free(&s);
 }
 
+/* Faces before what they name; those that count back count from where they stand. */
+static void test_forward(void)
+{
+    static const char text[] = "f 3//2 2//2 1//1\nf -1 -2 -3\nv 0 0 0\nvn 1 0 0\nvn 0 0 1\nv 1 0 0\nv 0 1 0\n"
+                               "f -3//-2 -2//-1 -1\nv 9 9 9\nvn 0 1 0\n";
+    if (!loads(".obj", text)) return;
+    const scene_mesh *mesh = &s.meshes[0];
+    CHECK(mesh->n_triangles == 2 && s.n_remarks == 1 && has_remark("line 2: a face names a vertex"));
+    CHECK_NEAR(mesh->pos[3 * mesh->idx[0] + 1], 1, 0); /* the third vertex, with the second normal */
+    CHECK_NEAR(mesh->nrm[3 * mesh->idx[0] + 2], 1, 0);
+    CHECK_NEAR(mesh->nrm[3 * mesh->idx[2]], 1, 0);
+    CHECK_NEAR(mesh->pos[3 * mesh->idx[5] + 1], 1, 0); /* not the fourth */
+    CHECK_NEAR(mesh->nrm[3 * mesh->idx[3]], 1, 0);
+    CHECK_NEAR(mesh->nrm[3 * mesh->idx[4] + 2], 1, 0);
+    scene_free(&s);
+}
+
 static void test_numbers(void)
 {
     if (!loads(".obj",
@@ -62,6 +79,10 @@ static void test_colours(void)
     const double expected[9] = {1, 0.2, 0, 1, 1, 1, 0.4, 0, 0};
     CHECK(has_remark("vertex colours go up to 255: they are taken for 255ths"));
     for (int i = 0; i < 9; i++) CHECK_NEAR(s.meshes[0].rgb[i], expected[i], 1e-12);
+    scene_free(&s);
+    if (!loads(".obj", "v 0 0 0 nan 0 0\nv 1 0 0 0 0.5 inf\nv 0 1 0 0 0.5 0\nf 1 2 3\n")) return;
+    CHECK(s.n_remarks == 1 && has_remark("colours of vertices that are no numbers are left out"));
+    for (int i = 0; i < 9; i++) CHECK_NEAR(s.meshes[0].rgb[i], i < 6 ? 1 : i == 7 ? 0.5 : 0, 0);
     scene_free(&s);
     if (!loads(".obj", "v 0 0 0 1.5 1 0\nv 1 0 0 1 1 1\nv 0 1 0 1 0 0\nf 1 2 3\n")) return;
     CHECK(has_note("vertex colours outside 0..1 are clamped") && s.n_remarks == 0);
@@ -220,6 +241,7 @@ int main(void)
     write_pyramid();
     test_line_ends();
     test_out_of_range();
+    test_forward();
     test_numbers();
     test_colours();
     test_paths();

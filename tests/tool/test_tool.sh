@@ -859,6 +859,17 @@ bad 1 "overwrite what the scene is read from" render "$tmp/skin.obj" --size 16x1
 good render "$tmp/own.gltf" --size 16x12 --orbit 0,0,1 -o "$tmp/x.png"
 grep -q "sees none" "$tmp/err" && fail "an orbit that sees all is said to see nothing" || pass
 
+# A triangle that shows its back, then what is said to show its front; more triangles than can be drawn, and what is said to help.
+printf 'v 0 0 0\nv 0 2 0\nv 1 0 1\nf 1 2 3\n' >"$tmp/back.obj"
+"$tool" render "$tmp/back.obj" --size 16x12 -o "$tmp/x.png" >/dev/null 2>"$tmp/err"
+orbit=$(sed -n 's/.*backs of faces alone.*--orbit \([0-9.,-]*\) looks.*/\1/p' "$tmp/err")
+[ "$orbit" = 135,0,1 ] && pass || fail "a triangle's back: $(cat "$tmp/err")"
+good render "$tmp/back.obj" --size 16x12 -o "$tmp/x.png" --orbit "$orbit"
+awk 'BEGIN { for (i = 0; i <= 200; i++) for (k = 0; k <= 200; k++) print "v", i, k, sin(i / 9) * sin(k / 9)
+    for (i = 0; i < 200; i++) for (k = 1; k <= 200; k++) { a = 201 * i + k; print "f", a, a + 201, a + 202, a + 1 } }' >"$tmp/many.obj"
+bad 1 "visible triangles.*: --triangles 58000 leaves few enough" render "$tmp/many.obj" --size 1000x1000 --orbit 0,0,1 -o "$tmp/x.png"
+"$tool" render "$tmp/many.obj" --size 1000x1000 --orbit 0,0,1 -o "$tmp/x.png" --triangles 58000 >/dev/null 2>"$tmp/err" && pass || fail "--triangles 58000: $(cat "$tmp/err")"
+
 # ---- Help and version --------------------------------------------------------------------------------------------------------
 
 for command in render compare info sweep advise compile asset bake knobs; do

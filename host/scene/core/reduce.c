@@ -21,7 +21,8 @@ typedef struct {
     queued *queue;       /* a heap, the cheapest first */
     size_t n_queued, queue_capacity;
     size_t n_triangles;
-    bool failed; /* out of memory */
+    size_t n_ever; /* moves that were queued */
+    bool failed;   /* out of memory */
 } reduction;
 
 /* ---- The queue --------------------------------------------------------------------------------------------------- */
@@ -37,6 +38,7 @@ static void push(reduction *r, const queued *one)
         r->queue_capacity = capacity;
     }
     size_t i = r->n_queued++;
+    r->n_ever++;
     for (; i > 0 && one->move.cost < r->queue[(i - 1) / 2].move.cost; i = (i - 1) / 2)
         r->queue[i] = r->queue[(i - 1) / 2];
     r->queue[i] = *one;
@@ -162,16 +164,31 @@ static int begin_mesh(reduce_mesh *m, const scene *s, const scene_object *object
 
 /* ---- Moves ------------------------------------------------------------------------------------------------------- */
 
-static void queue_around(reduction *r, uint32_t mesh_idx, uint32_t point)
+/* Each once: a queue with the same move four times takes five times as long. Points of too many corners have no moves.
+ */
+static size_t neighbours(const reduce_mesh *m, uint32_t point, uint32_t *out)
 {
-    const reduce_mesh *m = &r->meshes[mesh_idx];
-    for (uint32_t c = m->head[point]; c != REDUCE_NONE; c = m->next[c]) {
-        if (m->dead[c / 3]) continue;
-        const uint32_t near[2] = {reduce_point(m, reduce_next(c)), reduce_point(m, reduce_next(reduce_next(c)))};
-        for (int i = 0; i < 2; i++) {
-            queue_move(r, mesh_idx, point, near[i]);
-            queue_move(r, mesh_idx, near[i], point);
+    uint32_t corner[REDUCE_CORNERS_MAX + 1];
+    const size_t n_corners = reduce_corners(m, point, corner);
+    size_t n = 0;
+    for (size_t i = 0; i < n_corners && n_corners <= REDUCE_CORNERS_MAX; i++)
+        for (uint32_t c = reduce_next(corner[i]); c != corner[i]; c = reduce_next(c)) {
+            size_t k = 0;
+            while (k < n && out[k] != reduce_point(m, c)) k++;
+            out[k] = reduce_point(m, c);
+            n = k == n ? n + 1 : n;
         }
+    return n;
+}
+
+/* The moves of a point onto its neighbours; `back`: and theirs onto it. */
+static void queue_around(reduction *r, uint32_t mesh_idx, uint32_t point, bool back)
+{
+    uint32_t near[2 * REDUCE_CORNERS_MAX];
+    const size_t n = neighbours(&r->meshes[mesh_idx], point, near);
+    for (size_t i = 0; i < n; i++) {
+        queue_move(r, mesh_idx, point, near[i]);
+        if (back) queue_move(r, mesh_idx, near[i], point);
     }
 }
 
@@ -182,6 +199,18 @@ static void copy_vertex(scene_mesh *mesh, size_t to, size_t from)
     if (mesh->mask_uv) memcpy(mesh->mask_uv + 2 * to, mesh->mask_uv + 2 * from, 2 * sizeof *mesh->mask_uv);
     if (mesh->joint) memcpy(mesh->joint + 4 * to, mesh->joint + 4 * from, 4);
     if (mesh->weight) memcpy(mesh->weight + 4 * to, mesh->weight + 4 * from, 4);
+}
+
+/* From the list of a point's corners, which grows with each point that moves onto it. */
+static void drop_dead(reduce_mesh *m, uint32_t point)
+{
+    uint32_t c = m->head[point];
+    m->head[point] = REDUCE_NONE;
+    while (c != REDUCE_NONE) {
+        const uint32_t next = m->next[c];
+        if (!m->dead[c / 3]) add_corner(m, point, c);
+        c = next;
+    }
 }
 
 static void collapse(reduction *r, uint32_t mesh_idx, uint32_t from, uint32_t to, const reduce_step *step)
@@ -205,12 +234,13 @@ static void collapse(reduction *r, uint32_t mesh_idx, uint32_t from, uint32_t to
         add_corner(m, to, c);
     }
     m->head[from] = REDUCE_NONE;
+    drop_dead(m, to);
     m->stamp[from]++;
     m->stamp[to]++;
     for (int i = 0; i < 6; i++) q->nn[i] += more->nn[i];
     for (int i = 0; i < 3; i++) q->nd[i] += more->nd[i];
     q->dd += more->dd;
-    queue_around(r, mesh_idx, to);
+    queue_around(r, mesh_idx, to, true);
 }
 
 static void reduce_to(reduction *r, size_t n_triangles)
@@ -293,11 +323,9 @@ static int end_mesh(scene *s, reduce_mesh *m, const double *world, const uint32_
     if (compact_mesh(s, m)) return -1;
     if (m->mesh->n_triangles == n_triangles) return 0;
     const reduce_surface before = {world, idx, n_triangles}, after = {m->world, m->mesh->idx, m->mesh->n_triangles};
-    double there, back;
-    if (reduce_distance(&before, &after, &there, &out->n_compared) ||
-        reduce_distance(&after, &before, &back, &out->n_compared))
-        return -1;
-    const double off = fmax(there, back);
+    const double forth = reduce_distance(&before, &after, &out->n_compared);
+    const double back = reduce_distance(&after, &before, &out->n_compared), off = fmax(forth, back);
+    if (forth < 0 || back < 0) return -1;
     if (off <= out->off) return 0;
     out->off = off;
     out->off_share = off / diagonal(world, n_vertices);
@@ -338,7 +366,7 @@ static int reduce_all(reduction *r, size_t n_triangles)
         for (uint32_t k = 0; k < r->s->n_meshes; k++) {
             const reduce_mesh *m = &r->meshes[k];
             for (uint32_t v = 0; m->mesh && v < m->mesh->n_vertices; v++)
-                if (m->point_of[v] == v) queue_around(r, k, v);
+                if (m->point_of[v] == v) queue_around(r, k, v, false);
         }
         reduce_to(r, n_triangles);
     }
@@ -355,6 +383,7 @@ int reduce_scene(scene *s, size_t n_triangles, reduce_result *out)
         if (r.meshes[i].mesh) out->n_before += s->meshes[i].n_triangles;
     if (!failed && out->n_before > n_triangles) {
         failed = reduce_all(&r, n_triangles);
+        out->n_queued = r.n_ever;
         for (size_t i = 0; !failed && i < s->n_meshes; i++)
             failed = r.meshes[i].mesh && end_mesh(s, &r.meshes[i], was[i].world, was[i].idx, out);
     }

@@ -9,7 +9,8 @@ typedef struct {
     double off;               /* the farthest that a surface moved, in the scene's units at rest; see reduce_distance */
     double off_share;         /* the same of the diagonal of the box around that mesh */
     size_t mesh_idx;          /* which */
-    size_t n_compared;        /* triangles with points, to find that */
+    size_t n_queued;          /* work: moves that were weighed */
+    size_t n_compared;        /* and of measuring `off`: see reduce_distance */
 } reduce_result;
 
 /* Reduces the meshes together to at most n_triangles, where the scene stays what it is: no hole opens or closes,
@@ -25,8 +26,8 @@ typedef struct {
     size_t n_triangles;
 } reduce_surface;
 
-/* *off: the largest distance from points of a surface (corners and middles of its triangles) to the other, about the
- * one-sided Hausdorff distance. Adds to *n_compared. Returns 0; -1 if memory runs out. */
-int reduce_distance(const reduce_surface *from, const reduce_surface *to, double *off, size_t *n_compared);
+/* The largest distance from points of a surface (corners and middles of its triangles) to the other: about the
+ * one-sided Hausdorff distance. -1 if memory runs out. *n_compared grows by the boxes and triangles looked at. */
+double reduce_distance(const reduce_surface *from, const reduce_surface *to, size_t *n_compared);
 
 #endif

@@ -1,11 +1,9 @@
-/* How far two surfaces are apart: nearest triangles are found in a tree of boxes. */
+/* How far two surfaces are apart. */
 #include <math.h>
 #include <stdlib.h>
 
 #include "reduce.h"
 #include "vec.h"
-
-/* ---- One triangle ------------------------------------------------------------------------------------------------ */
 
 static double segment2(const double *p, const double *a, const double *b)
 {
@@ -39,155 +37,162 @@ static double triangle2(const double *p, const double *a, const double *b, const
     return fmin(segment2(p, a, b), fmin(segment2(p, b, c), segment2(p, c, a)));
 }
 
-static const double *corner_of(const reduce_surface *s, size_t triangle, int i)
-{
-    return s->pos + 3 * (size_t)s->idx[3 * triangle + (size_t)i];
-}
+/* ---- A tree of boxes around the triangles of a surface -------------------------------------------------------------
+ */
 
-/* ---- A tree of boxes --------------------------------------------------------------------------------------------- */
+enum { LEAF = 4, STACK_MAX = 64, MORTON_BITS = 10 };
 
-enum { LEAF = 4 };
-
-/* Of node i: around its triangles, order[first .. first + n - 1]. If these are more than LEAF, node 2 i + 1 has the
- * first n / 2 of them, and node 2 i + 2 the others. */
 typedef struct {
     double low[3], high[3];
 } box;
 
 typedef struct {
-    const reduce_surface *surface;
-    uint32_t *order;
-    box *node;
-    size_t n_compared;
+    uint32_t code, triangle;
+} coded;
+
+typedef struct {
+    const reduce_surface *of;
+    coded *order; /* the triangles along a Morton curve, which keeps near ones together: LEAF of them per leaf */
+    box *node;    /* the children of i are 2 i and 2 i + 1, from 1 on; leaves begin at n_leaves, a power of 2 */
+    size_t n_leaves;
+    uint32_t near;      /* the triangle that the point before was nearest to */
+    size_t *n_compared; /* boxes and triangles that points were compared with */
 } tree;
 
-static double middle_of(const reduce_surface *s, size_t triangle, int axis)
+static const double *corner_of(const reduce_surface *s, size_t triangle, int i)
 {
-    return corner_of(s, triangle, 0)[axis] + corner_of(s, triangle, 1)[axis] + corner_of(s, triangle, 2)[axis];
+    return s->pos + 3 * (size_t)s->idx[3 * triangle + (size_t)i];
 }
 
-static box box_of(const reduce_surface *s, const uint32_t *order, size_t n)
-{
-    box b;
-    for (int k = 0; k < 3; k++) b.low[k] = (double)INFINITY, b.high[k] = -(double)INFINITY;
-    for (size_t t = 0; t < n; t++)
-        for (int i = 0; i < 3; i++)
-            for (int k = 0; k < 3; k++) {
-                b.low[k] = fmin(b.low[k], corner_of(s, order[t], i)[k]);
-                b.high[k] = fmax(b.high[k], corner_of(s, order[t], i)[k]);
-            }
-    return b;
-}
+static const box nothing = {{(double)INFINITY, (double)INFINITY, (double)INFINITY},
+                            {-(double)INFINITY, -(double)INFINITY, -(double)INFINITY}};
 
-/* The lower half along an axis comes first: by quickselect. */
-static void halve(const reduce_surface *s, uint32_t *order, size_t n, int axis)
+static void box_add(box *b, const double *low, const double *high)
 {
-    size_t from = 0, to = n - 1;
-    const size_t half = n / 2;
-    while (from < to) {
-        const double pivot = middle_of(s, order[from + (to - from) / 2], axis);
-        size_t i = from, j = to;
-        for (;;) {
-            while (middle_of(s, order[i], axis) < pivot) i++;
-            while (middle_of(s, order[j], axis) > pivot) j--;
-            if (i >= j) break;
-            const uint32_t swapped = order[i];
-            order[i++] = order[j];
-            order[j--] = swapped;
-        }
-        if (half <= j) to = j;
-        else from = j + 1;
+    for (int k = 0; k < 3; k++) {
+        if (low[k] < b->low[k]) b->low[k] = low[k];
+        if (high[k] > b->high[k]) b->high[k] = high[k];
     }
 }
 
-static void build(tree *t, size_t node, size_t first, size_t n)
-{
-    box *b = &t->node[node];
-    int axis = 0;
-    *b = box_of(t->surface, t->order + first, n);
-    if (n <= LEAF) return;
-    for (int k = 1; k < 3; k++)
-        if (b->high[k] - b->low[k] > b->high[axis] - b->low[axis]) axis = k;
-    halve(t->surface, t->order + first, n, axis);
-    build(t, 2 * node + 1, first, n / 2);
-    build(t, 2 * node + 2, first + n / 2, n - n / 2);
-}
-
-static int tree_begin(tree *t, const reduce_surface *s)
-{
-    size_t n_nodes = 1;
-    for (size_t n = s->n_triangles; n > LEAF; n -= n / 2) n_nodes = 2 * n_nodes + 1;
-    *t = (tree){
-        .surface = s, .order = malloc(s->n_triangles * sizeof *t->order), .node = malloc(n_nodes * sizeof *t->node)};
-    if (!t->order || !t->node) return -1;
-    for (size_t i = 0; i < s->n_triangles; i++) t->order[i] = (uint32_t)i;
-    build(t, 0, 0, s->n_triangles);
-    return 0;
-}
-
-static void tree_free(tree *t)
-{
-    free(t->order);
-    free(t->node);
-}
-
-static double box2(const double *p, const box *b)
+/* The squared distance of a point; of a box around nothing: infinity. */
+static double box2(const box *b, const double *p)
 {
     double sum = 0;
     for (int k = 0; k < 3; k++) {
-        const double out = fmax(fmax(b->low[k] - p[k], p[k] - b->high[k]), 0);
+        const double out = p[k] < b->low[k] ? b->low[k] - p[k] : p[k] > b->high[k] ? p[k] - b->high[k] : 0;
         sum += out * out;
     }
     return sum;
 }
 
-/* Lessens *nearest2 to the distance from a node's triangles; no need to know one that is not more than `enough2`. */
-static void search(tree *t, size_t node, size_t first, size_t n, const double *p, double enough2, double *nearest2)
+static uint32_t spread(uint32_t bits)
 {
-    if (n <= LEAF) {
-        for (size_t i = first; i < first + n; i++) {
-            const size_t k = t->order[i];
-            const reduce_surface *s = t->surface;
-            *nearest2 = fmin(*nearest2, triangle2(p, corner_of(s, k, 0), corner_of(s, k, 1), corner_of(s, k, 2)));
-            t->n_compared++;
-        }
-        return;
-    }
-    const double to[2] = {box2(p, &t->node[2 * node + 1]), box2(p, &t->node[2 * node + 2])};
-    for (int i = 0, half = to[1] < to[0]; i < 2; i++, half = !half) { /* the nearer one first */
-        if (to[half] >= *nearest2 || *nearest2 <= enough2) continue;
-        search(t, 2 * node + 1 + (size_t)half, half ? first + n / 2 : first, half ? n - n / 2 : n / 2, p, enough2,
-               nearest2);
-    }
+    uint32_t out = 0;
+    for (int i = 0; i < MORTON_BITS; i++) out |= (bits >> i & 1) << 3 * i;
+    return out;
 }
 
+static uint32_t morton(const reduce_surface *s, size_t triangle, const box *all)
+{
+    uint32_t code = 0;
+    for (int k = 0; k < 3; k++) {
+        double at = 0;
+        for (int i = 0; i < 3; i++) at += corner_of(s, triangle, i)[k] / 3;
+        const double size = all->high[k] - all->low[k], cells = (1 << MORTON_BITS) - 1;
+        const double cell = size > 0 ? (at - all->low[k]) / size * cells : 0;
+        code |= spread((uint32_t)fmin(fmax(cell, 0), cells)) << k;
+    }
+    return code;
+}
+
+static int compare_coded(const void *a, const void *b)
+{
+    const coded *x = a, *y = b;
+    if (x->code != y->code) return x->code < y->code ? -1 : 1;
+    return (x->triangle > y->triangle) - (x->triangle < y->triangle);
+}
+
+static int tree_begin(tree *t, const reduce_surface *of, size_t *n_compared)
+{
+    const size_t n = of->n_triangles;
+    box all = nothing;
+    *t = (tree){.of = of, .n_leaves = 1, .n_compared = n_compared};
+    while (t->n_leaves * LEAF < n) t->n_leaves *= 2;
+    t->order = malloc(n * sizeof *t->order);
+    t->node = malloc(2 * t->n_leaves * sizeof *t->node);
+    if (!t->order || !t->node) return -1;
+    for (size_t i = 0; i < 3 * n; i++)
+        box_add(&all, of->pos + 3 * (size_t)of->idx[i], of->pos + 3 * (size_t)of->idx[i]);
+    for (size_t i = 0; i < n; i++) t->order[i] = (coded){morton(of, i, &all), (uint32_t)i};
+    qsort(t->order, n, sizeof *t->order, compare_coded);
+    for (size_t i = 0; i < 2 * t->n_leaves; i++) t->node[i] = nothing;
+    for (size_t i = 0; i < n; i++)
+        for (int k = 0; k < 3; k++) {
+            const double *corner = corner_of(of, t->order[i].triangle, k);
+            box_add(&t->node[t->n_leaves + i / LEAF], corner, corner);
+        }
+    for (size_t i = t->n_leaves - 1; i > 0; i--) {
+        t->node[i] = t->node[2 * i];
+        box_add(&t->node[i], t->node[2 * i + 1].low, t->node[2 * i + 1].high);
+    }
+    return 0;
+}
+
+static void tree_end(tree *t)
+{
+    free(t->order);
+    free(t->node);
+}
+
+static double nearest_of(tree *t, const double *p, uint32_t triangle, double nearest2)
+{
+    const reduce_surface *s = t->of;
+    const double d2 = triangle2(p, corner_of(s, triangle, 0), corner_of(s, triangle, 1), corner_of(s, triangle, 2));
+    ++*t->n_compared;
+    if (d2 >= nearest2) return nearest2;
+    t->near = triangle;
+    return d2;
+}
+
+/* `enough2`: no need to know a smaller distance than this. */
 static double distance2(tree *t, const double *p, double enough2)
 {
-    double nearest2 = (double)INFINITY;
-    search(t, 0, 0, t->surface->n_triangles, p, enough2, &nearest2);
+    size_t stack[STACK_MAX], n = 0;
+    double nearest2 = nearest_of(t, p, t->near, (double)INFINITY);
+    for (stack[n++] = 1; n > 0 && nearest2 > enough2;) {
+        const size_t node = stack[--n];
+        ++*t->n_compared;
+        if (box2(&t->node[node], p) >= nearest2) continue;
+        if (node < t->n_leaves) { /* the nearer child is looked at first */
+            const size_t nearer =
+                box2(&t->node[2 * node], p) <= box2(&t->node[2 * node + 1], p) ? 2 * node : 2 * node + 1;
+            stack[n++] = nearer ^ 1;
+            stack[n++] = nearer;
+            continue;
+        }
+        const size_t first = (node - t->n_leaves) * LEAF;
+        for (size_t i = first; i < first + LEAF && i < t->of->n_triangles; i++)
+            nearest2 = nearest_of(t, p, t->order[i].triangle, nearest2);
+    }
     return nearest2;
 }
 
-/* ---- Two surfaces ------------------------------------------------------------------------------------------------ */
-
-int reduce_distance(const reduce_surface *from, const reduce_surface *to, double *off, size_t *n_compared)
+double reduce_distance(const reduce_surface *from, const reduce_surface *to, size_t *n_compared)
 {
     double farthest2 = 0;
     tree t;
-    *off = from->n_triangles ? (double)INFINITY : 0;
-    if (from->n_triangles == 0 || to->n_triangles == 0) return 0;
-    const int failed = tree_begin(&t, to);
-    for (size_t k = 0; !failed && k < from->n_triangles; k++) {
+    if (to->n_triangles == 0) return from->n_triangles ? (double)INFINITY : 0;
+    const int failed = tree_begin(&t, to, n_compared);
+    for (size_t i = 0; !failed && i < from->n_triangles; i++) {
         double middle[3] = {0, 0, 0};
-        for (int i = 0; i < 3; i++) {
-            const double *corner = corner_of(from, k, i);
+        for (int k = 0; k < 3; k++) {
+            const double *corner = corner_of(from, i, k);
             for (int axis = 0; axis < 3; axis++) middle[axis] += corner[axis] / 3;
             farthest2 = fmax(farthest2, distance2(&t, corner, farthest2));
         }
         farthest2 = fmax(farthest2, distance2(&t, middle, farthest2));
     }
-    *off = sqrt(farthest2);
-    *n_compared += t.n_compared;
-    tree_free(&t);
-    return failed;
+    tree_end(&t);
+    return failed ? -1 : sqrt(farthest2);
 }

@@ -17,12 +17,25 @@ static void turn_up(const obj_file *o, double *v)
     v[2] = -y;
 }
 
+/* A place must be numbers; a colour that is none is not there. */
+static bool read_place(obj_text *t, double *x, size_t *n)
+{
+    t->forgiving = true;
+    const bool ok = obj_numbers(t, x, OBJ_MAX_NUMBERS, n);
+    t->forgiving = false;
+    if (ok) return true;
+    if (*n < 3) return obj_fail(t, "%s", t->wrong);
+    *n = 3;
+    t->wrong[0] = '\0';
+    return loader_remark(t->l, "colours of vertices that are no numbers are left out: such vertices are white");
+}
+
 /* x y z, then a weight, a colour or both; what else there is does not count. */
 static bool read_vertex(obj_file *o, obj_text *t)
 {
     double x[OBJ_MAX_NUMBERS];
     size_t n;
-    if (!obj_numbers(t, x, OBJ_MAX_NUMBERS, &n)) return false;
+    if (!read_place(t, x, &n)) return false;
     if (n < 3) return obj_fail(t, "v takes 3 numbers, and 3 more for a colour");
     if (!obj_spend(t, BUDGET_VERTICES, 1)) return false;
     double *v = loader_grow(o->l, o->v, o->n_v, 3 * sizeof *v),
@@ -97,13 +110,14 @@ static bool read_texture_coordinate(obj_file *o, obj_text *t)
     return o->n_vt < INT32_MAX || obj_fail(t, "too many texture coordinates");
 }
 
-/* One index of a corner: 1 is the first element, -1 the last one so far. A shape can do without normals and texture
- * coordinates that are not there, OBJ_NONE; without a vertex there is no face. */
-static bool read_index(obj_text *t, const char *word, char **end, size_t n, const char *what, uint32_t *out)
+/* One index of a corner: 1 is the file's first element, -1 the last one so far. A shape can do without normals and
+ * texture coordinates that are not there, OBJ_NONE; without a vertex there is no face. */
+static bool read_index(obj_text *t, const char *word, char **end, size_t n, size_t n_so_far, const char *what,
+                       uint32_t *out)
 {
     if (strspn(word, "+-0123456789") == 0) return obj_fail(t, "an index of a %s is missing", what);
     long long value = strtoll(word, end, 10); /* saturates, and is then out of range */
-    if (value < 0) value = value < -(long long)n ? 0 : value + (long long)n + 1;
+    if (value < 0) value = value < -(long long)n_so_far ? 0 : value + (long long)n_so_far + 1;
     if (value < 1 || value > (long long)n) {
         return *what == 'v' || loader_remark(t->l, "corners that name a %s out of range have none", what);
     }
@@ -116,14 +130,15 @@ static bool read_corner(obj_file *o, obj_text *t, char *word, obj_corner *out)
 {
     char *at = word;
     out->vt = out->vn = OBJ_NONE;
-    if (!read_index(t, word, &at, o->n_v, "vertex", &out->v)) return false;
+    if (!read_index(t, word, &at, o->n_v, o->so_far.v, "vertex", &out->v)) return false;
     if (*at == '/') {
         at++;
-        if (*at && *at != '/' && !read_index(t, at, &at, o->n_vt, "texture coordinate", &out->vt)) return false;
+        if (*at && *at != '/' && !read_index(t, at, &at, o->n_vt, o->so_far.vt, "texture coordinate", &out->vt))
+            return false;
         if (*at == '/') {
             at++;
             if (!*at) return true;
-            if (!read_index(t, at, &at, o->n_vn, "normal", &out->vn)) return false;
+            if (!read_index(t, at, &at, o->n_vn, o->so_far.vn, "normal", &out->vn)) return false;
             o->has_vn = o->has_vn || out->vn != OBJ_NONE;
         }
     }
@@ -205,13 +220,42 @@ static char find_object_word(const loader *l, const uint8_t *bytes, size_t n_byt
     return 'g';
 }
 
+static uint32_t *element_count(obj_file *o, const char *word)
+{
+    if (word[0] != 'v') return NULL;
+    if (!word[1]) return &o->so_far.v;
+    if (strcmp(word, "vt") == 0) return &o->so_far.vt;
+    return strcmp(word, "vn") == 0 ? &o->so_far.vn : NULL;
+}
+
+static bool read_element(obj_file *o, obj_text *t)
+{
+    const uint32_t *count = element_count(o, obj_next_word(t));
+    if (!count) return true;
+    return count == &o->so_far.v    ? read_vertex(o, t)
+           : count == &o->so_far.vn ? read_normal(o, t)
+                                    : read_texture_coordinate(o, t);
+}
+
+/* First, for faces may stand before what they name. Reading takes lines apart: a copy is read. */
+static bool read_elements(obj_file *o, const uint8_t *bytes, size_t n_bytes)
+{
+    obj_text t;
+    uint8_t *copy = loader_alloc(o->l, n_bytes + 1, 1);
+    if (!copy) return false;
+    memcpy(copy, bytes, n_bytes);
+    if (!obj_open(&t, o->l, o->l->path, copy, n_bytes, false)) return false;
+    while (obj_next_line(&t))
+        if (!read_element(o, &t)) return false;
+    return true;
+}
+
 static bool read_statement(obj_file *o, obj_text *t)
 {
     static const char *const silent[] = {"g", "o", "s"};
     const char *word = obj_next_word(t);
-    if (strcmp(word, "v") == 0) return read_vertex(o, t);
-    if (strcmp(word, "vn") == 0) return read_normal(o, t);
-    if (strcmp(word, "vt") == 0) return read_texture_coordinate(o, t);
+    uint32_t *count = element_count(o, word);
+    if (count) return ++*count;
     if (strcmp(word, "f") == 0) return read_face(o, t);
     if (strcmp(word, "usemtl") == 0) return use_material(o, t);
     if (strcmp(word, "mtllib") == 0) return obj_read_libraries(o, t);
@@ -229,7 +273,8 @@ bool obj_load(loader *l)
     obj_text t;
     uint8_t *bytes;
     size_t n_bytes;
-    if (!loader_read_file(l, l->path, &bytes, &n_bytes) || !obj_open(&t, l, l->path, bytes, n_bytes, false))
+    if (!loader_read_file(l, l->path, &bytes, &n_bytes) || !read_elements(&o, bytes, n_bytes) ||
+        !obj_open(&t, l, l->path, bytes, n_bytes, false))
         return false;
     o.object_word = find_object_word(l, bytes, n_bytes);
     if (!begin_object(&o, "")) return false;

@@ -63,7 +63,8 @@ typedef struct {
 
 typedef struct {
     loader *l;
-    size_t n_v, n_vt, n_vn, n_triangles, n_materials;
+    size_t n_v, n_vt, n_vn, n_triangles, n_materials; /* v, vt, vn: all of the file */
+    obj_corner so_far;                                /* those before the statement that is being read */
     double *v, *vt, *rgb,
         *vn;                /* vt: 2 each, v upwards as in the file; rgb: per v, white where a vertex has no colour */
     bool has_rgb, has_vn;   /* a vertex has a colour; a corner has a normal */

@@ -4,11 +4,12 @@
 #include <math.h>
 #include <stdio.h>
 
+#include "../../scene/core/vec.h"
 #include "tool.h"
 
 enum { NAMES_BYTES = 200, NOTE_BYTES = 300, MAX_COMPARED = 1024, MAX_PAIRS = 32 };
 
-static const double degrees_per_turn = 360;
+static const double degrees_per_turn = 360, turn_radians = 6.283185307179586;
 
 /* Most of what a file says in vain is for info; this changes the picture. */
 static void remark_on_cones(const scene *s)
@@ -51,14 +52,44 @@ static bool is_beyond(const scene *s, const scene_object *o, double aspect)
     return all != 0;
 }
 
+/* Whether some face shows its front to the camera; else *normals grows by those of all, as long as areas. */
+static bool shows_front(const scene *s, const scene_object *o, double normals[3])
+{
+    const scene_mesh *mesh = &s->meshes[o->mesh_idx];
+    const scene_camera *c = &s->camera;
+    if (o->two_sided) return true;
+    for (size_t t = 0; t < mesh->n_triangles; t++) {
+        double p[3][3], u[3], v[3], n[3], to_eye[3];
+        for (size_t i = 0; i < 3; i++) scene_vertex(p[i], s, o, mesh->idx[3 * t + i]);
+        vec_sub(u, p[1], p[0]);
+        vec_sub(v, p[2], p[0]);
+        vec_cross(n, u, v);
+        for (int k = 0; k < 3; k++)
+            to_eye[k] = c->half_height > 0 ? c->to_world.m[k][2] : c->to_world.m[k][3] - p[0][k];
+        if (vec_dot(n, to_eye) > 0) return true;
+        for (int k = 0; k < 3; k++) normals[k] += n[k];
+    }
+    return false;
+}
+
 void remarks_on_view(const scene *s, int width, int height)
 {
-    if (s->added.camera) return;
+    double normals[3] = {0, 0, 0};
+    bool any = false;
     for (size_t i = 0; i < s->n_objects; i++) {
-        const bool is_ground = s->added.ground && i + 1 == s->n_objects;
-        if (!s->objects[i].hidden && !is_ground && !is_beyond(s, &s->objects[i], (double)width / height)) return;
+        const scene_object *o = &s->objects[i];
+        if (o->hidden || (s->added.ground && i + 1 == s->n_objects)) continue;
+        if (!s->added.camera && is_beyond(s, o, (double)width / height)) continue;
+        if (shows_front(s, o, normals)) return;
+        any = true;
     }
-    tool_error("the camera sees none of the objects: --orbit 30,25,1 looks at them all");
+    const double yaw = degrees_per_turn / turn_radians * atan2(normals[0], normals[2]),
+                 pitch = degrees_per_turn / turn_radians * atan2(normals[1], hypot(normals[0], normals[2]));
+    if (any)
+        tool_error(
+            "the camera sees backs of faces alone, which are not drawn: --orbit %.0f,%.0f,1 looks at their fronts", yaw,
+            fmin(fmax(pitch, -80), 80));
+    else tool_error("the camera sees none of the objects: --orbit 30,25,1 looks at them all");
 }
 
 void remarks_on_frame(const scene *s, int frame)

@@ -69,16 +69,25 @@ static void name_culprit(const job *j, char out[200])
     else snprintf(out, 200, "%s: ", field);
 }
 
+/* Of a model that has no more triangles, no more are seen; some room is for what clipping makes two of. */
+static void add_remedy(const job *j, const gn_detail *d)
+{
+    const size_t used = strlen(j->error);
+    const unsigned n = d->available - d->available / 10;
+    snprintf(j->error + used, j->error_bytes - used, ": --triangles %u leaves few enough", n > 1000 ? n - n % 1000 : n);
+}
+
 static int explain(const job *j, gn_status status)
 {
     const gn_detail *d = j->lib->get_detail(j->renderer);
     const scene *s = j->scene;
     char culprit[200] = "";
     name_culprit(j, culprit);
-    if (d->needed)
+    if (d->needed) {
         snprintf(j->error, j->error_bytes, "%s: %u needed, %u available", gn_status_text(status), d->needed,
                  d->available);
-    else if (status == GN_ERR_SHADOW_DISTANCE)
+        if (status == GN_ERR_TRIANGLES_FULL) add_remedy(j, d);
+    } else if (status == GN_ERR_SHADOW_DISTANCE)
         snprintf(j->error, j->error_bytes, "%s: it is %g, the near plane %g; --set max_distance=...",
                  gn_status_text(status), s->shadow.max_distance, s->camera.near);
     else if (status == GN_ERR_KNOB) /* ranges of single knobs were seen to where they were set */
