@@ -253,17 +253,6 @@ static void test_closed(void)
     }
 }
 
-/* How far a surface moved is found for each corner and middle of both; a point asks a few triangles, not all. */
-static void test_work(void)
-{
-    rig r;
-    torus(&r, 160, 60, 0.3);
-    reduce_to(&r, 2000);
-    const size_t n_points = 4 * (r.result.n_before + r.result.n_after);
-    CHECK(r.result.n_compared >= n_points && r.result.n_compared < 20 * n_points);
-    rig_end(&r);
-}
-
 /* A flat square needs two triangles: its corners and its area stay. */
 static void test_borders(void)
 {
@@ -391,7 +380,7 @@ static void test_work(void)
         reduce_to(&r, 100 * k * k);
         const double n = (double)(r.result.n_before + r.result.n_after);
         CHECK((double)r.result.n_queued < 12 * (double)r.result.n_before);
-        CHECK((double)r.result.n_compared < 40 * 4 * n);
+        CHECK((double)r.result.n_compared >= 4 * n && (double)r.result.n_compared < 40 * 4 * n);
         rig_end(&r);
     }
 }
@@ -400,7 +389,6 @@ int main(void)
 {
     test_work();
     test_closed();
-    test_work();
     test_borders();
     test_seams();
     test_hard_edges();

@@ -545,7 +545,8 @@ static void test_obj(void)
     scene_free(&s);
 }
 
-/* Tr is what lacks of opacity; 1 of it, or d of 0, which some programs write for opaque materials, hides nothing. */
+/* Tr is what lacks of opacity; 1 of it, which some programs write for opaque materials, hides nothing. Nor does d of 0
+ * hide all there is. */
 static void test_obj_transparency(void)
 {
     static const struct {
@@ -555,7 +556,7 @@ static void test_obj_transparency(void)
     } cases[] = {{"Tr 0.25", 0.75, NULL},
                  {"Tr 1.0", 1, "line 2: Tr of material 'a' is taken for opacity"},
                  {"Tr 0", 1, NULL},
-                 {"d 0", 1, "line 2: d of material 'a' is ignored: else it were invisible"},
+                 {"d 0", 1, "d of the materials is ignored: all that has faces were invisible"},
                  {"d 0.25", 0.25, NULL}};
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
         char text[64];
@@ -569,6 +570,14 @@ static void test_obj_transparency(void)
         CHECK(!cases[i].remark || has_remark(cases[i].remark));
         scene_free(&s);
     }
+    write_file(TMP ".mtl", "newmtl a\nd 0\nnewmtl b\n", 22);
+    if (!CHECK_EQ_INT(load_text(TMP ".obj", "mtllib test_scene.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\n"
+                                            "usemtl a\nf 1 2 3\nusemtl b\nf 1 2 3\n"),
+                      0))
+        return (void)puts(error);
+    CHECK_NEAR(s.objects[0].alpha, 0, 0);
+    CHECK_EQ_INT((long)s.n_remarks, 0);
+    scene_free(&s);
 }
 
 /* A corner without what its slashes announce, and usemtl without a name. */

@@ -188,10 +188,19 @@ static bool emit_parts(obj_file *o, const scene_mesh *mesh)
     return true;
 }
 
+/* A material that is invisible is meant so, unless the others are too. */
+static bool show_something(obj_file *o)
+{
+    for (size_t i = 0; i < o->n_triangles; i++)
+        if (o->material[o->material_of[i]].alpha > 0) return true;
+    for (size_t i = 0; i < o->n_materials; i++) o->material[i].alpha = 1;
+    return loader_remark(o->l, "d of the materials is ignored: all that has faces were invisible");
+}
+
 bool obj_emit(obj_file *o)
 {
     vertex_table table = {.o = o};
     /* Before the split into parts, so that smooth normals have no seam between them. */
-    return join_corners(&table) && fill_vertices(&table) && mesh_prepare_normals(o->l, &table.mesh) &&
-           emit_parts(o, &table.mesh);
+    return show_something(o) && join_corners(&table) && fill_vertices(&table) &&
+           mesh_prepare_normals(o->l, &table.mesh) && emit_parts(o, &table.mesh);
 }

@@ -59,11 +59,12 @@ static bool read_opacity(obj_text *t, obj_material *material, const char *word)
     if (!obj_numbers(t, &value, 1, &n)) return false;
     if (n != 1) return obj_fail(t, "%s takes a number", word);
     material->alpha = strcmp(word, "d") == 0 ? value : 1 - value;
-    if (material->alpha <= 0) { /* nobody means what nobody sees */
+    if (word[0] == 'T' && value >= 1) { /* nobody means what nobody sees */
         material->alpha = 1;
-        return loader_remark(t->l, "line %zu: %s of material '%s' %s: else it were invisible", t->line, word,
-                             material->name,
-                             word[0] == 'T' ? "is taken for opacity, as some programs write it" : "is ignored");
+        return loader_remark(
+            t->l,
+            "line %zu: Tr of material '%s' is taken for opacity, as some programs write it: else it were invisible",
+            t->line, material->name);
     }
     return loader_clamp_colour(&material->alpha, 1) ||
            obj_remark(t, "%s of material '%s' outside 0..1 is clamped", word, material->name);
