@@ -204,25 +204,35 @@ GN_HOT static inline int32_t at_point(const corner_point *p, int32_t a0, int32_t
 }
 
 /* Returns 0 if a component is 17/16 or more: outside of a triangle that bends much, where it could be up to 9. */
-GN_HOT static int find_normal(const gn_frame *frame, const gn_surface *s, gn_corner *c, corner_point *p)
+GN_HOT static int find_normal(const gn_surface *s, gn_corner *c, corner_point *p)
 {
     const int32_t(*n)[3] = s->normal_q30;
     const int64_t most = (1 << 30) + (1 << 26);
-    int smooth = GN_SMOOTH(s);
     for (int i = 0; i < 3; i++) {
         p->n_q30[i] = n[0][i];
-        if (smooth) {
+        if (GN_SMOOTH(s)) {
             int64_t at = at_point_64(p, n[0][i], n[1][i], n[2][i]);
             if (at >= most || at <= -most) return 0;
             p->n_q30[i] = (int32_t)gn_clamp64(at, -(1 << 30), 1 << 30);
-        } else p->unit_q30[i] = n[0][i];
+        }
 #if GN_VERTEX_NORMALS
         c->normal_q30[i] = p->n_q30[i];
 #endif
     }
     (void)c;
-    if (smooth) gn_length_unit(gn_length_of(GN_K(frame, newton_steps), p->n_q30), p->n_q30, p->unit_q30);
     return 1;
+}
+
+/* Of length 1. Light of the sun that is interpolated has no use for it. */
+GN_HOT static void find_unit(const gn_frame *frame, const gn_surface *s, corner_point *p)
+{
+    int needed = GN_VERTEX_COSINES != 3 || !GN_K(frame, vertex_light);
+#if GN_PUNCTUAL_LIGHTS
+    needed |= s->n_punctual;
+#endif
+    for (int i = 0; i < 3; i++) p->unit_q30[i] = p->n_q30[i];
+    if (GN_SMOOTH(s) && needed)
+        gn_length_unit(gn_length_of(GN_K(frame, newton_steps), p->n_q30), p->n_q30, p->unit_q30);
 }
 
 /* ---- Attributes -------------------------------------------------------------------------------------------------- */
@@ -408,10 +418,11 @@ GN_HOT void gn_corner_find(const gn_lattice *l, const gn_frame *frame, const gn_
     attributes_at(s, &p, c);
     if (!s->n_lights) return;
     find_cascade(l, frame, s, sample, c);
-    if (!find_normal(frame, s, c, &p)) {
+    if (!find_normal(s, c, &p)) {
         c->state = GN_CORNER_UNSEEN;
         return;
     }
+    find_unit(frame, s, &p);
     for (uint32_t i = 0; i < s->n_lights; i++) light_at(l, frame, s, i, &p, c);
 #if GN_SPECULAR
     if (!s->specular) return;
@@ -434,7 +445,7 @@ GN_HOT int gn_corner_locate(const gn_lattice *l, const gn_frame *frame, const gn
     corner_point p;
     c->x = (int16_t)x;
     c->y = (int16_t)y;
-    if (!find_point(l, frame, s, c, &p) || !find_normal(frame, s, c, &p)) return 0;
+    if (!find_point(l, frame, s, c, &p) || !find_normal(s, c, &p)) return 0;
     c->light[slot].placed = GN_VIEW_NONE;
 #if GN_PUNCTUAL_LIGHTS
     const gn_light_state *light = s->light[slot].state;

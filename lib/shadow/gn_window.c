@@ -350,21 +350,38 @@ GN_HOT static uint32_t by_2x2(const uint8_t dark[2], int32_t u, int32_t v, int32
     return 65536 - (bits <= 8 ? sum << (16 - 2 * bits) : sum >> (2 * bits - 16));
 }
 
+/* The hard filter's texel, or four by their weights: n_across texels each way. */
+GN_HOT static inline void row_small(const gn_frame *frame, const window_rows *rows, int32_t u, int32_t v,
+                                    int32_t depth_q30, const gn_receiver_step *step, int32_t n, int32_t n_across,
+                                    uint32_t *out)
+{
+    const uint32_t *first = rows->dark - rows->v0, doubts = rows->doubts, mask = n_across == 2 ? 3 : 1;
+    const int32_t bits = GN_K(frame, weight_bits);
+    for (uint32_t *end = out + n; out < end; out++, u += step->u_q16, v += step->v_q16,
+                  depth_q30 = (int32_t)((uint32_t)depth_q30 + (uint32_t)step->depth_q31)) {
+        const uint32_t *row = &first[v >> 16];
+        int32_t s = u >> 16;
+        uint8_t dark[2] = {(uint8_t)(row[0] >> s & mask), (uint8_t)(row[n_across - 1] >> s & mask)};
+        *out = 65536;
+        if (!(dark[0] | dark[1])) continue;
+        if (doubts >> s & mask && !(dark_texels(frame, rows, s, v >> 16, n_across, depth_q30, dark) & mask)) continue;
+        *out = n_across == 1 || (dark[0] & dark[1]) == 3 ? 0 : by_2x2(dark, u, v, bits);
+    }
+}
+
+#if GN_FILTER_MAX >= 2
 /* Any other filter, exactly. */
 GN_HOT static GN_NOINLINE uint32_t by_weights(const gn_frame *frame, const window_rows *rows, int32_t u, int32_t v,
                                               int32_t depth_q30)
 {
-    int32_t filter = rows->window->view->filter, k = filter - GN_FILTER_2X2,
-            n = filter == GN_FILTER_HARD ? 1 : 2 * (k + 1), bits = GN_K(frame, weight_bits);
+    int32_t k = rows->window->view->filter - GN_FILTER_2X2, n = 2 * (k + 1);
     uint8_t dark[GN_TENT_TAPS_MAX];
     uint32_t found = dark_texels(frame, rows, u >> 16, v >> 16, n, depth_q30, dark);
     if (!(found & 0xFFFFU)) return 65536;
     if (found >> 16 == (1U << n) - 1) return 0;
-#if GN_FILTER_MAX >= 2
-    if (filter != GN_FILTER_2X2) return gn_tent_of_dark(frame, dark, k, u, v, bits);
-#endif
-    return by_2x2(dark, u, v, bits);
+    return gn_tent_of_dark(frame, dark, k, u, v, GN_K(frame, weight_bits));
 }
+#endif
 
 /* The rows that receivers read, and what they say of all of them. */
 GN_HOT static int find_rows(const gn_window *window, const gn_receiver_step *from, const gn_receiver_step *step,
@@ -405,9 +422,17 @@ GN_HOT int gn_window_row(const gn_frame *frame, const gn_window *window, const g
         return said;
     }
 #endif
+    if (view->filter <= GN_FILTER_2X2) {
+        if (GN_SIZE_FIRST || view->filter == GN_FILTER_2X2)
+            row_small(frame, &rows, u, v, depth_q30, &across, n, 1 + (view->filter == GN_FILTER_2X2), attenuation);
+        else row_small(frame, &rows, u, v, depth_q30, &across, n, 1, attenuation);
+        return said;
+    }
+#if GN_FILTER_MAX >= 2
     for (int32_t i = 0; i < n; i++, u += step->u_q16, v += step->v_q16) {
         attenuation[i] = by_weights(frame, &rows, u, v, depth_q30);
         depth_q30 = (int32_t)((uint32_t)depth_q30 + (uint32_t)across.depth_q31); /* not used beyond the row */
     }
+#endif
     return said;
 }
