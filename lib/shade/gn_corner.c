@@ -226,12 +226,8 @@ GN_HOT static int find_normal(const gn_surface *s, gn_corner *c, corner_point *p
 /* Of length 1. Light of the sun that is interpolated has no use for it. */
 GN_HOT static void find_unit(const gn_frame *frame, const gn_surface *s, corner_point *p)
 {
-    int needed = GN_VERTEX_COSINES != 3 || !GN_K(frame, vertex_light);
-#if GN_PUNCTUAL_LIGHTS
-    needed |= s->n_punctual;
-#endif
     for (int i = 0; i < 3; i++) p->unit_q30[i] = p->n_q30[i];
-    if (GN_SMOOTH(s) && needed)
+    if (GN_SMOOTH(s) && (s->n_punctual || GN_VERTEX_COSINES != 3 || !GN_K(frame, vertex_light)))
         gn_length_unit(gn_length_of(GN_K(frame, newton_steps), p->n_q30), p->n_q30, p->unit_q30);
 }
 

@@ -318,9 +318,11 @@ GN_HOT static void light_values(const gn_frame *frame, const gn_surface *s, cons
 {
     gn_length length = {0, 0};
     int needs_length = !GN_K(frame, vertex_light) || s->n_punctual || s->specular;
-    if (GN_SMOOTH(s) && needs_length) length = gn_length_of(GN_K(frame, newton_steps), n_q30);
     int32_t unit_q30[3] = {n_q30[0], n_q30[1], n_q30[2]};
-    if ((GN_PUNCTUAL_LIGHTS || GN_SPECULAR) && GN_SMOOTH(s)) gn_length_unit(length, n_q30, unit_q30);
+    if (GN_SMOOTH(s) && needs_length) {
+        length = gn_length_of(GN_K(frame, newton_steps), n_q30);
+        if (GN_PUNCTUAL_LIGHTS || GN_SPECULAR) gn_length_unit(length, n_q30, unit_q30);
+    }
     for (uint32_t i = 0; i < s->n_lights; i++) {
         int32_t *out = &sample->value[GN_VALUE_LIGHT + GN_VALUES_PER_LIGHT * i];
         for (int k = 1; k < GN_VALUES_PER_LIGHT; k++) out[k] = 0; /* not always set below */

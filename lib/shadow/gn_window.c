@@ -355,7 +355,7 @@ GN_HOT static inline void row_small(const gn_frame *frame, const window_rows *ro
                                     int32_t depth_q30, const gn_receiver_step *step, int32_t n, int32_t n_across,
                                     uint32_t *out)
 {
-    const uint32_t *first = rows->dark - rows->v0, doubts = rows->doubts, mask = n_across == 2 ? 3 : 1;
+    const uint32_t *first = rows->dark - rows->v0, doubts = rows->doubts, mask = (1U << n_across) - 1;
     const int32_t bits = GN_K(frame, weight_bits);
     for (uint32_t *end = out + n; out < end; out++, u += step->u_q16, v += step->v_q16,
                   depth_q30 = (int32_t)((uint32_t)depth_q30 + (uint32_t)step->depth_q31)) {
@@ -365,7 +365,7 @@ GN_HOT static inline void row_small(const gn_frame *frame, const window_rows *ro
         *out = 65536;
         if (!(dark[0] | dark[1])) continue;
         if (doubts >> s & mask && !(dark_texels(frame, rows, s, v >> 16, n_across, depth_q30, dark) & mask)) continue;
-        *out = n_across == 1 || (dark[0] & dark[1]) == 3 ? 0 : by_2x2(dark, u, v, bits);
+        *out = (dark[0] & dark[1]) == mask ? 0 : by_2x2(dark, u, v, bits);
     }
 }
 
@@ -423,9 +423,7 @@ GN_HOT int gn_window_row(const gn_frame *frame, const gn_window *window, const g
     }
 #endif
     if (view->filter <= GN_FILTER_2X2) {
-        if (GN_SIZE_FIRST || view->filter == GN_FILTER_2X2)
-            row_small(frame, &rows, u, v, depth_q30, &across, n, 1 + (view->filter == GN_FILTER_2X2), attenuation);
-        else row_small(frame, &rows, u, v, depth_q30, &across, n, 1, attenuation);
+        row_small(frame, &rows, u, v, depth_q30, &across, n, 1 + (view->filter == GN_FILTER_2X2), attenuation);
         return said;
     }
 #if GN_FILTER_MAX >= 2
