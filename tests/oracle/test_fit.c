@@ -168,6 +168,25 @@ static bool is_beyond(const fixture *f, const ref_picture *p, size_t l, int i, i
     return u < 0 || w < 0 || u > v->tile_texels || w > v->tile_rows;
 }
 
+/* Whether automatic bias lights the point whatever casts, as its face's depth changes by more than twice the range over
+ * a texel (MODEL 7): enlarged tiles have more range. */
+static bool is_too_steep(const fixture *f, const ref_picture *p, size_t l, int i, int j)
+{
+    const double *n = p->normal + 3 * (j * WIDTH + i);
+    double point[3];
+    bool any = false;
+    world_at(point, f, p, i, j);
+    for (int k = 0; f->s.lights[l].auto_bias == SCENE_AUTO_BIAS_NORMAL && k < p->grant[l].n_tiles; k++) {
+        const ref_light_view *v = &p->view[l][k];
+        const double across = fmax(fabs(dot(n, v->axis[0])), fabs(dot(n, v->axis[1])));
+        double from[3];
+        for (int axis = 0; axis < 3; axis++) from[axis] = point[axis] - f->s.lights[l].position[axis];
+        any |= v->active && (v->perspective ? v->near * v->texel * across > 2 * fabs(dot(n, from))
+                                            : across > 2 * v->depth_range * fabs(dot(n, v->axis[2])));
+    }
+    return any;
+}
+
 /* Every shadow is that of the same texels without an end. The floor, which has all on its lit side, need not go on: its
  * own texels are nearer than the foot of a wall. */
 static void check_coverage(fixture *f, const ref_options *options)
@@ -176,7 +195,7 @@ static void check_coverage(fixture *f, const ref_options *options)
                 bare = render_fit(f, options, WITHOUT_FLOOR);
     for (size_t l = 0; l < p.n_lights; l++)
         for (int i = 0; p.grant[l].n_tiles && i < WIDTH * HEIGHT; i++) {
-            if (p.triangle[i] < 0 || p.ndotl[l][i] <= 0) continue;
+            if (p.triangle[i] < 0 || p.ndotl[l][i] <= 0 || is_too_steep(f, &p, l, i % WIDTH, i / WIDTH)) continue;
             n_dark += bare.shadow[l][i] < 1;
             n_beyond += is_beyond(f, &p, l, i % WIDTH, i / WIDTH);
             n_lost += p.shadow[l][i] > bare.shadow[l][i] + 1e-9 || p.shadow[l][i] < larger.shadow[l][i] - 1e-9;
