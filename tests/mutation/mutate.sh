@@ -45,7 +45,7 @@ quick() {
     lib/geometry/*) echo test_affine test_xform test_clip test_walk test_texture test_skin ;;
     lib/scene/* | lib/frame/*) echo test_refused test_limits test_defaults test_reentry ;;
     lib/light/*) echo test_object test_receiver_bias test_lists test_punctual ;;
-    lib/shadow/*) echo test_persp test_tiles test_window test_filter test_fit ;;
+    lib/shadow/*) echo test_persp test_tiles test_window test_filter ;;
     lib/visible/*) echo test_runs test_walk test_background test_pick ;;
     lib/shade/*) echo test_pixel test_corner test_arrival test_alpha test_background ;;
     esac
@@ -56,7 +56,7 @@ slow() {
     lib/base/* | lib/geometry/*) echo test_math test_pixel test_radiance test_texture test_vertex_cache test_corner_cases test_stages ;;
     lib/scene/* | lib/frame/*) echo test_cores test_crawl test_flicker test_culling test_groups ;;
     lib/light/*) echo test_bias test_casters test_culling ;;
-    lib/shadow/*) echo test_casters test_bias test_culling test_stages test_census ;;
+    lib/shadow/*) echo test_fit test_casters test_bias test_culling test_stages test_census ;;
     lib/visible/*) echo test_groups test_screen test_corner_cases test_stages ;;
     lib/shade/*) echo test_facets test_radiance test_punctual test_corner_cases test_screen test_contact test_stages test_census ;;
     esac
