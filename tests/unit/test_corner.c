@@ -49,6 +49,7 @@ static const char *const stage_name[STAGE_COUNT] = {
 static gn_light lamps[3];
 static uint16_t rgb[9 * N_TRIANGLES];
 static int16_t uv[6 * N_TRIANGLES];
+static const uint16_t no_light[9 * N_TRIANGLES];
 static const uint8_t texels[4 << 15];
 static const gn_texture texture = {.rgba = texels, .width_log2 = 9, .height = 48};
 
@@ -126,6 +127,7 @@ static void corner_scene(void)
     mesh.nrm_q15 = one_in(3) ? NULL : nrm;
     mesh.uv = one_in(2) ? uv : NULL;
     mesh.uv_frac_bits = one_in(2) ? 8 : 14;
+    object.baked_uq12 = mesh.uv && mesh.rgb_uq16 ? no_light : NULL;
     object.texture = mesh.uv ? &texture : NULL;
     fixed.lights = lamps;
     fixed.n_lights = 3;
@@ -224,6 +226,8 @@ static void check_attributes(const gn_surface *s, const known_point *k, const gn
 {
     double off;
     record(STAGE_Z, fabs(c->z_q16 * LSB16 - k->at.z), k->z_off, LSB16);
+    for (int i = 0; s->baked && i < 3; i++) /* baked darkness is none */
+        CHECK_EQ_INT(c->base_q24[i], (int)(s->base_q20[i] < 1U << 23 ? s->base_q20[i] : 1U << 23) << 4);
     for (int i = 0; s->coloured && i < 3; i++) {
         const int n = GN_ATTRIBUTE_RGB + i;
         const double want = value_at(k, s->attribute_q16[0][n] * LSB16, s->attribute_q16[1][n] * LSB16,

@@ -338,6 +338,21 @@ static void test_mesh_normals(void)
     CHECK_TALLY(t, "gn_surface_normal is gn_xform_normal");
 }
 
+/* A face without a normal, whose corners lie on a line, looks at the camera. */
+static void test_no_normal(void)
+{
+    static gn_frame frame;
+    static gn_surface surface;
+    static const gn_normal normal[3] = {0, 0, 0};
+    const gn_mesh mesh = {.nrm_q15 = normal};
+    const gn_object object = {.mesh = &mesh};
+    int32_t out[3] = {7, 7, 7};
+    surface.object = &object;
+    for (int k = 0; k < 9; k++) frame.cam.axis_q30[k / 3][k % 3] = (k - 4) * 12345;
+    gn_surface_face(&frame, &surface, out);
+    for (int k = 0; k < 3; k++) CHECK_EQ_INT(out[k], -frame.cam.axis_q30[2][k]);
+}
+
 /* Two rows at right angles, and a third that leaves their plane by e / 2^29: to 2^-28 it is flat. */
 static void test_det_sign(void)
 {
@@ -509,6 +524,7 @@ int main(int argc, char **argv)
     test_isqrt();
     test_normalise();
     test_mesh_normals();
+    if (GN_VERTEX_NORMALS) test_no_normal();
     test_det_sign();
     test_norm_vec();
     test_cross_dot();

@@ -4,6 +4,7 @@
 
 #include "check.h"
 #include "gn_internal.h"
+#include "light/gn_bias.h"
 
 enum { WIDTH = 64, HEIGHT = 48 };
 
@@ -17,11 +18,20 @@ static const int32_t ground_pos[] = {-200 * 65536, 0, -200 * 65536, 200 * 65536,
 static const uint16_t ground_idx[] = {0, 2, 1, 1, 2, 3};
 
 static gn_renderer renderer;
-static long n_narrow;
+static long n_narrow, n_whole;
+static uint32_t penumbra_uq16; /* 0: no disk */
 
 static void flush(void *user, int x, int y, int width, int height, const void *pixels)
 {
     (void)user, (void)x, (void)y, (void)width, (void)height, (void)pixels;
+}
+
+/* A disk takes as many rings of texels as its radius says: of a whole number no more. */
+static void check_disk(const gn_light_view *view)
+{
+    if (view->filter_idx > 1) CHECK((view->filter_idx - 1) << 16 < view->disk_radius_q16);
+    n_whole +=
+        view->disk_radius_q16 && view->disk_radius_q16 % 65536 == 0 && view->disk_radius_q16 >> 16 < GN_DISK_INDEX_MAX;
 }
 
 static void check_views(void)
@@ -32,6 +42,7 @@ static void check_views(void)
         CHECK(view->tile_texels >= 8 && view->tile_texels % 8 == 0 && view->tile_rows >= 8 && view->tile_rows % 8 == 0);
         CHECK((uint32_t)view->tile_texels * view->tile_rows <= (uint32_t)GN_ATLAS_SIZE * GN_ATLAS_SIZE);
         n_narrow += view->tile_texels == 8 || view->tile_rows == 8;
+        if (penumbra_uq16) check_disk(view);
     }
 }
 
@@ -53,10 +64,23 @@ static void check_cube(int x, int z, int sun)
     gn_scene scene = gn_scene_default(&camera, object, 2, &light, 1);
     scene.shadow.n_cascades = 2;
     scene.shadow.cascade_ratio_uq16[0] = GN_UQ16(0.1);
+    if (penumbra_uq16) scene.shadow.filter = GN_FILTER_DISK, scene.shadow.disk_samples = 8;
+    scene.shadow.penumbra_uq16 = penumbra_uq16;
     const gn_picture picture = {.width = WIDTH, .height = HEIGHT, .format = GN_FORMAT_RGB565};
     CHECK_EQ_INT(gn_init(&renderer, &picture), GN_OK);
     if (CHECK_EQ_INT(gn_begin(&renderer, &scene), GN_OK)) check_views();
     CHECK_EQ_INT(gn_render(&renderer, &scene, flush, NULL), GN_OK);
+}
+
+/* A penumbra that makes the disk of the first view about n texels wide; and some beside it. */
+static void check_disks(int x, int n)
+{
+    penumbra_uq16 = 1 << 14;
+    check_cube(x, -24, 20);
+    const int32_t radius_q16 = renderer.frame.view[0].disk_radius_q16;
+    const uint32_t about = (uint32_t)(((uint64_t)n << 30) / (uint32_t)radius_q16);
+    for (penumbra_uq16 = about - 20; penumbra_uq16 < about + 20; penumbra_uq16++) check_cube(x, -24, 20);
+    penumbra_uq16 = 0;
 }
 
 int main(void)
@@ -65,5 +89,7 @@ int main(void)
         for (int z = -44; z <= -16; z += 4)
             for (int sun = -60; sun <= 60; sun += 10) check_cube(x, z, sun);
     CHECK(n_narrow > 20);
+    for (int n = 1; GN_DISK_FILTER && n < 6; n++) check_disks(20 + n, n);
+    CHECK(!GN_DISK_FILTER || n_whole > 2);
     return check_report();
 }
