@@ -1,5 +1,7 @@
 /* What has one right answer, whatever is approximated: a surface beside another looks as it does alone, of two surfaces
  * the nearer one is seen down to 2^-18 of near/Z, and lookups are counted. */
+#include <stdlib.h>
+
 #include "canvas.h"
 #include "check.h"
 #include "knobs.h"
@@ -131,6 +133,42 @@ static void test_nearer(void)
     CHECK_EQ_INT(n_behind, 0);
 }
 
+/* ---- Parallel rays ----------------------------------------------------------------------------------------------- */
+
+/* Shiny things, by an orthographic camera, after a frame of another one: each pixel has its own highlight, whatever was
+ * shaded before, and whatever cells there are. */
+static void test_parallel_highlights(void)
+{
+    static uint8_t exactly[3 * W * H];
+    long n_other = 0, n_lit = 0;
+    for (int i = 0; i < N_SCENES; i++) {
+        ls_begin(&ls);
+        ls.scene.n_objects = 3; /* without the card, whose texture is not told exactly */
+        ls_add_random_objects(&ls, &random_state, 4);
+        ls_add_random_light(&ls, &random_state, (gn_light_kind)(i % 3));
+        ls_look(&ls, ls_q16(&random_state, -6, 6), GN_Q16(3), GN_Q16(7));
+        for (uint32_t k = 0; k < ls.scene.n_objects; k++) {
+            ls.object[k].shininess_log2 = (uint8_t)rng_below(&random_state, 6);
+            for (int c = 0; c < 3; c++) ls.object[k].specular_uq16[c] = 40000;
+        }
+        for (int step = 1; step <= 16; step += 15) {
+            ls.scene.camera.half_height_q16 = 0;
+            if (!draw(GN_FORMAT_RGB888, step)) return;
+            ls.scene.camera.half_height_q16 = GN_Q16(2);
+            if (!CHECK_EQ_INT(gn_render(&renderer, &ls.scene, flush, &picture), GN_OK)) return;
+            if (step == 1) memcpy(exactly, picture.pixels, sizeof exactly);
+            for (int k = 0; step > 1 && k < 3 * W * H; k++) {
+                n_other +=
+                    abs(exactly[k] - picture.pixels[k]) > 1; /* where no light arrives, colours are between corners */
+                n_lit += exactly[k] > 128;
+            }
+            canvas_end(&picture);
+        }
+    }
+    CHECK_EQ_INT(n_other, 0);
+    CHECK(n_lit > 10000);
+}
+
 /* ---- Counts --------------------------------------------------------------------------------------------------------
  */
 
@@ -158,6 +196,7 @@ int main(void)
 {
     test_beside();
     test_nearer();
+    if (GN_SPECULAR && GN_ORTHOGRAPHIC && GN_PUNCTUAL_LIGHTS && GN_RUNTIME_KNOBS) test_parallel_highlights();
 #if GN_COUNTERS
     test_counts();
 #endif
