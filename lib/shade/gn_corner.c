@@ -406,10 +406,6 @@ GN_HOT void gn_corner_find(const gn_lattice *l, const gn_frame *frame, const gn_
     c->state = GN_CORNER_UNSEEN;
     c->x = (int16_t)x;
     c->y = (int16_t)y;
-#if GN_SPECULAR
-    if (s->specular && s->n_lights && GN_FLAT_Q16(frame))
-        return; /* of parallel rays each pixel has its own highlight */
-#endif
     if (!find_point(l, frame, s, c, &p)) return;
 #if GN_PUNCTUAL_LIGHTS
     if (s->n_punctual && !find_ray(frame, s->light[s->n_lights - 1].state, c)) return;

@@ -220,7 +220,9 @@ GN_HOT void gn_lattice_shade(gn_shading *s)
         return;
     }
     gn_surface_use_bary(s->frame, &s->surface);
-    if (n_px <= (l->uniform ? FEW_OF_ONE_COLOUR : FEW) || !reached ||
+    /* of parallel rays each pixel has its own highlight: gn_sample_on_plane() is of rays from the eye */
+    const int alone = GN_SPECULAR && s->surface.specular && s->surface.n_lights && GN_FLAT_Q16(s->frame);
+    if (n_px <= (l->uniform ? FEW_OF_ONE_COLOUR : FEW) || !reached || alone ||
         !gn_corner_begin(l, s->frame, &s->surface, &box)) {
         for (int32_t i = 0; i < l->n_spans; i++)
             for (int32_t k = 0; k < l->span[i].n_px; k++) gn_exact_pixel(s, l->span[i].x + k, l->span[i].y);

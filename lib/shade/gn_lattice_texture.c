@@ -46,15 +46,17 @@ typedef struct {
 GN_HOT static void find_pulls(const gn_screen_plane *plane, int32_t x, int32_t y, int32_t size_log2, int32_t bends,
                               cell_pulls *out)
 {
+    *out = (cell_pulls){{0, 0}, {0, 0, 0}};
+    if (!bends) return; /* an orthographic camera's plane has no w */
     const gn_slope *w = &plane->w;
     int32_t right = w->dx * (1 << size_log2), down = w->dy * (1 << size_log2),
             first = w->at + w->dx * (x - plane->x) + w->dy * (y - plane->y), middle = first + (right >> 1);
     for (int i = 0; i < 2; i++) {
         int32_t row = first + i * down, column = first + i * right;
-        out->row_q30[i] = bends & 1 ? pull_q30(row, row + right) : 0;
-        out->column_q30[i] = bends & 2 ? pull_q30(column, column + down) : 0;
+        if (bends & 1) out->row_q30[i] = pull_q30(row, row + right);
+        if (bends & 2) out->column_q30[i] = pull_q30(column, column + down);
     }
-    out->column_q30[2] = bends & 2 ? pull_q30(middle, middle + down) : 0;
+    if (bends & 2) out->column_q30[2] = pull_q30(middle, middle + down);
 }
 
 /* An edge's way less twice that to its middle; below 2^3 texels where the tolerance holds. */

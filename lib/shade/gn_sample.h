@@ -7,9 +7,9 @@
 /* Everything at the centre of pixel (x, y), exactly: the perspective divide happens here. */
 void gn_sample_at(const gn_frame *frame, const gn_surface *surface, int32_t x, int32_t y, gn_sample *sample);
 
-/* The same on the surface's plane, which may lie outside of the triangle, without places in directional views. Returns
- * 0 where the plane is seen at less than half or more than twice the triangle's depths, or its barycentrics are beyond
- * -1 .. 2. */
+/* The same, from a perspective camera, on the surface's plane, which may lie outside of the triangle, without places in
+ * directional views. Returns 0 where the plane is seen at less than half or more than twice the triangle's depths, or
+ * its barycentrics are beyond -1 .. 2. */
 int gn_sample_on_plane(const gn_frame *frame, const gn_surface *surface, int32_t x, int32_t y, gn_sample *sample);
 
 /* Tile coordinates in one view of a directional light, texels, Q16, of the point at a pixel's centre and that depth,

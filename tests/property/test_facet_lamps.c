@@ -1,6 +1,7 @@
 /* Spot and point lights on small triangles (NUMERICS 4.17): what is linear between the vertices, and how far it is off
  * at most, against the formulas in double. */
 #include <math.h>
+#include <stdlib.h>
 
 #include "../lib/light/gn_punctual.h"
 #include "../lib/shade/gn_corner.h"
@@ -12,7 +13,7 @@
 
 #if GN_INTERPOLATES && GN_PUNCTUAL_LIGHTS && GN_VERTEX_NORMALS
 
-enum { WIDTH = 32, HEIGHT = 24, CASES = 60000, PER_SIDE = 9 };
+enum { WIDTH = 32, HEIGHT = 24, CASES = 60000, PER_SIDE = 9, LIMIT = 1 << 27 /* what irradiance is limited to */ };
 
 static gn_renderer renderer;
 static demo_scene demo;
@@ -84,7 +85,7 @@ static void draw_light(const gn_frame *frame, gn_light *light, double distance)
         light->direction[i] = (int32_t)lround(ldexp(-away[i] + tan(outer / 4) * 1.5 * uniform(0, 1) * aside[i], 16));
         light->colour_uq16[i] = 65536;
     }
-    light->colour_exp = (int8_t)lround(2 * log2(distance));
+    light->colour_exp = (int8_t)lround(2 * log2(distance) + (rng_below(&random_state, 3) ? 0 : uniform(0, 5)));
     light->range_q16 =
         rng_below(&random_state, 3) ? 0 : (uint32_t)lround(ldexp(distance * pow(2, uniform(-0.1, 3)), 16));
 }
@@ -120,6 +121,7 @@ static void compare(const gn_light_state *light, const gn_facet_vertices *v, con
 {
     double nearest2 = 1e30;
     for (int k = 0; k < 3; k++) {
+        if (!dark && abs(lamp->irradiance_q24[k]) == LIMIT) return; /* cells are asked about limits */
         double d2 = 0;
         for (int i = 0; i < 3; i++)
             d2 += pow(ldexp((double)v->ray_q16[k][i] + (double)light->from_light[i].d_q16, -16), 2);
@@ -137,7 +139,8 @@ static void compare(const gn_light_state *light, const gn_facet_vertices *v, con
                 linear_rim += b[k] * ldexp(lamp->rim_q20[k], -20);
             }
             if (!lamp->has_rim) linear_rim = 1;
-            const double is = fmax(0, e) * squared(rim), says = dark ? 0 : fmax(0, linear) * squared(linear_rim);
+            const double is = fmin(fmax(0, e) * squared(rim), LIMIT),
+                         says = dark ? 0 : fmax(0, linear) * squared(linear_rim);
             worst = fmax(worst, fabs(is - says) - rounding);
         }
     nearest_to_bound = fmax(nearest_to_bound, worst / (lamp->error_q24 + 1.0));
@@ -150,7 +153,7 @@ static void try_case(gn_frame *frame)
     gn_surface *s = &shading.surface;
     gn_light *light = &demo.light[0];
     gn_facet_vertices v;
-    gn_facet_lamp lamp;
+    gn_facet_lamp lamp = {.error_q24 = 0};
     uint32_t turn_q28[3] = {unknown[0], unknown[1], unknown[2]};
     const double distance = pow(2, uniform(-2, 5));
     draw_triangle(s, distance);
@@ -171,6 +174,7 @@ static void try_case(gn_frame *frame)
     const int said = gn_facet_punctual(&shading, &v, 0, 1 << 24, &lamp);
     if (said == GN_CELL_SPLIT) {
         n_split++;
+        if (lamp.error_q24) compare(&frame->light[0], &v, &lamp, 0); /* not told before it is known */
         return;
     }
     if (said == GN_CELL_DARK) n_dark++;
@@ -180,6 +184,50 @@ static void try_case(gn_frame *frame)
         n_ranges += light->range_q16 != 0;
     }
     compare(&frame->light[0], &v, &lamp, said == GN_CELL_DARK);
+}
+
+/* A light that is dimmer by a power of two is, to half of the last bit, down to none at all; brighter, it is limited.
+ */
+static void test_exponents(gn_light_state *light)
+{
+    static const int32_t from[3] = {3 << 16, 1 << 16, -(5 << 16)};
+    static gn_corner_light scratch;
+    const uint64_t d2 = (uint64_t)gn_dot64(from, from);
+    int32_t brighter = LIMIT, n_between = 0;
+    light->kind = GN_LIGHT_POINT;
+    light->range2_q32 = UINT64_MAX;
+    for (int exp = 100; exp >= -100; exp--) {
+        light->colour_exp = (int8_t)exp;
+        const int32_t e = gn_corner_irradiance(&renderer.frame, light, from, d2, 4 << 16, &scratch, NULL);
+        CHECK(e == brighter >> 1 || (brighter == LIMIT && e > LIMIT / 2 && e <= LIMIT));
+        n_between += e > 0 && e < LIMIT;
+        brighter = e;
+    }
+    CHECK(brighter == 0 && n_between > 20);
+}
+
+/* What lies 2^30 away is not told by vertices. */
+static void test_reach(gn_light_state *light)
+{
+    static const uint32_t turns[3] = {0, 0, 0};
+    gn_facet_vertices v;
+    gn_facet_lamp lamp;
+    draw_triangle(&shading.surface, 1);
+    if (!CHECK(gn_facet_vertices_find(&v, &renderer.frame, &shading.surface, turns))) return;
+    for (int i = 0; i < 3; i++) light->from_light[i].d_q16 = 0;
+    light->kind = GN_LIGHT_POINT;
+    light->range2_q32 = UINT64_MAX;
+    light->colour_exp = 26;
+    for (int i = 0; i < 6; i++) {
+        const int32_t side = i % 2 ? 1 : -1;
+        for (int k = 0; k < 3; k++) v.normal_q30[k][i / 2] = -side * (1 << 29);
+        light->from_light[i / 2].d_q16 = side * ((1 << 30) - (100 << 16));
+        CHECK(gn_facet_punctual(&shading, &v, 0, 1 << 24, &lamp) == GN_CELL_LIT);
+        light->from_light[i / 2].d_q16 = side * ((1 << 30) + (100 << 16));
+        CHECK(gn_facet_punctual(&shading, &v, 0, 1 << 24, &lamp) == GN_CELL_SPLIT);
+        light->from_light[i / 2].d_q16 = 0;
+        for (int k = 0; k < 3; k++) v.normal_q30[k][i / 2] = 0;
+    }
 }
 
 int main(void)
@@ -193,6 +241,8 @@ int main(void)
     for (int c = 0; c < 3; c++) shading.surface.light[0].radiance_uq16[c] = 65536;
     shading.surface.n_lights = shading.surface.n_punctual = 1;
     for (int i = 0; i < CASES; i++) try_case(&renderer.frame);
+    test_exponents(&renderer.frame.light[0]);
+    test_reach(&renderer.frame.light[0]);
     printf("%d lit, %d of them in a rim, %d with a range; %d dark, %d split; off by up to %.2f of the bound\n", n_lit,
            n_rims, n_ranges, n_dark, n_split, nearest_to_bound);
     CHECK(n_lit > 5000 && n_rims > 1000 && n_ranges > 1000 && n_dark > 1000 && n_split > 1000);

@@ -529,7 +529,7 @@ static double form_at(const gn_lattice *l, const gn_slope *form, const gn_corner
     return form->at + (double)form->dx * (c->x - l->plane.x) + (double)form->dy * (c->y - l->plane.y);
 }
 
-static long n_flat, n_not_flat;
+static long n_flat, n_not_flat, n_wide_places;
 
 /* The receiver moves along its normal by a share of the light-plane distance; products whose lower half is dropped cut
  * up to 6 LSB off each component. Of flat surfaces that distance is along the view's axis, whatever face the point lies
@@ -579,7 +579,8 @@ static void check_persp(gn_lattice *l, const gn_surface *s, gn_corner *c, uint32
     n_not_flat += !orthographic && !s->smooth && !flat;
     if (fabs(in[2] - near) > off + fabs(in[2]) * (z_form_off + near_form_off + (flat ? divide : 0)))
         CHECK_EQ_INT(seen_there, in[2] > near);
-    if (!seen_there || in[2] < 2 * off || fmax(fabs(in[0]), fabs(in[1])) > 1.9 * in[2]) return;
+    if (!seen_there || in[2] < 2 * off || fmax(fabs(in[0]), fabs(in[1])) > 50 * in[2]) return;
+    n_wide_places += fmax(fabs(in[0]), fabs(in[1])) > 2 * in[2];
     const double share = near / in[2];
     for (int i = 0; i < 2; i++) {
         const double beside = focal2 / 2 * in[i] / in[2], want = view->tile_texels / 2.0 + beside;
@@ -854,6 +855,7 @@ int main(int argc, char **argv)
     CHECK(n_bent_rows > 300 && n_bent_columns > 300 && n_straight > 100);
     CHECK(n_planes > 2 * n_no_plane);
     CHECK(n_flat > 1000 && n_flat > 2 * n_not_flat);
+    CHECK(n_wide_places > 1000);
     CHECK(n_certain > 1000 && n_uncertain > 100);
     CHECK(lit_by_bias.n > 1000);
     CHECK_TALLY(lit_by_bias, "planes that automatic bias leaves lit");
