@@ -52,8 +52,9 @@ static bool is_beyond(const scene *s, const scene_object *o, double aspect)
     return all != 0;
 }
 
-/* Whether some face shows its front to the camera; else *normals grows by those of all, as long as areas. */
-static bool shows_front(const scene *s, const scene_object *o, double normals[3])
+/* Whether some face shows its front to the camera; else *backs, if some shows its back, and *normals grows by those of
+ * all, as long as areas. */
+static bool shows_front(const scene *s, const scene_object *o, double normals[3], bool *backs)
 {
     const scene_mesh *mesh = &s->meshes[o->mesh_idx];
     const scene_camera *c = &s->camera;
@@ -66,7 +67,9 @@ static bool shows_front(const scene *s, const scene_object *o, double normals[3]
         vec_cross(n, u, v);
         for (int k = 0; k < 3; k++)
             to_eye[k] = c->half_height > 0 ? c->to_world.m[k][2] : c->to_world.m[k][3] - p[0][k];
-        if (vec_dot(n, to_eye) > 0) return true;
+        const double towards = vec_dot(n, to_eye);
+        if (towards > 0) return true;
+        *backs |= towards < 0;
         for (int k = 0; k < 3; k++) normals[k] += n[k];
     }
     return false;
@@ -75,21 +78,21 @@ static bool shows_front(const scene *s, const scene_object *o, double normals[3]
 void remarks_on_view(const scene *s, int width, int height)
 {
     double normals[3] = {0, 0, 0};
-    bool any = false;
+    bool any = false, backs = false;
     for (size_t i = 0; i < s->n_objects; i++) {
         const scene_object *o = &s->objects[i];
         if (o->hidden || (s->added.ground && i + 1 == s->n_objects)) continue;
         if (!s->added.camera && is_beyond(s, o, (double)width / height)) continue;
-        if (shows_front(s, o, normals)) return;
+        if (shows_front(s, o, normals, &backs)) return;
         any = true;
     }
     const double yaw = degrees_per_turn / turn_radians * atan2(normals[0], normals[2]),
                  pitch = degrees_per_turn / turn_radians * atan2(normals[1], hypot(normals[0], normals[2]));
-    if (any)
+    if (backs)
         tool_error(
             "the camera sees backs of faces alone, which are not drawn: --orbit %.0f,%.0f,1 looks at their fronts", yaw,
             fmin(fmax(pitch, -80), 80));
-    else tool_error("the camera sees none of the objects: --orbit 30,25,1 looks at them all");
+    else if (!any) tool_error("the camera sees none of the objects: --orbit 30,25,1 looks at them all");
 }
 
 void remarks_on_frame(const scene *s, int frame)
