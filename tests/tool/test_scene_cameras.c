@@ -40,7 +40,7 @@ static void test_sizes(void)
             if (!CHECK_EQ_INT(load_room(sizes[i], 10, 12, lenses[k]), 0)) return (void)puts(error);
             check_invariants();
             const double nearest = 5.4 * sizes[i], deepest = 22.2 * sizes[i];
-            CHECK(s.camera.near < nearest / 2 && s.camera.near > deepest / 16384 && s.camera.near > 1e-8);
+            CHECK(s.camera.near < nearest / 2 && s.camera.near > 0.9 * deepest / 64 && s.camera.near > 1e-8);
             CHECK(s.shadow.max_distance > 0.9 * deepest && s.shadow.max_distance < 1.3 * deepest);
             CHECK(s.shadow.n_cascades == 2 && s.n_remarks == 0);
             CHECK_NEAR(s.shadow.cascade_ratio[0], 0.4845, 0.006);
@@ -70,6 +70,7 @@ static void test_wide(void)
     if (!CHECK_EQ_INT(load_room(1, 5000, 12, "\"znear\":0.1"), 0)) return (void)puts(error);
     CHECK_NEAR(s.shadow.max_distance, 100, 0);
     CHECK(s.shadow.n_cascades == 4 && s.shadow.cascade_ratio[0] == scene_share(0.1));
+    CHECK(s.camera.near > 0.1 && has_note("nothing is nearer"));
     scene_free(&s);
     if (!CHECK_EQ_INT(load_room(1, 10, 500, "\"znear\":0.1"), 0)) return (void)puts(error);
     CHECK(s.shadow.max_distance > 530 && s.shadow.max_distance < 630 && s.shadow.n_cascades == 1);

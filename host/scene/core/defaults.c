@@ -27,7 +27,8 @@ static const double usual_distance = 100;         /* of shadows: for a file's ca
 static const double few = 1.0 / 10;               /* ... unless only this share of what is seen is nearer */
 static const double most = 0.98;                  /* of what is seen has shadows: the rest is about the horizon */
 static const double one_cascade = 3, two_cascades = 10; /* the deepest to the nearest of what is seen, at most */
-static const double tiny_near = 1.0 / 16384;            /* of the depth of what is seen: depths lose digits to it */
+static const double tiny_near = 1.0 / 1024;             /* of the depth of what is seen: depths lose digits to it */
+static const double good_near = 1.0 / 64;               /* ... and lose few, with thousands of triangles */
 static const double least_near = 1.0 / (1 << 18);       /* of the scene's extent: the library has no nearer planes */
 
 static bool check_object(loader *l, const scene_object *object)
@@ -331,28 +332,29 @@ static double extent_of(const loader *l, const bounds *b)
     return extent;
 }
 
-/* A near plane that is hardly before the eye, as files have that nobody thought about, is moved towards what is seen.
- */
-static bool move_near(loader *l, const bounds *b, const view_range *r)
+/* A near plane that is hardly before the eye, as files have that nobody thought about, is moved towards what is seen,
+ * the ground that was added with it. */
+static bool move_near(loader *l, const bounds *b)
 {
     scene_camera *camera = &l->s->camera;
     const double was = camera->near, least = least_near * extent_of(l, b);
-    if (was >= least && was >= tiny_near * r->deepest) return true;
-    camera->near = fmax(fmax(was, least), fmin(r->nearest / 2, r->deepest / 1000));
+    view_range r;
+    find_view_range(l, &r);
+    if (was >= least && was >= tiny_near * r.deepest) return true;
+    camera->near = fmax(fmax(was, least), fmin(r.nearest / 2, good_near * r.deepest));
     camera->far = fmax(camera->far, 2 * camera->near);
-    if (r->nearest >= camera->near)
+    if (r.nearest >= camera->near)
         return loader_note(l, "the camera's near plane is moved from %g to %g: nothing is nearer", was, camera->near);
     return loader_remark(l, "the camera's near plane is moved from %g to %g, and what is nearer is cut off", was,
                          camera->near);
 }
 
-static bool adapt_camera(loader *l, const bounds *b)
+static void adapt_shadow(loader *l)
 {
     view_range r;
     find_view_range(l, &r);
     l->s->shadow.max_distance = seen_distance(&l->s->camera, &r);
     set_cascades(&l->s->shadow, &r);
-    return move_near(l, b, &r);
 }
 
 /* ---- All of it -------------------------------------------------------------------------------------------------- */
@@ -372,7 +374,7 @@ bool loader_add_defaults(loader *l)
     memcpy(s->ambient, ambient, sizeof ambient);
     memcpy(s->background, background, sizeof background);
     default_shadow(l, &s->shadow);
-    if (l->has_camera && !adapt_camera(l, &b)) return false;
+    if (l->has_camera) adapt_shadow(l);
     if (!l->has_camera) {
         make_camera(l, &b);
         s->stage.camera = s->camera.to_world;
@@ -381,5 +383,6 @@ bool loader_add_defaults(loader *l)
     lights_set_near(s, &l->poses, b.low, b.high);
     if (!l->has_camera) s->shadow.max_distance = find_shadow_distance(l, &b);
     lights_find_stage(l);
-    return !l->wants_ground || add_ground(l, &b, parts.coplanar);
+    if (l->wants_ground && !add_ground(l, &b, parts.coplanar)) return false;
+    return !l->has_camera || move_near(l, &b);
 }
