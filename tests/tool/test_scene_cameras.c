@@ -8,26 +8,33 @@
 #include "../host/scene/core/view_range.h"
 #include "data/scene_fixture.h"
 
-/* A floor of 20 x 20 and a wall of 2 x 3 on it, times a size, seen from 12 before the wall and 3.6 above the floor;
- * %s: the lens, the floor's half, and what else the camera's node has. */
+/* A floor and a wall of 2 x 3 on it, times a size: the size, the eye, how it is turned, the lens, the file of
+ * positions. */
 static const char text_of_room[] =
     "{\"asset\":{\"version\":\"2.0\"},\"scene\":0,\"scenes\":[{\"nodes\":[0,1]}],\"nodes\":[{\"mesh\":0,"
-    "\"scale\":[%g,%g,%g]},{\"camera\":0,\"translation\":[0,%g,%g],\"rotation\":[-0.13,0,0,0.9915]}],"
+    "\"scale\":[%g,%g,%g]},{\"camera\":0,\"translation\":[0,%g,%g],\"rotation\":[%g,0,0,%.9g]}],"
     "\"cameras\":[{\"type\":\"perspective\",\"perspective\":{\"yfov\":0.8,%s}}],"
     "\"meshes\":[{\"primitives\":[{\"attributes\":{\"POSITION\":0}}]}],"
     "\"accessors\":[{\"bufferView\":0,\"componentType\":5126,\"count\":12,\"type\":\"VEC3\"}],"
     "\"bufferViews\":[{\"buffer\":0,\"byteLength\":144}],\"buffers\":[{\"byteLength\":144,\"uri\":\"%s\"}]}";
 
-static int load_room(double size, float floor_half, double distance, const char *lens)
+/* The eye: its height above the floor, and its distance before the wall; how far it looks down, as sin of half that. */
+static int load_view(double size, float floor_half, const double eye[2], double tilt, const char *lens)
 {
     const float f = floor_half;
     const float pos[36] = {-f, 0, f, f, 0, f, f, 0, -f, -f, 0, f, f, 0, -f, -f, 0, -f,
                            -1, 0, 0, 1, 0, 0, 1, 3, 0,  -1, 0, 0, 1, 3, 0,  -1, 3, 0};
     char text[2000];
     write_file(TMP ".bin", pos, sizeof pos);
-    snprintf(text, sizeof text, text_of_room, size, size, size, 0.3 * distance * size, distance * size, lens,
-             "test_scene_cameras.bin");
+    snprintf(text, sizeof text, text_of_room, size, size, size, eye[0] * size, eye[1] * size, -tilt,
+             sqrt(1 - tilt * tilt), lens, "test_scene_cameras.bin");
     return load_text(TMP ".gltf", text);
+}
+
+/* From 0.3 of the distance above a floor of such a half. */
+static int load_room(double size, float floor_half, double distance, const char *lens)
+{
+    return load_view(size, floor_half, (const double[2]){0.3 * distance, distance}, 0.13, lens);
 }
 
 /* Whatever the size of the scene and the planes of the lens: the same picture, with shadows as far as what is seen. */
@@ -58,6 +65,13 @@ static void test_given(void)
     CHECK_NEAR(s.shadow.max_distance, 15, 0);
     CHECK_EQ_INT(s.n_notes, 0);
     scene_free(&s);
+    for (int moves = 0; moves < 2; moves++) { /* less than 1/1024 of 22.2 */
+        if (!CHECK_EQ_INT(load_room(1, 10, 12, moves ? "\"znear\":0.021" : "\"znear\":0.022"), 0))
+            return (void)puts(error);
+        if (moves) CHECK_NEAR(s.camera.near, 22.2 / 64, 0.01);
+        else CHECK_NEAR(s.camera.near, 0.022, 0);
+        scene_free(&s);
+    }
     if (!CHECK_EQ_INT(load_room(1, 10, 12, "\"znear\":150"), 0)) return (void)puts(error); /* sees nothing */
     CHECK(s.shadow.max_distance > s.camera.near);
     check_invariants();
@@ -74,6 +88,17 @@ static void test_wide(void)
     scene_free(&s);
     if (!CHECK_EQ_INT(load_room(1, 10, 500, "\"znear\":0.1"), 0)) return (void)puts(error);
     CHECK(s.shadow.max_distance > 530 && s.shadow.max_distance < 630 && s.shadow.n_cascades == 1);
+    scene_free(&s);
+}
+
+/* A ground that is added to a wall alone is seen from the height of an ant: it is not cut off. */
+static void test_ground(void)
+{
+    const double eye[2] = {0.02, 12}, nearest = 0.02 / tan(0.4); /* where half the lens meets the ground */
+    if (!CHECK_EQ_INT(load_view(1, 0, eye, 0, "\"znear\":1e-4"), 0)) return (void)puts(error);
+    CHECK(s.added.ground);
+    CHECK_NEAR(s.camera.near, nearest / 2, 1e-3 * nearest);
+    CHECK(has_note("nothing is nearer"));
     scene_free(&s);
 }
 
@@ -122,6 +147,7 @@ int main(void)
     test_given();
     test_wide();
     test_too_near();
+    test_ground();
     test_view_range();
     return check_report();
 }

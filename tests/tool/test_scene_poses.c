@@ -109,7 +109,7 @@ static void test_skin(void)
     check_frames(file, 60, 6, 0.02);
 }
 
-/* Beside a camera of the file's that moves, an added light stands still, too. */
+/* Beside a camera of the file's that moves, an added light and ground stand still, too. */
 static void test_filmed(void)
 {
     char text[16384];
@@ -126,6 +126,9 @@ static void test_filmed(void)
         if (!CHECK_EQ_INT(load(TMP ".gltf", &(scene_options){.frame = frame, .width = 64, .height = 48}), 0))
             return (void)puts(error);
         CHECK(!s.added.camera && s.added.light);
+        const scene_object *ground = find_ground();
+        if (CHECK(s.added.ground && ground != NULL))
+            for (int k = 0; k < 12; k++) CHECK_NEAR(ground->to_world.m[k / 4][k % 4], k % 5 == 0, 0);
         if (frame == 0) memcpy(first, s.lights[0].direction, sizeof first);
         if (frame == 0) memcpy(position, s.camera.to_world.m[0], sizeof position);
         else CHECK(memcmp(position, s.camera.to_world.m[0], sizeof position) != 0);

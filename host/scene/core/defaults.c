@@ -27,9 +27,10 @@ static const double usual_distance = 100;         /* of shadows: for a file's ca
 static const double few = 1.0 / 10;               /* ... unless only this share of what is seen is nearer */
 static const double most = 0.98;                  /* of what is seen has shadows: the rest is about the horizon */
 static const double one_cascade = 3, two_cascades = 10; /* the deepest to the nearest of what is seen, at most */
-static const double tiny_near = 1.0 / 1024;             /* of the depth of what is seen: depths lose digits to it */
-static const double good_near = 1.0 / 64;               /* ... and lose few, with thousands of triangles */
-static const double least_near = 1.0 / (1 << 18);       /* of the scene's extent: the library has no nearer planes */
+/* Of the depth of what is seen: steps of depth there are a 1024th of it at good_near with the most triangles, whose
+ * identities leave 16 bits, and a 16384th with 4000. */
+static const double tiny_near = 1.0 / 1024, good_near = 1.0 / 64;
+static const double least_near = 1.0 / (1 << 18); /* of the scene's extent: the library has no nearer planes */
 
 static bool check_object(loader *l, const scene_object *object)
 {
@@ -332,29 +333,25 @@ static double extent_of(const loader *l, const bounds *b)
     return extent;
 }
 
-/* A near plane that is hardly before the eye, as files have that nobody thought about, is moved towards what is seen,
- * the ground that was added with it. */
-static bool move_near(loader *l, const bounds *b)
+/* A near plane that is hardly before the eye, as files have that nobody thought about, is moved towards what is seen.
+ */
+static bool move_near(loader *l, const bounds *b, const view_range *r)
 {
     scene_camera *camera = &l->s->camera;
     const double was = camera->near, least = least_near * extent_of(l, b);
-    view_range r;
-    find_view_range(l, &r);
-    if (was >= least && was >= tiny_near * r.deepest) return true;
-    camera->near = fmax(fmax(was, least), fmin(r.nearest / 2, good_near * r.deepest));
+    if (was >= least && was >= tiny_near * r->deepest) return true;
+    camera->near = fmax(fmax(was, least), fmin(r->nearest / 2, good_near * r->deepest));
     camera->far = fmax(camera->far, 2 * camera->near);
-    if (r.nearest >= camera->near)
+    if (r->nearest >= camera->near)
         return loader_note(l, "the camera's near plane is moved from %g to %g: nothing is nearer", was, camera->near);
     return loader_remark(l, "the camera's near plane is moved from %g to %g, and what is nearer is cut off", was,
                          camera->near);
 }
 
-static void adapt_shadow(loader *l)
+static void adapt_shadow(loader *l, const view_range *r)
 {
-    view_range r;
-    find_view_range(l, &r);
-    l->s->shadow.max_distance = seen_distance(&l->s->camera, &r);
-    set_cascades(&l->s->shadow, &r);
+    l->s->shadow.max_distance = seen_distance(&l->s->camera, r);
+    set_cascades(&l->s->shadow, r);
 }
 
 /* ---- All of it -------------------------------------------------------------------------------------------------- */
@@ -364,6 +361,7 @@ bool loader_add_defaults(loader *l)
     static const double ambient[3] = {0.18, 0.18, 0.18}, background[3] = {0.35, 0.45, 0.6};
     scene *s = l->s;
     bounds b;
+    view_range seen; /* by the file's camera */
     bool changed;
     if (!find_bounds(l, &b) || !place_objects(l, &b, &changed) || (changed && !find_bounds(l, &b)) ||
         !remark_on_up(l, &b) || !lights_dim(l, b.centre, b.radius))
@@ -374,8 +372,10 @@ bool loader_add_defaults(loader *l)
     memcpy(s->ambient, ambient, sizeof ambient);
     memcpy(s->background, background, sizeof background);
     default_shadow(l, &s->shadow);
-    if (l->has_camera) adapt_shadow(l);
-    if (!l->has_camera) {
+    if (l->has_camera) {
+        find_view_range(l, &seen);
+        adapt_shadow(l, &seen);
+    } else {
         make_camera(l, &b);
         s->stage.camera = s->camera.to_world;
     }
@@ -384,5 +384,6 @@ bool loader_add_defaults(loader *l)
     if (!l->has_camera) s->shadow.max_distance = find_shadow_distance(l, &b);
     lights_find_stage(l);
     if (l->wants_ground && !add_ground(l, &b, parts.coplanar)) return false;
-    return !l->has_camera || move_near(l, &b);
+    if (l->has_camera && l->wants_ground) find_view_range(l, &seen);
+    return !l->has_camera || move_near(l, &b, &seen);
 }

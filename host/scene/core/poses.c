@@ -11,7 +11,7 @@ size_t poses_count_affines(const scene *s)
 void poses_store(const scene_poses *p, size_t pose_idx, const scene *s)
 {
     scene_affine *to = p->affines + pose_idx * p->n_affines;
-    for (size_t i = 0; i < s->n_objects; i++) {
+    for (size_t i = 0; i < p->n_objects; i++) {
         *to++ = s->objects[i].to_world;
         for (size_t k = 0; k < s->objects[i].n_joints; k++) *to++ = s->objects[i].joints[k].now;
     }
@@ -20,7 +20,7 @@ void poses_store(const scene_poses *p, size_t pose_idx, const scene *s)
 void poses_apply(const scene_poses *p, size_t pose_idx, scene *s)
 {
     const scene_affine *from = p->affines + pose_idx * p->n_affines;
-    for (size_t i = 0; p->n > 0 && i < s->n_objects; i++) {
+    for (size_t i = 0; i < p->n_objects; i++) {
         s->objects[i].to_world = *from++;
         for (size_t k = 0; k < s->objects[i].n_joints; k++) s->objects[i].joints[k].now = *from++;
     }

@@ -8,6 +8,7 @@
 typedef struct {
     size_t n; /* 0: nothing moves */
     size_t n_affines;
+    size_t n_objects; /* of the file: what is added to them later, behind them, stands still */
     scene_affine
         *affines; /* per pose, object by object: its to_world and its joints; behind the last pose the scene's */
     size_t n_lights;

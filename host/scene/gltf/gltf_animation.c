@@ -207,7 +207,10 @@ bool gltf_keep_poses(gltf *g, const json_value *used_scene)
     scene *s = g->l->s;
     if (g->n_played == 0) return true;
     const double last = ceil(s->duration * s->fps - 1e-6), n_frames = fmax(last, 0) + 1;
-    scene_poses p = {.n = count_poses(g, n_frames), .n_affines = poses_count_affines(s), .n_lights = s->n_lights};
+    scene_poses p = {.n = count_poses(g, n_frames),
+                     .n_affines = poses_count_affines(s),
+                     .n_objects = s->n_objects,
+                     .n_lights = s->n_lights};
     p.affines = loader_alloc(g->l, (p.n + 1) * p.n_affines, sizeof *p.affines);
     p.light = loader_alloc(g->l, p.n * p.n_lights + 1, sizeof *p.light);
     if (g->l->has_camera) p.camera = loader_alloc(g->l, p.n, sizeof *p.camera);
