@@ -28,32 +28,51 @@ GN_HOT static uint64_t distance2_q32(const gn_frame *frame, const gn_cascade_sta
     return across2_of_q32(frame, z_q16, tan2_q24) + (uint64_t)(dz * dz);
 }
 
-/* The cascade of all points, if none of them fades or blends there; -1 if it is not certain. */
-GN_HOT static int32_t certain_cascade(const gn_frame *frame, const extent *e)
+/* Views of cascades that points may look into, a bit each, and GN_VIEWS_FADE. */
+GN_HOT static uint32_t possible_views(const gn_frame *frame, const extent *e)
 {
-    int blends = GN_BLENDED_CASCADES && frame->scene->shadow.blend != GN_BLEND_HARD;
+    const int blends = GN_BLENDED_CASCADES && frame->scene->shadow.blend != GN_BLEND_HARD;
+    const uint64_t rounding = e->tan2_hi_q24 + 1;
+    uint32_t views = 0;
     if (frame->scene->shadow.distance_mode != GN_DISTANCE_DEPTH || (uint32_t)e->z_hi_q16 > frame->fade_start_q16)
-        return -1;
-    if (!frame->has_cascades) return GN_CASCADE_NONE;
-    if ((e->z_hi_q16 | GN_FLAT_Q16(frame)) >> 27 || e->tan2_hi_q24 >> 28) return -1; /* and distance2_q32 fits */
+        views |= GN_VIEWS_FADE;
+    if (!frame->has_cascades) return views;
+    const int beyond = (e->z_hi_q16 | GN_FLAT_Q16(frame)) >> 27 || e->tan2_hi_q24 >> 28; /* what distance2_q32 takes */
     for (int32_t i = 0; i < GN_N_CASCADES(frame); i++) {
         const gn_cascade_state *c = &frame->cascade[i];
         if (!c->radius2_q32) continue; /* empty */
-        uint64_t within = blends || i == GN_LAST_CASCADE(frame) ? c->inner2_q32 : c->radius2_q32;
-        uint64_t rounding = e->tan2_hi_q24 + 1;
-        if (distance2_q32(frame, c, e->z_lo_q16, e->tan2_hi_q24) + rounding < within &&
-            distance2_q32(frame, c, e->z_hi_q16, e->tan2_hi_q24) + rounding < within)
-            return i;
         int32_t nearest = gn_max32(e->z_lo_q16, gn_min32(c->centre_q16, e->z_hi_q16));
         int64_t dz = (int64_t)nearest - c->centre_q16;
-        if (across2_of_q32(frame, e->z_lo_q16, e->tan2_lo_q24) + (uint64_t)(dz * dz) < c->radius2_q32) return -1;
+        if (!beyond && across2_of_q32(frame, e->z_lo_q16, e->tan2_lo_q24) + (uint64_t)(dz * dz) >= c->radius2_q32)
+            continue;
+        views |= 1U << i;
+        uint64_t farthest = UINT64_MAX;
+        if (!beyond) {
+            const uint64_t a = distance2_q32(frame, c, e->z_lo_q16, e->tan2_hi_q24),
+                           b = distance2_q32(frame, c, e->z_hi_q16, e->tan2_hi_q24);
+            farthest = (a > b ? a : b) + rounding;
+        }
+        if (farthest >= c->inner2_q32) {
+            if (i == GN_LAST_CASCADE(frame)) views |= GN_VIEWS_FADE;
+            else if (blends) views |= 1U << c->next;
+        }
+        if (farthest < c->radius2_q32) return views;
     }
-    return -1;
+    return views | GN_VIEWS_FADE;
 }
+
+/* The cascade of all points, if none of them fades or blends there; -1 if it is not certain. */
+GN_HOT static int16_t certain_cascade(uint32_t views)
+{
+    if (!views) return GN_CASCADE_NONE;
+    return (int16_t)(views & (views - 1) || views == GN_VIEWS_FADE ? -1 : 31 - gn_clz32(views));
+}
+
 GN_HOT void gn_corner_begin_cascade(gn_lattice *l, const gn_frame *frame, const gn_surface *s)
 {
     const extent all = {s->z_min_q16, s->z_max_q16, 0, (uint64_t)frame->tan2_q24};
-    l->cascade = s->shadowed ? certain_cascade(frame, &all) : -1;
+    l->cascade = -1;
+    if (s->shadowed) l->cascade = certain_cascade(possible_views(frame, &all));
     l->surface_cascade = l->cascade;
 }
 
@@ -79,9 +98,11 @@ GN_HOT void gn_corner_begin_box(gn_lattice *l, const gn_frame *frame, const gn_s
 {
     extent e = {s->z_min_q16, s->z_max_q16, 0, 0};
     l->cascade = -1;
+    l->views = 0;
     if (!s->shadowed) return;
     find_tangents(frame, box->x0, box->x1 - 1, box->y0, box->y1 - 1, &e);
-    l->cascade = certain_cascade(frame, &e);
+    l->views = (uint16_t)possible_views(frame, &e);
+    l->cascade = certain_cascade(l->views);
 }
 
 GN_HOT void gn_corner_begin_part(gn_lattice *l, const gn_frame *frame, const gn_surface *s)
@@ -100,7 +121,7 @@ GN_HOT void gn_corner_begin_part(gn_lattice *l, const gn_frame *frame, const gn_
     e.z_lo_q16 = gn_max32(e.z_lo_q16 - 1, s->z_min_q16);
     e.z_hi_q16 = gn_min32(e.z_hi_q16 + 1, s->z_max_q16);
     find_tangents(frame, x[0], x[1], y[0], y[1], &e);
-    l->cascade = certain_cascade(frame, &e);
+    l->cascade = certain_cascade(possible_views(frame, &e));
 }
 
 GN_HOT void gn_corner_cascade(const gn_lattice *l, const gn_frame *frame, const gn_surface *s, int32_t x, int32_t y,

@@ -189,8 +189,8 @@ GN_HOT int gn_facet_shade(gn_shading *s, const gn_rect *box, int32_t n_px)
 #if GN_SHADOWS
     gn_corner_begin_box(&s->lattice, s->frame, surface, box);
 #endif
-    if (surface->shadowed && s->lattice.cascade < 0) return 0;
     f->n_px = n_px;
+    f->width = box->x1 - box->x0;
     f->screen.found = f->screen.steep = 0;
     f->n_lights = 0;
     begin_colours(f);

@@ -114,7 +114,7 @@ GN_HOT static void light_pixels(const gn_facet *f, const facet_look *look, int32
 GN_HOT static int use_texture(gn_facet *f)
 {
     return !f->s->surface.textured ||
-           (gn_facet_use_screen(f) && gn_facet_texture_begin(&f->texture, f->s->frame, &f->s->surface, &f->screen));
+           (gn_facet_use_screen(f) && gn_facet_texture_begin(&f->texture, f->s->frame, &f->s->surface, &f->screen, f->width));
 }
 
 /* Texels of a span, and whether its n nodes are all in 2^-18 .. 1. */
@@ -173,50 +173,6 @@ GN_HOT static void draw_runs(const gn_facet *f, const facet_look *look)
     }
 }
 
-GN_HOT static void draw_spans(const gn_facet *f, const facet_look *look)
-{
-    gn_lattice *l = &f->s->lattice;
-    GN_COUNT(facet_pixels, f->n_px);
-    if (look->each || f->s->surface.textured) {
-        for (int32_t i = 0; i < l->n_spans; i++) draw_lit_span(f, look, &l->span[i]);
-        gn_levels_forget(l); /* nodes took their place */
-    } else draw_runs(f, look);
-}
-
-#if GN_VERTEX_COLOURS
-/* Times the vertices' colours, where light does not vary. Returns 0 if pixels are to be multiplied. */
-GN_HOT static int tint_vertices(gn_facet *f)
-{
-    const gn_surface *s = &f->s->surface;
-    if (!GN_COLOURED(s)) return 1;
-    for (int c = 0; c < 3; c++)
-        for (int k = 0; k < 3; k++) f->tint_q16[c][k] = tint_q16(s, c, k);
-    if (f->n_lights || GN_SMOOTH(s) || s->n_punctual) return 0;
-    for (int c = 0; c < 3; c++) {
-        for (int k = 0; k < 3; k++)
-            f->colour_q24[c][k] = gn_facet_tinted(f->base_q24[c] + f->colour_q24[c][k], f->tint_q16[c][k]);
-        f->base_q24[c] = 0;
-    }
-    return 1;
-}
-
-GN_HOT static void use_tints(gn_facet *f, facet_look *look)
-{
-    for (int c = 0; look->tinted && c < 3; c++) gn_facet_slope(&f->screen, &look->tint_q16[c], f->tint_q16[c]);
-}
-#else
-GN_HOT static int tint_vertices(gn_facet *f)
-{
-    (void)f;
-    return 1;
-}
-
-GN_HOT static void use_tints(gn_facet *f, facet_look *look)
-{
-    (void)f, (void)look;
-}
-#endif
-
 #if GN_SHADOWS
 /* Whether nothing but one shadow varies; sets its two colours. */
 GN_HOT static int use_two_colours(gn_facet *f)
@@ -254,6 +210,61 @@ GN_HOT static int use_two_colours(gn_facet *f)
 GN_HOT static void draw_levels(const gn_facet *f, const gn_run_span *span)
 {
     (void)f, (void)span;
+}
+#endif
+
+/* Of a span; `look` NULL: of two colours. */
+GN_HOT static void draw_pieces(const gn_facet *f, const facet_look *look, const gn_run_span *span)
+{
+    gn_run_span piece = *span;
+    for (int32_t left = span->n_px; left > 0; left -= GN_FACET_ROW_PX, piece.x += GN_FACET_ROW_PX) {
+        piece.n_px = (int16_t)gn_min32(left, GN_FACET_ROW_PX);
+        if (look) draw_lit_span(f, look, &piece);
+        else draw_levels(f, &piece);
+    }
+}
+
+GN_HOT static void draw_spans(const gn_facet *f, const facet_look *look)
+{
+    gn_lattice *l = &f->s->lattice;
+    GN_COUNT(facet_pixels, f->n_px);
+    if (look->each || f->s->surface.textured) {
+        for (int32_t i = 0; i < l->n_spans; i++) draw_pieces(f, look, &l->span[i]);
+        gn_levels_forget(l); /* nodes took their place */
+    } else draw_runs(f, look);
+}
+
+#if GN_VERTEX_COLOURS
+/* Times the vertices' colours, where light does not vary. Returns 0 if pixels are to be multiplied. */
+GN_HOT static int tint_vertices(gn_facet *f)
+{
+    const gn_surface *s = &f->s->surface;
+    if (!GN_COLOURED(s)) return 1;
+    for (int c = 0; c < 3; c++)
+        for (int k = 0; k < 3; k++) f->tint_q16[c][k] = tint_q16(s, c, k);
+    if (f->n_lights || GN_SMOOTH(s) || s->n_punctual) return 0;
+    for (int c = 0; c < 3; c++) {
+        for (int k = 0; k < 3; k++)
+            f->colour_q24[c][k] = gn_facet_tinted(f->base_q24[c] + f->colour_q24[c][k], f->tint_q16[c][k]);
+        f->base_q24[c] = 0;
+    }
+    return 1;
+}
+
+GN_HOT static void use_tints(gn_facet *f, facet_look *look)
+{
+    for (int c = 0; look->tinted && c < 3; c++) gn_facet_slope(&f->screen, &look->tint_q16[c], f->tint_q16[c]);
+}
+#else
+GN_HOT static int tint_vertices(gn_facet *f)
+{
+    (void)f;
+    return 1;
+}
+
+GN_HOT static void use_tints(gn_facet *f, facet_look *look)
+{
+    (void)f, (void)look;
 }
 #endif
 
@@ -312,7 +323,7 @@ GN_HOT GN_NOINLINE int gn_facet_draw(gn_facet *f)
     if (!look.each && draw_one_colour(f)) return 1;
     if (!f->screen.steep && use_two_colours(f)) {
         GN_COUNT(facet_pixels, f->n_px);
-        for (int32_t i = 0; i < l->n_spans; i++) draw_levels(f, &l->span[i]);
+        for (int32_t i = 0; i < l->n_spans; i++) draw_pieces(f, NULL, &l->span[i]);
         return 1;
     }
     if (!find_look(f, &look)) return 0;

@@ -43,9 +43,9 @@ GN_HOT static GN_NOINLINE int find_screen(gn_facet_screen *out, const gn_frame *
         }
     }
     if (longest > GN_FACET_PX << 13) return 0;
-    int64_t area = (int64_t)d[1][0] * d[2][1] - (int64_t)d[1][1] * d[2][0]; /* Q24, 2^35 */
+    int64_t area = (int64_t)d[1][0] * d[2][1] - (int64_t)d[1][1] * d[2][0]; /* Q24, 2^37 */
     uint64_t size = gn_abs64(area);
-    if (size >> 12 < longest || !size) return 0; /* 2^12 to 2^36, and 2^12 of what is longest */
+    if (size >> 12 < longest || !size) return 0; /* 2^12 to 2^38, and 2^12 of what is longest */
     int32_t clz = gn_clz64(size),
             recip = (int32_t)(gn_recip_norm((uint32_t)(size << clz >> 32), GN_K(frame, newton_steps)) >> 1);
     if (area < 0) recip = -recip;
@@ -74,14 +74,14 @@ GN_HOT GN_NOINLINE void gn_facet_slope(gn_facet_screen *screen, gn_slope *out, c
     for (int i = 0; i < 2; i++) {
         int64_t v = (int64_t)a * screen->along_q24[i][0] + (int64_t)b * screen->along_q24[i][1];
         if ((uint32_t)((int32_t)(v >> 32) + (1 << 15)) >> 16) v = 0, screen->steep = 1; /* 2^23 per pixel */
-        slope[i] = (int32_t)(v >> 24);
+        slope[i] = (int32_t)((v + (1 << 23)) >> 24);
     }
     out->at = at[0] + (int32_t)(((int64_t)slope[0] * first[0] + (int64_t)slope[1] * first[1]) >> 13);
     out->dx = slope[0];
     out->dy = slope[1];
 }
 
-#define CURVED (1 << 20) /* 16^2 of it, three times, and what is linear: below 2^31 */
+#define CURVED (1 << 20)
 
 /* With b0 = 1 - b1 - b2: m01 b0 b1 + m02 b0 b2 + m12 b1 b2 = m01 b1 + m02 b2 - m01 b1^2 - m02 b2^2 + (m12 - m01 - m02)
  * b1 b2. */
@@ -97,9 +97,9 @@ GN_HOT void gn_facet_curve_find(gn_facet_screen *screen, gn_facet_curve *out, co
                   b2y = (int64_t)m[1] * gy[1] + (((int64_t)m[2] * gy[0]) >> 1);
     const int32_t first[2] = {(int32_t)(b1x >> 24), (int32_t)(b2x >> 24)},
                   second[2] = {(int32_t)(b1y >> 24), (int32_t)(b2y >> 24)};
-    const int64_t sum[3] = {((int64_t)first[0] * gx[0] + (int64_t)first[1] * gx[1]) >> 24,
-                            ((int64_t)first[0] * gy[0] + (int64_t)first[1] * gy[1]) >> 23,
-                            ((int64_t)second[0] * gy[0] + (int64_t)second[1] * gy[1]) >> 24};
+    const int64_t sum[3] = {((int64_t)first[0] * gx[0] + (int64_t)first[1] * gx[1] + (1 << 23)) >> 24,
+                            ((int64_t)first[0] * gy[0] + (int64_t)first[1] * gy[1] + (1 << 22)) >> 23,
+                            ((int64_t)second[0] * gy[0] + (int64_t)second[1] * gy[1] + (1 << 23)) >> 24};
     int32_t v[3];
     gn_facet_slope(screen, &out->line, ends);
     for (int i = 0; i < 3; i++) {
@@ -120,10 +120,12 @@ GN_HOT void gn_facet_lengths(const gn_facet_curve *length2_q20, int32_t right, i
                              uint32_t *out_q30)
 {
     gn_facet_row row = gn_facet_row_of(length2_q20, right, down);
-    for (int32_t i = 0; i < n; i++, row.at += row.step, row.step += row.change) {
+    for (int32_t i = 0; i < n; i++) {
         uint32_t v = (uint32_t)gn_max32(1 << 18, gn_min32(row.at, (1 << 20) - 1)); /* 1/3 and more on the triangle */
         uint32_t y_q31 = (uint32_t)gn_rsqrt_entry((v >> 12) - 64U) << 16;
         out_q30[i] = gn_umul_high(y_q31, (3U << 30) - gn_umul_high(v << 12, gn_umul_high(y_q31, y_q31)));
+        row.at = (int32_t)((uint32_t)row.at + (uint32_t)row.step); /* beyond the row they go anywhere */
+        row.step = (int32_t)((uint32_t)row.step + (uint32_t)row.change);
     }
 }
 

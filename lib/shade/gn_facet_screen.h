@@ -6,7 +6,7 @@
 
 #if GN_INTERPOLATES
 
-enum { GN_FACET_PX = 16 };
+enum { GN_FACET_PX = 32, GN_FACET_ROW_PX = 16 /* of a span, at a time */ };
 
 /* Found once, when something varies. Returns 0 if the triangle is large, deep, or narrower than half a pixel. */
 int gn_facet_screen_use(gn_facet_screen *screen, const gn_frame *frame, const gn_surface *surface);
@@ -36,9 +36,12 @@ typedef struct {
 
 GN_HOT static inline gn_facet_row gn_facet_row_of(const gn_facet_curve *c, int32_t right, int32_t down)
 {
-    int32_t to_right = c->line.dx + c->xx * right + c->xy * down;
-    gn_facet_row row = {c->line.at + to_right * right + (c->line.dy + c->yy * down) * down,
-                        to_right + c->xx * (right + 1), 2 * c->xx};
+    /* parts of the sums may go beyond 32 bits, which cancels out */
+    const uint32_t x = (uint32_t)right, y = (uint32_t)down, xx = (uint32_t)c->xx,
+                   to_right = (uint32_t)c->line.dx + xx * x + (uint32_t)c->xy * y,
+                   to_down = (uint32_t)c->line.dy + (uint32_t)c->yy * y;
+    const gn_facet_row row = {(int32_t)((uint32_t)c->line.at + to_right * x + to_down * y),
+                              (int32_t)(to_right + xx * (x + 1)), 2 * c->xx};
     return row;
 }
 

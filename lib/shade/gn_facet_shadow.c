@@ -93,20 +93,17 @@ GN_HOT static GN_NOINLINE void place_vertices(const gn_shading *shading, uint32_
     for (int k = 0; k < 3; k++) out->at[2][k] = depth_q30_of(view, out->at[2][k]);
 }
 
-/* The view of a directional light that sees the triangle; NULL: none. */
-GN_HOT static const gn_light_view *view_of(const gn_shading *s, const gn_light_state *light)
+/* Views that pixels may look into, from the light's first, a bit each. */
+GN_HOT static uint32_t views_asked(const gn_shading *s, const gn_light_state *light)
 {
-    const gn_light_view *first = &s->frame->view[light->view_idx];
-    if (first->border_lit) return first;
-    return s->lattice.cascade == GN_CASCADE_NONE ? NULL : first + s->lattice.cascade;
+    if (light->kind != GN_LIGHT_DIRECTIONAL || s->frame->view[light->view_idx].border_lit) return 1;
+    return s->lattice.views & (GN_VIEWS_FADE - 1U);
 }
 
-GN_HOT static int place_in_ortho(gn_shading *s, uint32_t slot, const gn_light_view **view, vertex_places *out)
+GN_HOT static int place_in_ortho(gn_shading *s, uint32_t slot, const gn_light_view *view, vertex_places *out)
 {
-    *view = view_of(s, s->surface.light[slot].state);
-    if (!*view) return GN_CELL_LIT;
-    if (!use_matrix(&s->lattice.matrix, s->frame, *view)) return GN_CELL_SPLIT;
-    place_vertices(s, slot, *view, out);
+    if (!use_matrix(&s->lattice.matrix, s->frame, view)) return GN_CELL_SPLIT;
+    place_vertices(s, slot, view, out);
     return GN_CELL_EDGE;
 }
 
@@ -310,22 +307,41 @@ GN_HOT static int32_t find_spacing(const gn_frame *frame, const gn_facet_edge *e
     return 4 * texels_q16 <= most_q16 ? 2 : 2 * texels_q16 <= most_q16;
 }
 
+/* In one of the light's views: sets where it sees the vertices, or the face of a cube that does. */
+GN_HOT static int judge_in(gn_shading *s, const gn_facet_vertices *vertices, uint32_t slot, const gn_light_view **view,
+                           vertex_places *p, int32_t slope_q28[2])
+{
+    int32_t from[3] = {0, 0, 0};
+    int said = s->surface.light[slot].state->kind == GN_LIGHT_DIRECTIONAL
+                   ? place_in_ortho(s, slot, *view, p)
+                   : place_in_persp(s, vertices, slot, view, p, from);
+    if (said != GN_CELL_EDGE) return said;
+    GN_COUNT(places, 3);
+    gn_shadow_slopes(s->frame, &s->surface, *view, from, slope_q28);
+    return judge(s->frame, *view, p, slope_q28);
+}
+
 GN_HOT int gn_facet_shadow(gn_shading *s, gn_facet_screen *screen, const gn_facet_vertices *vertices, int32_t n_px,
                            uint32_t slot, gn_facet_edge *edge)
 {
-    const gn_light_view *view = NULL;
-    int32_t from[3] = {0, 0, 0};
+    const gn_light_state *light = s->surface.light[slot].state;
+    const gn_light_view *first = &s->frame->view[light->view_idx], *view = first;
+    const uint32_t views = views_asked(s, light);
     vertex_places p;
-    int said = s->surface.light[slot].state->kind == GN_LIGHT_DIRECTIONAL
-                   ? place_in_ortho(s, slot, &view, &p)
-                   : place_in_persp(s, vertices, slot, &view, &p, from);
-    if (said != GN_CELL_EDGE) return said;
-    GN_COUNT(places, 3);
-    gn_shadow_slopes(s->frame, &s->surface, view, from, edge->slope_q28);
-    said = judge(s->frame, view, &p, edge->slope_q28);
-    if (said != GN_CELL_EDGE) return said;
-    if ((n_px > FLAT_EDGE_PX && !GN_SMOOTH(&s->surface)) || !gn_facet_screen_use(screen, s->frame, &s->surface) ||
-        !vertex_places_hold(s->frame, &s->surface, view, &p))
+    int said = GN_CELL_LIT, before = GN_CELL_SPLIT;
+    for (uint32_t left = views; left;) {
+        const int32_t next = 31 - gn_clz32(left);
+        left &= ~(1U << next);
+        view = first + next;
+        said = judge_in(s, vertices, slot, &view, &p, edge->slope_q28);
+        if (said == GN_CELL_SPLIT || (before != GN_CELL_SPLIT && said != before)) return GN_CELL_SPLIT;
+        before = said;
+    }
+    if (said == GN_CELL_LIT || said == GN_CELL_SPLIT) return said;
+    if (s->lattice.views & GN_VIEWS_FADE) return GN_CELL_SPLIT; /* shadows are not what they are near the camera */
+    if (said == GN_CELL_DARK) return said;
+    if (views & (views - 1) || (n_px > FLAT_EDGE_PX && !GN_SMOOTH(&s->surface)) ||
+        !gn_facet_screen_use(screen, s->frame, &s->surface) || !vertex_places_hold(s->frame, &s->surface, view, &p))
         return GN_CELL_SPLIT;
     edge->view = view;
     gn_facet_slope(screen, &edge->u_q16, p.at[0]);

@@ -40,24 +40,33 @@ GN_HOT static void find_nearness(const gn_frame *frame, const gn_surface *s, int
     }
 }
 
-enum { ROW_LOG2 = 4, CHANGE_LOG2 = 26 /* 2^9 texels */ };
+enum { CHANGE_LOG2 = 26 /* 2^9 texels */ };
+
+/* Of the pixels of which a row's quadratic is found: 3, 5, 9 or 17. */
+GN_HOT static inline int32_t row_log2(int32_t n)
+{
+    return n <= 3 ? 1 : n <= 5 ? 2 : n <= 9 ? 3 : 4;
+}
 
 /* What coordinates along an axis are off by, texels, Q17: NUMERICS 4.17. `most` is the largest difference to vertex 0.
  */
-GN_HOT static uint32_t error_q17(const gn_slope *coord_q17, const gn_slope *e_q30, uint32_t e_most_q30, uint32_t most)
+GN_HOT static uint32_t error_q17(const gn_slope *coord_q17, const gn_slope *e_q30, uint32_t e_most_q30, uint32_t most,
+                                 int32_t log2)
 {
-    uint32_t row = gn_abs32(coord_q17->dx) << ROW_LOG2, e_row = (gn_abs32(e_q30->dx) << ROW_LOG2) >> 14,
+    uint32_t row = gn_abs32(coord_q17->dx) << log2, e_row = (gn_abs32(e_q30->dx) << log2) >> 14,
              e = (e_most_q30 >> 14) + e_row;                        /* Q16, <= 3 * 2^12 */
     uint64_t cube_q32 = ((uint64_t)e * e * e) >> 16;                /* 2^25 */
     uint64_t bent = (uint64_t)row + ((uint64_t)most * e_row >> 16); /* 2^27 + 2^23 */
-    uint64_t cut_off = most * cube_q32 >> 32, between = (bent * (e_row * e_row >> 3)) >> 32,
+    uint64_t sixth_q32 = (cube_q32 * cube_q32) >> 32;
+    uint64_t cut_off = most * sixth_q32 >> 32, between = (bent * (e_row * e_row >> 3)) >> 32,
              moved = (gn_abs32(coord_q17->dx) + gn_abs32(coord_q17->dy)) >> 13;
     return (uint32_t)(cut_off + (cut_off >> 2) + between + moved);
 }
 
 /* One axis. Returns 0 if it does not fit. */
 GN_HOT static int find_coordinate(gn_facet_texture *out, const gn_frame *frame, const gn_surface *s,
-                                  gn_facet_screen *screen, const int32_t e_q30[3], int axis)
+                                  gn_facet_screen *screen, const int32_t e_q30[3], int axis,
+                                  int32_t log2)
 {
     const int64_t size2 = 2 * (int64_t)gn_texture_size(out->texture, axis);
     const int64_t first = s->uv.uv_q16[0][axis] * size2;
@@ -74,39 +83,50 @@ GN_HOT static int find_coordinate(gn_facet_texture *out, const gn_frame *frame, 
     gn_slope *slope = &out->from_first_q17[axis];
     gn_facet_slope(screen, slope, at);
     out->first_q17[axis] = (int32_t)first - (out->texture->flags & GN_TEXTURE_BILINEAR ? (1 << 16) - (1 << 8) : 0);
-    return error_q17(slope, &out->e_q30, e_most, most) >> (17 - gn_cell_texture_log2(frame, out->texture)) == 0;
+    return error_q17(slope, &out->e_q30, e_most, most, log2) >> (17 - gn_cell_texture_log2(frame, out->texture)) == 0;
 }
 
-GN_HOT int gn_facet_texture_begin(gn_facet_texture *out, const gn_frame *frame, gn_surface *s, gn_facet_screen *screen)
+GN_HOT int gn_facet_texture_begin(gn_facet_texture *out, const gn_frame *frame, gn_surface *s, gn_facet_screen *screen,
+                                  int32_t width)
 {
+    const int32_t log2 = row_log2(width);
     int32_t e_q30[3];
     out->texture = texture_of(frame, s);
     if (!out->texture) return 0;
     find_nearness(frame, s, e_q30);
     gn_facet_slope(screen, &out->e_q30, e_q30);
-    if (gn_abs32(out->e_q30.dx) >> (26 - ROW_LOG2)) return 0;
+    if (gn_abs32(out->e_q30.dx) >> (26 - log2)) return 0;
     for (int axis = 0; axis < 2; axis++)
-        if (!find_coordinate(out, frame, s, screen, e_q30, axis)) return 0;
+        if (!find_coordinate(out, frame, s, screen, e_q30, axis, log2)) return 0;
     return !screen->steep;
 }
 
-/* 1 / (1 + e) = 1 - e + e^2 */
-GN_HOT static inline int32_t coordinate_at(const gn_facet_texture *t, int axis, int32_t right, int32_t down, int32_t e)
+/* e / (1 + e) = e - e^2 + e^3 - e^4 + e^5 */
+GN_HOT static inline int32_t less_q30_of(int32_t e_q30)
 {
-    int32_t at = gn_facet_at(&t->from_first_q17[axis], right, down), less_q30 = e - (int32_t)((int64_t)e * e >> 30);
+    const int32_t square = (int32_t)((int64_t)e_q30 * e_q30 >> 30),
+                  even = square + (int32_t)((int64_t)square * square >> 30);
+    return e_q30 - even + (int32_t)((int64_t)e_q30 * even >> 30);
+}
+
+GN_HOT static inline int32_t coordinate_at(const gn_slope *slope, int32_t right, int32_t down, int32_t less_q30)
+{
+    const int32_t at = gn_facet_at(slope, right, down);
     return at - (int32_t)((int64_t)at * less_q30 >> 30);
 }
 
 GN_HOT void gn_facet_texture_row(const gn_facet_texture *t, int32_t right, int32_t down, int32_t n, gn_texel_rgb *out)
 {
+    const int32_t log2 = row_log2(n), half = 1 << (log2 - 1), e = gn_facet_at(&t->e_q30, right, down),
+                  e_half = t->e_q30.dx * half, less = less_q30_of(e), less_half = less_q30_of(e + e_half),
+                  less_all = less_q30_of(e + 2 * e_half);
     gn_texture_line line;
-    int32_t log2 = n <= 3 ? 1 : n <= 5 ? 2 : n <= 9 ? 3 : ROW_LOG2, half = 1 << (log2 - 1);
-    int32_t e = gn_facet_at(&t->e_q30, right, down), e_half = t->e_q30.dx * half;
     for (int i = 0; i < 2; i++) {
-        int32_t from = coordinate_at(t, i, right, down, e), step = 0, change = 0;
+        const gn_slope *slope = &t->from_first_q17[i];
+        int32_t from = coordinate_at(slope, right, down, less), step = 0, change = 0;
         if (n > 1) {
-            int32_t middle = coordinate_at(t, i, right + half, down, e + e_half) - from,
-                    across = coordinate_at(t, i, right + 2 * half, down, e + 2 * e_half) - from;
+            int32_t middle = coordinate_at(slope, right + half, down, less_half) - from,
+                    across = coordinate_at(slope, right + 2 * half, down, less_all) - from;
             change = (((across - 2 * middle) >> (2 * log2 - 2)) + 1) >> 1; /* half of it */
             step = (across >> log2) - change * (2 * half - 1);
         }

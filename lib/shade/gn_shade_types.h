@@ -356,6 +356,9 @@ typedef struct {
 /* Corners that are kept: 9 of a cell that is split, and some that its neighbour asks for. */
 enum { GN_CORNERS = 12 };
 
+/* Shadows may fade with distance, or end. */
+#define GN_VIEWS_FADE 32
+
 #define GN_LATTICE_NODES 17 /* in a row of the largest cell */
 
 /* A surface by cells. */
@@ -374,8 +377,9 @@ typedef struct gn_lattice {
     const gn_light_view *offset_view; /* flat surfaces: a directional view, NULL: none, */
     int32_t offset_q16[3];            /* and the receiver's offset in it */
     int32_t uniform;                  /* nothing but shadows varies over the surface */
-    int32_t cascade;                  /* of all of the part, none of which fades; -1: of each point for itself */
-    int32_t surface_cascade;          /* the same of the surface */
+    int16_t cascade;                  /* of all of the part, none of which fades; -1: of each point for itself */
+    uint16_t views;                   /* small triangles: views of cascades, a bit each, and GN_VIEWS_FADE */
+    int16_t surface_cascade;          /* the same of the surface */
     int32_t size_log2;                /* of the largest cells, in pixels */
     int32_t x, y, x_end, y_end;       /* of the part, and where the surface ends */
     int32_t n_rows;                   /* of the part */
