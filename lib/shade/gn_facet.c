@@ -184,6 +184,9 @@ GN_HOT int gn_facet_shade(gn_shading *s, const gn_rect *box, int32_t n_px)
     if (box->x1 - box->x0 > GN_FACET_PX || box->y1 - box->y0 > GN_FACET_PX) return 0;
     if (surface->masked | surface->specular | surface->baked || GN_GLOWS(surface)) return 0;
     f->s = s;
+    f->screen.found = f->screen.steep = 0;
+    /* of a large one pixels may be few, but not light: cells are quicker */
+    if ((surface->shadowed | surface->n_punctual) && !gn_facet_use_screen(f)) return 0;
     if (surface->plane.det <= 0 || !find_turns(f) || !use_vertices(f)) return 0;
     s->lattice.cascade = -1;
 #if GN_SHADOWS
@@ -191,7 +194,6 @@ GN_HOT int gn_facet_shade(gn_shading *s, const gn_rect *box, int32_t n_px)
 #endif
     f->n_px = n_px;
     f->width = box->x1 - box->x0;
-    f->screen.found = f->screen.steep = 0;
     f->n_lights = 0;
     begin_colours(f);
     for (int c = 0; c < 3; c++) /* limited before it is multiplied: cells know */

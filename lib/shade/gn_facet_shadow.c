@@ -341,7 +341,7 @@ GN_HOT int gn_facet_shadow(gn_shading *s, gn_facet_screen *screen, const gn_face
     if (s->lattice.views & GN_VIEWS_FADE) return GN_CELL_SPLIT; /* shadows are not what they are near the camera */
     if (said == GN_CELL_DARK) return said;
     if (views & (views - 1) || (n_px > FLAT_EDGE_PX && !GN_SMOOTH(&s->surface)) ||
-        !gn_facet_screen_use(screen, s->frame, &s->surface) || !vertex_places_hold(s->frame, &s->surface, view, &p))
+        !vertex_places_hold(s->frame, &s->surface, view, &p))
         return GN_CELL_SPLIT;
     edge->view = view;
     gn_facet_slope(screen, &edge->u_q16, p.at[0]);
