@@ -181,7 +181,8 @@ GN_HOT int gn_facet_shade(gn_shading *s, const gn_rect *box, int32_t n_px)
 {
     const gn_surface *surface = &s->surface;
     gn_facet *f = &s->lattice.from.facet;
-    if (box->x1 - box->x0 > GN_FACET_PX || box->y1 - box->y0 > GN_FACET_PX) return 0;
+    const int32_t most = gn_facet_most_px(surface);
+    if (box->x1 - box->x0 > most || box->y1 - box->y0 > most) return 0;
     if (surface->masked | surface->specular | surface->baked || GN_GLOWS(surface)) return 0;
     f->s = s;
     f->screen.found = f->screen.steep = 0;

@@ -16,7 +16,7 @@
 /* What varies. */
 typedef struct {
     gn_slope colour_q24[3];
-    gn_facet_curve length2_q20; /* of the normal, if it turns */
+    gn_facet_curve length2_q22; /* of the normal, if it turns */
     gn_slope tint_q16[3];       /* the vertices' colours, if those are to be multiplied */
     int tinted, each;           /* nodes are all pixels */
 } facet_look;
@@ -102,7 +102,7 @@ GN_HOT static void light_pixels(const gn_facet *f, const facet_look *look, int32
     gn_lattice *l = &f->s->lattice;
     int32_t right = x - f->screen.x0, down = y - f->screen.y0;
     if (f->turns) {
-        gn_facet_lengths(&look->length2_q20, right, down, n, l->row.attenuation[1]);
+        gn_facet_lengths(&look->length2_q22, right, down, n, l->row.attenuation[1]);
         begin_nodes(f, look, right, down, n, l->row.attenuation[1]);
     } else begin_nodes(f, look, right, down, n, NULL);
     for (int32_t i = 0; i < f->n_lights; i++) add_pixel_light(f, &f->light[i], x, y, n);
@@ -298,7 +298,7 @@ GN_HOT static int draw_one_colour(gn_facet *f)
 /* Sets what varies. Returns 0 if something is too steep. */
 GN_HOT static int find_look(gn_facet *f, facet_look *look)
 {
-    int32_t one[3] = {1 << 20, 1 << 20, 1 << 20}, above[3];
+    int32_t one[3] = {1 << 22, 1 << 22, 1 << 22}, above[3];
     const int32_t(*colour)[3] = (const int32_t(*)[3])f->colour_q24;
     if (!gn_facet_use_screen(f)) return 0;
     for (int c = 0; c < 3; c++) {
@@ -307,8 +307,8 @@ GN_HOT static int find_look(gn_facet *f, facet_look *look)
         else gn_facet_slope(&f->screen, &look->colour_q24[c], a);
     }
     /* |n|^2 = 1 - b0 b1 d01^2 - b0 b2 d02^2 - b1 b2 d12^2 */
-    for (int k = 0; k < 3; k++) above[k] = -(int32_t)(f->turn_q28[k] >> 8);
-    if (f->turns) gn_facet_curve_find(&f->screen, &look->length2_q20, one, above);
+    for (int k = 0; k < 3; k++) above[k] = -(int32_t)(f->turn_q28[k] >> 6);
+    if (f->turns) gn_facet_curve_find(&f->screen, &look->length2_q22, one, above);
     use_tints(f, look);
     return use_texture(f) && !f->screen.steep;
 }

@@ -22,9 +22,10 @@ GN_HOT static int vertex_on_screen(const gn_frame *frame, const int32_t v_q16[3]
     return 1;
 }
 
-/* v / 2^(32 - up), 0 < up < 32, which fits */
+/* v / 2^(32 - up), -32 < up < 32, which fits */
 GN_HOT static inline int32_t upper_32(int64_t v, int32_t up)
 {
+    if (up <= 0) return (int32_t)(v >> 32) >> -up;
     return (int32_t)((uint32_t)((uint64_t)v >> 32) << up | (uint32_t)v >> (32 - up));
 }
 
@@ -42,10 +43,10 @@ GN_HOT static GN_NOINLINE int find_screen(gn_facet_screen *out, const gn_frame *
             longest = gn_abs32(d[k][i]) > longest ? gn_abs32(d[k][i]) : longest;
         }
     }
-    if (longest > GN_FACET_PX << 13) return 0;
-    int64_t area = (int64_t)d[1][0] * d[2][1] - (int64_t)d[1][1] * d[2][0]; /* Q24, 2^37 */
+    if (longest > (uint32_t)gn_facet_most_px(s) << 13) return 0;
+    int64_t area = (int64_t)d[1][0] * d[2][1] - (int64_t)d[1][1] * d[2][0]; /* Q24, 2^39 */
     uint64_t size = gn_abs64(area);
-    if (size >> 12 < longest || !size) return 0; /* 2^12 to 2^38, and 2^12 of what is longest */
+    if (size >> 12 < longest || !size) return 0; /* 2^12 to 2^40, and 2^12 of what is longest */
     int32_t clz = gn_clz64(size),
             recip = (int32_t)(gn_recip_norm((uint32_t)(size << clz >> 32), GN_K(frame, newton_steps)) >> 1);
     if (area < 0) recip = -recip;
@@ -81,7 +82,7 @@ GN_HOT GN_NOINLINE void gn_facet_slope(gn_facet_screen *screen, gn_slope *out, c
     out->dy = slope[1];
 }
 
-#define CURVED (1 << 20)
+#define CURVED (1 << 22) /* changes of changes */
 
 /* With b0 = 1 - b1 - b2: m01 b0 b1 + m02 b0 b2 + m12 b1 b2 = m01 b1 + m02 b2 - m01 b1^2 - m02 b2^2 + (m12 - m01 - m02)
  * b1 b2. */
@@ -116,14 +117,14 @@ GN_HOT void gn_facet_curve_find(gn_facet_screen *screen, gn_facet_curve *out, co
     out->yy = v[2];
 }
 
-GN_HOT void gn_facet_lengths(const gn_facet_curve *length2_q20, int32_t right, int32_t down, int32_t n,
+GN_HOT void gn_facet_lengths(const gn_facet_curve *length2_q22, int32_t right, int32_t down, int32_t n,
                              uint32_t *out_q30)
 {
-    gn_facet_row row = gn_facet_row_of(length2_q20, right, down);
+    gn_facet_row row = gn_facet_row_of(length2_q22, right, down);
     for (int32_t i = 0; i < n; i++) {
-        uint32_t v = (uint32_t)gn_max32(1 << 18, gn_min32(row.at, (1 << 20) - 1)); /* 1/3 and more on the triangle */
-        uint32_t y_q31 = (uint32_t)gn_rsqrt_entry((v >> 12) - 64U) << 16;
-        out_q30[i] = gn_umul_high(y_q31, (3U << 30) - gn_umul_high(v << 12, gn_umul_high(y_q31, y_q31)));
+        uint32_t v = (uint32_t)gn_max32(1 << 20, gn_min32(row.at, (1 << 22) - 1)); /* 1/3 and more on the triangle */
+        uint32_t y_q31 = (uint32_t)gn_rsqrt_entry((v >> 14) - 64U) << 16;
+        out_q30[i] = gn_umul_high(y_q31, (3U << 30) - gn_umul_high(v << 10, gn_umul_high(y_q31, y_q31)));
         row.at = (int32_t)((uint32_t)row.at + (uint32_t)row.step); /* beyond the row they go anywhere */
         row.step = (int32_t)((uint32_t)row.step + (uint32_t)row.change);
     }

@@ -30,13 +30,13 @@ GN_HOT static const gn_texture *texture_of(const gn_frame *frame, gn_surface *s)
 
 /* e at the vertices, by which they are nearer than the middle depth; |e| <= 1/8. */
 /* Parallel rays bend nothing. */
-GN_HOT static void find_nearness(const gn_frame *frame, const gn_surface *s, int32_t e_q30[3])
+GN_HOT static void find_nearness(const gn_frame *frame, const gn_surface *s, int32_t e_q27[3])
 {
     int32_t middle = s->z_min_q16 + ((s->z_max_q16 - s->z_min_q16) >> 1);
     for (int k = 0; k < 3; k++) {
         int32_t z = s->v_q16[k][2], nearer = middle - z;
-        int32_t e = (int32_t)gn_quotient_q30(gn_abs32(nearer), (uint32_t)z);
-        e_q30[k] = GN_FLAT_Q16(frame) ? 0 : nearer < 0 ? -e : e;
+        int32_t e = (int32_t)(gn_quotient_q30(gn_abs32(nearer), (uint32_t)z) >> 3);
+        e_q27[k] = GN_FLAT_Q16(frame) ? 0 : nearer < 0 ? -e : e;
     }
 }
 
@@ -50,11 +50,11 @@ GN_HOT static inline int32_t row_log2(int32_t n)
 
 /* What coordinates along an axis are off by, texels, Q17: NUMERICS 4.17. `most` is the largest difference to vertex 0.
  */
-GN_HOT static uint32_t error_q17(const gn_slope *coord_q17, const gn_slope *e_q30, uint32_t e_most_q30, uint32_t most,
+GN_HOT static uint32_t error_q17(const gn_slope *coord_q17, const gn_slope *e_q27, uint32_t e_most_q27, uint32_t most,
                                  int32_t log2)
 {
-    uint32_t row = gn_abs32(coord_q17->dx) << log2, e_row = (gn_abs32(e_q30->dx) << log2) >> 14,
-             e = (e_most_q30 >> 14) + e_row;                        /* Q16, <= 3 * 2^12 */
+    uint32_t row = gn_abs32(coord_q17->dx) << log2, e_row = (gn_abs32(e_q27->dx) << log2) >> 11,
+             e = (e_most_q27 >> 11) + e_row;                        /* Q16, <= 3 * 2^12 */
     uint64_t cube_q32 = ((uint64_t)e * e * e) >> 16;                /* 2^25 */
     uint64_t bent = (uint64_t)row + ((uint64_t)most * e_row >> 16); /* 2^27 + 2^23 */
     uint64_t sixth_q32 = (cube_q32 * cube_q32) >> 32;
@@ -65,7 +65,7 @@ GN_HOT static uint32_t error_q17(const gn_slope *coord_q17, const gn_slope *e_q3
 
 /* One axis. Returns 0 if it does not fit. */
 GN_HOT static int find_coordinate(gn_facet_texture *out, const gn_frame *frame, const gn_surface *s,
-                                  gn_facet_screen *screen, const int32_t e_q30[3], int axis,
+                                  gn_facet_screen *screen, const int32_t e_q27[3], int axis,
                                   int32_t log2)
 {
     const int64_t size2 = 2 * (int64_t)gn_texture_size(out->texture, axis);
@@ -77,33 +77,34 @@ GN_HOT static int find_coordinate(gn_facet_texture *out, const gn_frame *frame, 
         int64_t change = k ? s->uv.uv_q16[k][axis] * size2 : 0;
         if (change >> CHANGE_LOG2 != change >> 63) return 0;
         most = gn_abs32((int32_t)change) > most ? gn_abs32((int32_t)change) : most;
-        e_most = gn_abs32(e_q30[k]) > e_most ? gn_abs32(e_q30[k]) : e_most;
-        at[k] = (int32_t)(change + (change * e_q30[k] >> 30));
+        e_most = gn_abs32(e_q27[k]) > e_most ? gn_abs32(e_q27[k]) : e_most;
+        at[k] = (int32_t)(change + (change * e_q27[k] >> 27));
     }
     gn_slope *slope = &out->from_first_q17[axis];
     gn_facet_slope(screen, slope, at);
     out->first_q17[axis] = (int32_t)first - (out->texture->flags & GN_TEXTURE_BILINEAR ? (1 << 16) - (1 << 8) : 0);
-    return error_q17(slope, &out->e_q30, e_most, most, log2) >> (17 - gn_cell_texture_log2(frame, out->texture)) == 0;
+    return error_q17(slope, &out->e_q27, e_most, most, log2) >> (17 - gn_cell_texture_log2(frame, out->texture)) == 0;
 }
 
 GN_HOT int gn_facet_texture_begin(gn_facet_texture *out, const gn_frame *frame, gn_surface *s, gn_facet_screen *screen,
                                   int32_t width)
 {
     const int32_t log2 = row_log2(width);
-    int32_t e_q30[3];
+    int32_t e_q27[3];
     out->texture = texture_of(frame, s);
     if (!out->texture) return 0;
-    find_nearness(frame, s, e_q30);
-    gn_facet_slope(screen, &out->e_q30, e_q30);
-    if (gn_abs32(out->e_q30.dx) >> (26 - log2)) return 0;
+    find_nearness(frame, s, e_q27);
+    gn_facet_slope(screen, &out->e_q27, e_q27);
+    if (gn_abs32(out->e_q27.dx) >> (23 - log2)) return 0;
     for (int axis = 0; axis < 2; axis++)
-        if (!find_coordinate(out, frame, s, screen, e_q30, axis, log2)) return 0;
+        if (!find_coordinate(out, frame, s, screen, e_q27, axis, log2)) return 0;
     return !screen->steep;
 }
 
 /* e / (1 + e) = e - e^2 + e^3 - e^4 + e^5 */
-GN_HOT static inline int32_t less_q30_of(int32_t e_q30)
+GN_HOT static inline int32_t less_q30_of(int32_t e_q27)
 {
+    const int32_t e_q30 = e_q27 * 8; /* 3/16 */
     const int32_t square = (int32_t)((int64_t)e_q30 * e_q30 >> 30),
                   even = square + (int32_t)((int64_t)square * square >> 30);
     return e_q30 - even + (int32_t)((int64_t)e_q30 * even >> 30);
@@ -117,8 +118,8 @@ GN_HOT static inline int32_t coordinate_at(const gn_slope *slope, int32_t right,
 
 GN_HOT void gn_facet_texture_row(const gn_facet_texture *t, int32_t right, int32_t down, int32_t n, gn_texel_rgb *out)
 {
-    const int32_t log2 = row_log2(n), half = 1 << (log2 - 1), e = gn_facet_at(&t->e_q30, right, down),
-                  e_half = t->e_q30.dx * half, less = less_q30_of(e), less_half = less_q30_of(e + e_half),
+    const int32_t log2 = row_log2(n), half = 1 << (log2 - 1), e = gn_facet_at(&t->e_q27, right, down),
+                  e_half = t->e_q27.dx * half, less = less_q30_of(e), less_half = less_q30_of(e + e_half),
                   less_all = less_q30_of(e + 2 * e_half);
     gn_texture_line line;
     for (int i = 0; i < 2; i++) {
