@@ -4,6 +4,7 @@
 #define GN_CORNER_H
 
 #include "base/gn_count.h"
+#include "light/gn_bias.h"
 #include "shade/gn_sample.h"
 
 #if GN_INTERPOLATES
@@ -103,6 +104,23 @@ GN_HOT static inline int32_t gn_corner_ortho(const gn_ray_plane *r, const gn_cor
     }
 #endif
     return (int32_t)(at + (uint32_t)(gn_mul_high(ray->z, (int32_t)((uint32_t)r->a0 + across)) >> ray->down));
+}
+
+/* Whether receivers' offsets in a directional view are those of each point's normal; *along_q16: how long they are along
+ * it, texels; 0: that is not all. */
+GN_HOT static inline int gn_corner_lifts(const gn_lattice_light *how, const gn_surface *s, const gn_light_state *light,
+                                         const gn_light_view *view, int32_t *along_q16)
+{
+    const int automatic = GN_AUTO_BIAS && light->auto_bias;
+    if (!GN_SMOOTH(s) || (automatic && !GN_CURVED(s))) return 0;
+    *along_q16 = automatic ? gn_bias_auto_curved_q16(view) : how->lifts ? view->offset_q16 : 0;
+    return 1;
+}
+
+/* Texels, Q16, along an axis of a view, of what is moved along a normal. */
+GN_HOT static inline int32_t gn_corner_lift_q16(const int32_t n_q30[3], const int32_t axis_q30[3], int32_t along_q16)
+{
+    return 4 * gn_mul_high((int32_t)(gn_dot64(n_q30, axis_q30) >> 30), along_q16); /* |n| is 9/8 at most */
 }
 
 /* Sets u, v, depth in whichever way there is; once per corner, until another view is asked for. */

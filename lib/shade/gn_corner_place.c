@@ -31,17 +31,15 @@ GN_HOT static const int32_t *flat_offset(gn_lattice *l, const gn_frame *frame, c
 }
 
 /* Tile coordinates in texels, Q16, of what is moved along its normal. */
-GN_HOT static void coords_directional(const gn_corner_ray *ray, const gn_surface *s, const gn_corner *c,
-                                      const gn_light_view *view, const int32_t *flat_q16, int32_t coord_q16[3])
+GN_HOT static void coords_directional(const gn_corner_ray *ray, const int32_t n_q30[3], const gn_light_view *view,
+                                      int32_t along_q16, const int32_t *flat_q16, int32_t coord_q16[3])
 {
-    const int32_t *n = normal_of(s, c);
     for (int i = 0; i < 3; i++) {
-        int32_t at = gn_corner_ortho(&view->fit.ortho.ray[i], ray);
+        const int32_t at = gn_corner_ortho(&view->fit.ortho.ray[i], ray);
         if (flat_q16) coord_q16[i] = gn_sat32((int64_t)at + flat_q16[i]); /* automatic bias may say: lit */
         else
             coord_q16[i] =
-                (int32_t)((uint32_t)at +
-                          4 * (uint32_t)gn_mul_high((int32_t)(gn_dot64(n, view->axis_q30[i]) >> 30), view->offset_q16));
+                (int32_t)((uint32_t)at + (uint32_t)gn_corner_lift_q16(n_q30, view->axis_q30[i], along_q16));
     }
 }
 
@@ -85,8 +83,12 @@ GN_HOT static GN_NOINLINE void place_directional(gn_lattice *l, const gn_frame *
     int32_t coord[3], up = 14 - view->tile_log2 - view->depth_log2; /* texels, Q16, to a share of the range, Q30 */
     gn_corner_ray ray;
     const int fits = gn_corner_ray_begin(&ray, frame, view->fit.ortho.ray_shift, c->x, c->y, c->z_q16);
-    const int32_t *flat = GN_SMOOTH(s) ? NULL : flat_offset(l, frame, s, slot, view);
-    if (fits && (flat || l->light[slot].lifts)) coords_directional(&ray, s, c, view, flat, coord);
+    const gn_light_state *light = s->light[slot].state;
+    int32_t lifted[3], along = 0;
+    const int each = gn_corner_lifts(&l->light[slot], s, light, view, &along);
+    const int32_t *flat = each ? NULL : flat_offset(l, frame, s, slot, view);
+    if (fits && (flat || along))
+        coords_directional(&ray, gn_sample_lifted(s, light, normal_of(s, c), lifted), view, along, flat, coord);
     else gn_sample_in_view(frame, s, slot, view, c->x, c->y, c->z_q16, normal_of(s, c), coord);
     at->u_q16 = coord[0];
     at->v_q16 = coord[1];

@@ -54,16 +54,19 @@ GN_HOT static inline void find_offsets(const gn_shading *shading, uint32_t slot,
                                        int32_t offset[3][3])
 {
     const gn_surface *s = &shading->surface;
-    const int lifts = GN_SMOOTH(s) && shading->lattice.light[slot].lifts;
+    const gn_light_state *light = s->light[slot].state;
+    int32_t along = 0, lifted[3];
+    const int each = gn_corner_lifts(&shading->lattice.light[slot], s, light, view, &along);
     for (int k = 0; k < 3; k++) {
         int32_t n[3] = {s->normal_q30[0][0], s->normal_q30[0][1], s->normal_q30[0][2]};
         for (int i = 0; k && i < 3; i++) n[i] += s->normal_q30[k][i];
-        if (k && !GN_SMOOTH(s))
+        if (k && !each)
             for (int i = 0; i < 3; i++) offset[k][i] = offset[0][i];
-        else if (!lifts) gn_sample_offset(shading->frame, s, slot, view, n, offset[k]);
-        else
-            for (int i = 0; i < 3; i++)
-                offset[k][i] = 4 * gn_mul_high((int32_t)(gn_dot64(n, view->axis_q30[i]) >> 30), view->offset_q16);
+        else if (!along) gn_sample_offset(shading->frame, s, slot, view, n, offset[k]);
+        else {
+            const int32_t *moved = gn_sample_lifted(s, light, n, lifted);
+            for (int i = 0; i < 3; i++) offset[k][i] = gn_corner_lift_q16(moved, view->axis_q30[i], along);
+        }
     }
 }
 
