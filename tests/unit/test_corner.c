@@ -135,6 +135,11 @@ static void corner_scene(void)
     for (int i = 0; i < 3; i++)
         fixed.shadow.cascade_ratio_uq16[i] = (uint32_t)uniform(15000, 18000) * (uint32_t)(i + 1);
     fixed.shadow.blend = (gn_blend)uniform(0, 3);
+    if (one_in(2)) { /* the last cascade fades before the distance does */
+        fixed.shadow.distance_fade_uq16 = 66;
+        fixed.shadow.cascade_fade_uq16 = (uint32_t)uniform(10000, 60000);
+    }
+    if (one_in(4)) fixed.shadow.max_distance_q16 /= 4;
 }
 
 static int begin(const gn_knobs *knobs)
@@ -659,6 +664,32 @@ static void check_cascade(const gn_surface *s, int32_t cascade, int x, int y)
     CHECK_EQ_INT(gn_shadow_distance(&renderer.frame, s, &sample), 65536);
 }
 
+static long n_several, n_fading;
+
+/* Views that a box of pixels may look into must be those of each of its pixels, and whether shadows fade there. */
+static void check_views(gn_lattice *l, const gn_surface *s, const gn_rect *r, int x, int y)
+{
+    const gn_frame *frame = &renderer.frame;
+    const int32_t cascade = l->cascade, left = (int32_t)uniform(0, 64), up = (int32_t)uniform(0, 64);
+    const gn_rect box = {r->x0 > x - left ? r->x0 : x - left, r->y0 > y - up ? r->y0 : y - up,
+                         r->x1 < x + 64 - left ? r->x1 : x + 64 - left, r->y1 < y + 64 - up ? r->y1 : y + 64 - up};
+    gn_sample sample;
+    gn_corner_begin_box(l, frame, s, &box);
+    const uint32_t views = l->views & (GN_VIEWS_FADE - 1U);
+    n_several += (views & (views - 1)) != 0;
+    n_fading += l->views & GN_VIEWS_FADE ? 1 : 0;
+    gn_sample_at(frame, s, x, y, &sample);
+    if (gn_shadow_distance(frame, s, &sample) < 65536) CHECK(l->views & GN_VIEWS_FADE);
+    if (sample.cascade != GN_CASCADE_NONE) {
+        CHECK(views >> sample.cascade & 1U);
+        if (fixed.shadow.blend != GN_BLEND_HARD && sample.value[GN_VALUE_FADE] < 65536 &&
+            sample.cascade != GN_LAST_CASCADE(frame))
+            CHECK(views >> frame->cascade[sample.cascade].next & 1U);
+    }
+    if (l->cascade >= 0) check_cascade(s, l->cascade, x, y);
+    l->cascade = (int16_t)cascade;
+}
+
 static void check_part(gn_lattice *l, const gn_surface *s, const gn_rect *r, const known_point *k, int x, int y)
 {
     if (x < r->x0 || x >= r->x1 || y < r->y0 || y >= r->y1) return;
@@ -672,6 +703,7 @@ static void check_part(gn_lattice *l, const gn_surface *s, const gn_rect *r, con
     gn_corner_begin_part(l, &renderer.frame, s);
     check_cascade(s, l->cascade, x, y);
     l->cascade = l->surface_cascade;
+    check_views(l, s, r, x, y);
 }
 
 /* Light between corners of spots and point lights, where all of it arrives: the largest share of the bound. */
@@ -844,8 +876,9 @@ int main(int argc, char **argv)
     }
     CHECK(n_known > n_unseen && n_unseen > 100 && n_wide > 1000);
     printf("%ld corners are known, %ld of them outside of their triangles, %ld not; %ld of %ld surfaces have no plane; "
-           "cascades: %ld certain, %ld not\n",
-           n_known, n_wide, n_unseen, n_no_plane, n_planes + n_no_plane, n_certain, n_uncertain);
+           "cascades: %ld certain, %ld not; boxes: %ld in several, %ld where shadows fade\n",
+           n_known, n_wide, n_unseen, n_no_plane, n_planes + n_no_plane, n_certain, n_uncertain, n_several,
+           n_fading);
     printf("cells: coordinates of %ld bend along rows, of %ld down columns, of %ld not\n", n_bent_rows, n_bent_columns,
            n_straight);
     printf(
@@ -856,7 +889,7 @@ int main(int argc, char **argv)
     CHECK(n_planes > 2 * n_no_plane);
     CHECK(n_flat > 1000 && n_flat > 2 * n_not_flat);
     CHECK(n_wide_places > 1000);
-    CHECK(n_certain > 1000 && n_uncertain > 100);
+    CHECK(n_certain > 1000 && n_uncertain > 100 && n_several > 100 && n_fading > 100);
     CHECK(lit_by_bias.n > 1000);
     CHECK_TALLY(lit_by_bias, "planes that automatic bias leaves lit");
     CHECK_TALLY(bias_of_need, "automatic bias, no more than needed");
