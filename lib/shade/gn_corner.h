@@ -106,8 +106,8 @@ GN_HOT static inline int32_t gn_corner_ortho(const gn_ray_plane *r, const gn_cor
     return (int32_t)(at + (uint32_t)(gn_mul_high(ray->z, (int32_t)((uint32_t)r->a0 + across)) >> ray->down));
 }
 
-/* Whether receivers' offsets in a directional view are those of each point's normal; *along_q16: how long they are along
- * it, texels; 0: that is not all. */
+/* Whether receivers' offsets in a directional view are those of each point's normal; *along_q16: how long they are
+ * along it, texels; 0: that is not all. */
 GN_HOT static inline int gn_corner_lifts(const gn_lattice_light *how, const gn_surface *s, const gn_light_state *light,
                                          const gn_light_view *view, int32_t *along_q16)
 {

@@ -37,9 +37,7 @@ GN_HOT static void coords_directional(const gn_corner_ray *ray, const int32_t n_
     for (int i = 0; i < 3; i++) {
         const int32_t at = gn_corner_ortho(&view->fit.ortho.ray[i], ray);
         if (flat_q16) coord_q16[i] = gn_sat32((int64_t)at + flat_q16[i]); /* automatic bias may say: lit */
-        else
-            coord_q16[i] =
-                (int32_t)((uint32_t)at + (uint32_t)gn_corner_lift_q16(n_q30, view->axis_q30[i], along_q16));
+        else coord_q16[i] = (int32_t)((uint32_t)at + (uint32_t)gn_corner_lift_q16(n_q30, view->axis_q30[i], along_q16));
     }
 }
 

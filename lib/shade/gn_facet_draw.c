@@ -114,7 +114,8 @@ GN_HOT static void light_pixels(const gn_facet *f, const facet_look *look, int32
 GN_HOT static int use_texture(gn_facet *f)
 {
     return !f->s->surface.textured ||
-           (gn_facet_use_screen(f) && gn_facet_texture_begin(&f->texture, f->s->frame, &f->s->surface, &f->screen, f->width));
+           (gn_facet_use_screen(f) &&
+            gn_facet_texture_begin(&f->texture, f->s->frame, &f->s->surface, &f->screen, f->width));
 }
 
 /* Texels of a span, and whether its n nodes are all in 2^-18 .. 1. */

@@ -65,8 +65,7 @@ GN_HOT static uint32_t error_q17(const gn_slope *coord_q17, const gn_slope *e_q2
 
 /* One axis. Returns 0 if it does not fit. */
 GN_HOT static int find_coordinate(gn_facet_texture *out, const gn_frame *frame, const gn_surface *s,
-                                  gn_facet_screen *screen, const int32_t e_q27[3], int axis,
-                                  int32_t log2)
+                                  gn_facet_screen *screen, const int32_t e_q27[3], int axis, int32_t log2)
 {
     const int64_t size2 = 2 * (int64_t)gn_texture_size(out->texture, axis);
     const int64_t first = s->uv.uv_q16[0][axis] * size2;

@@ -60,7 +60,7 @@ enum { GN_FACET_LIGHTS = 3 };
 typedef struct {
     struct gn_shading *s;
     gn_facet_screen screen;
-    int32_t n_px, width; /* visible pixels, and columns that they lie in */
+    int32_t n_px, width;      /* visible pixels, and columns that they lie in */
     int turns;                /* light is divided by the length of the interpolated normal, */
     uint32_t turn_q28[3];     /* as they differ by so much, squared: vertices 0 and 1, 0 and 2, 1 and 2 */
     int32_t base_q24[3];      /* ambient, and what it emits */

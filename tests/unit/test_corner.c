@@ -877,8 +877,7 @@ int main(int argc, char **argv)
     CHECK(n_known > n_unseen && n_unseen > 100 && n_wide > 1000);
     printf("%ld corners are known, %ld of them outside of their triangles, %ld not; %ld of %ld surfaces have no plane; "
            "cascades: %ld certain, %ld not; boxes: %ld in several, %ld where shadows fade\n",
-           n_known, n_wide, n_unseen, n_no_plane, n_planes + n_no_plane, n_certain, n_uncertain, n_several,
-           n_fading);
+           n_known, n_wide, n_unseen, n_no_plane, n_planes + n_no_plane, n_certain, n_uncertain, n_several, n_fading);
     printf("cells: coordinates of %ld bend along rows, of %ld down columns, of %ld not\n", n_bent_rows, n_bent_columns,
            n_straight);
     printf(
