@@ -59,7 +59,7 @@ GN_HOT static uint32_t error_q17(const gn_slope *coord_q17, const gn_slope *e_q2
     uint64_t bent = (uint64_t)row + ((uint64_t)most * e_row >> 16); /* 2^27 + 2^23 */
     uint64_t sixth_q32 = (cube_q32 * cube_q32) >> 32;
     uint64_t cut_off = most * sixth_q32 >> 32, between = (bent * (e_row * e_row >> 3)) >> 32,
-             moved = (gn_abs32(coord_q17->dx) + gn_abs32(coord_q17->dy)) >> 13;
+             moved = ((gn_abs32(coord_q17->dx) + gn_abs32(coord_q17->dy)) >> 13) + (most >> 17);
     return (uint32_t)(cut_off + (cut_off >> 2) + between + moved);
 }
 
