@@ -61,7 +61,8 @@ GN_HOT static int find_punctual(gn_facet *f, uint32_t slot, gn_facet_light *out,
 {
     const int32_t *b = f->base_q24;
     gn_facet_lamp lamp;
-    int said = gn_facet_punctual(f->s, &f->vertices, slot, gn_max32(b[0], gn_max32(b[1], b[2])), &lamp);
+    int said =
+        gn_facet_punctual(f->s, &f->vertices, slot, gn_max32(b[0], gn_max32(b[1], b[2])), f->screen.size_log2, &lamp);
     if (said != GN_CELL_LIT) return said;
     out->has_rim = lamp.has_rim;
     for (int k = 0; k < 3; k++) {

@@ -98,18 +98,18 @@ GN_HOT static uint32_t error_q24(const gn_facet_vertices *v, const light_at_vert
     return error >> 27 ? 1U << 27 : (uint32_t)error + 1;
 }
 
-/* Whether that is too much beside what arrives at all. */
+/* Whether that is too much beside what arrives at all; on more pixels it is seen sooner. */
 GN_HOT static int is_uneven(const gn_frame *frame, const gn_surface_light *light, uint32_t error, int32_t least_q24,
-                            int32_t base_q24)
+                            int32_t base_q24, int32_t size_log2)
 {
     const uint32_t strongest = gn_cell_strongest(light->radiance_uq16);
     const uint64_t seen = (uint64_t)gn_corner_times(strongest, gn_max32(least_q24, 0)) + (uint32_t)base_q24 + (1 << 19);
-    const int32_t log2 = gn_max32(gn_cell_light_log2(frame), 2 - gn_cell_sum_log2(frame));
+    const int32_t log2 = gn_max32(gn_cell_light_log2(frame), 2 - gn_cell_sum_log2(frame)) + size_log2;
     return (uint64_t)gn_corner_times(strongest, (int32_t)error) << log2 > seen;
 }
 
 GN_HOT int gn_facet_punctual(gn_shading *s, const gn_facet_vertices *v, uint32_t slot, int32_t base_q24,
-                             gn_facet_lamp *out)
+                             int32_t size_log2, gn_facet_lamp *out)
 {
     enum { ONE_Q20 = 1 << 20 };
     const gn_surface_light *light = &s->surface.light[slot];
@@ -133,7 +133,7 @@ GN_HOT int gn_facet_punctual(gn_shading *s, const gn_facet_vertices *v, uint32_t
     if (at.nearest_q32 - (longest2_of(v) >> 1) >= light->state->range2_q32) return GN_CELL_DARK;
     out->error_q24 = error_q24(v, &at);
     if (most < 0 && (uint32_t)-most >= out->error_q24) return GN_CELL_DARK;
-    if (is_uneven(s->frame, light, out->error_q24, least, base_q24)) return GN_CELL_SPLIT;
+    if (is_uneven(s->frame, light, out->error_q24, least, base_q24, size_log2)) return GN_CELL_SPLIT;
     return most > 0 && !outer ? GN_CELL_LIT : GN_CELL_DARK;
 }
 

@@ -18,10 +18,10 @@ typedef struct {
     uint32_t error_q24;        /* how far what is linear in between is off at most */
 } gn_facet_lamp;
 
-/* `base_q24` is the light that there is without this one, of the brightest channel. GN_CELL_DARK: none arrives
- * anywhere; GN_CELL_SPLIT: it is not close to linear. */
+/* `base_q24` is the light that there is without this one, of the brightest channel. `size_log2` is the screen's.
+ * GN_CELL_DARK: none arrives anywhere; GN_CELL_SPLIT: it is not close to linear. */
 int gn_facet_punctual(gn_shading *s, const gn_facet_vertices *vertices, uint32_t slot, int32_t base_q24,
-                      gn_facet_lamp *out);
+                      int32_t size_log2, gn_facet_lamp *out);
 
 #endif
 

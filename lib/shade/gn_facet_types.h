@@ -15,6 +15,7 @@ typedef struct {
 typedef struct {
     int16_t found;           /* 0: not asked for yet; -1: it is large, deep or narrow */
     int16_t steep;           /* some value changes too fast */
+    int16_t size_log2;       /* up to 16, 32 or 64 pixels: 0, 1 or 2 */
     int32_t x0, y0;          /* the pixel of vertex 0, from which others are counted: right and down */
     int32_t along_q24[2][2]; /* the change per pixel, right and down, of what is 1 more at vertex 1, or at vertex 2 */
     int32_t to_first_q13[2]; /* pixels from vertex 0 to the centre of its pixel, right and down */

@@ -171,7 +171,7 @@ static void try_case(gn_frame *frame)
             turn_q28[k] += (uint32_t)lround(ldexp(d * d, 28));
         }
     if (!CHECK(gn_facet_vertices_find(&v, frame, s, turn_q28))) return;
-    const int said = gn_facet_punctual(&shading, &v, 0, 1 << 24, &lamp);
+    const int said = gn_facet_punctual(&shading, &v, 0, 1 << 24, 0, &lamp);
     if (said == GN_CELL_SPLIT) {
         n_split++;
         if (lamp.error_q24) compare(&frame->light[0], &v, &lamp, 0); /* not told before it is known */
@@ -222,9 +222,9 @@ static void test_reach(gn_light_state *light)
         const int32_t side = i % 2 ? 1 : -1;
         for (int k = 0; k < 3; k++) v.normal_q30[k][i / 2] = -side * (1 << 29);
         light->from_light[i / 2].d_q16 = side * ((1 << 30) - (100 << 16));
-        CHECK(gn_facet_punctual(&shading, &v, 0, 1 << 24, &lamp) == GN_CELL_LIT);
+        CHECK(gn_facet_punctual(&shading, &v, 0, 1 << 24, 0, &lamp) == GN_CELL_LIT);
         light->from_light[i / 2].d_q16 = side * ((1 << 30) + (100 << 16));
-        CHECK(gn_facet_punctual(&shading, &v, 0, 1 << 24, &lamp) == GN_CELL_SPLIT);
+        CHECK(gn_facet_punctual(&shading, &v, 0, 1 << 24, 0, &lamp) == GN_CELL_SPLIT);
         light->from_light[i / 2].d_q16 = 0;
         for (int k = 0; k < 3; k++) v.normal_q30[k][i / 2] = 0;
     }

@@ -198,6 +198,54 @@ static void try_lengths(void)
     printf("squares of lengths: %d triangles, off by up to 2^%.2f\n", lengths_found, log2(worst_length2));
 }
 
+/* ---- Perspective ------------------------------------------------------------------------------------------------- */
+
+/* By how many pixels perspective moves what is linear along an edge. */
+static double bend_of(const double a[3], const double b[3])
+{
+    const double ratio = sqrt(fmax(a[2], b[2]) / fmin(a[2], b[2]));
+    return (ratio - 1) / (ratio + 1) * fmax(fabs(a[0] - b[0]), fabs(a[1] - b[1]));
+}
+
+static void try_bends(void)
+{
+    static gn_surface surface;
+    const gn_frame *frame = &renderer.frame;
+    const double focal2 = ldexp(frame->cam.focal2_px_q16, -16);
+    long n = 0, n_large = 0;
+    double worst = 0;
+    for (int i = 0; i < 20000; i++) {
+        double p[3][3], lo = 1e9, hi = 0, longest = 0;
+        const double at[2] = {uniform(40, 120), uniform(40, 80)}, reach = uniform(1, 40), deep = uniform(0, 0.4);
+        gn_facet_screen screen = {0};
+        for (int k = 0; k < 3; k++) {
+            p[k][2] = 20 * (1 + uniform(0, deep));
+            for (int a = 0; a < 2; a++) {
+                p[k][a] = at[a] + uniform(-reach, reach);
+                surface.v_q16[k][a] =
+                    (int32_t)lround(ldexp((a ? HEIGHT - 2 * p[k][a] : 2 * p[k][a] - WIDTH) / focal2 * p[k][2], 16));
+            }
+            surface.v_q16[k][2] = (int32_t)lround(ldexp(p[k][2], 16));
+            lo = fmin(lo, p[k][2]);
+            hi = fmax(hi, p[k][2]);
+        }
+        surface.z_min_q16 = (int32_t)ldexp(lo, 16);
+        surface.z_max_q16 = (int32_t)ldexp(hi, 16);
+        surface.smooth = 1;
+        if (!gn_facet_screen_use(&screen, frame, &surface)) continue;
+        for (int k = 0; k < 3; k++) {
+            worst = fmax(worst, bend_of(p[k], p[(k + 1) % 3]));
+            for (int a = 0; k && a < 2; a++) longest = fmax(longest, fabs(p[k][a] - p[0][a]));
+        }
+        n++;
+        n_large += screen.size_log2 == 2;
+        CHECK(longest < (16 << screen.size_log2) + 0.01);
+    }
+    CHECK(n > 2000 && n_large > 200);
+    CHECK(worst < 2); /* a pixel along each edge of vertex 0, and so twice that along the other */
+    printf("perspective: %ld triangles, %ld of them large, bent by up to %.2f pixels\n", n, n_large, worst);
+}
+
 #if GN_PUNCTUAL_LIGHTS
 /* In place of the sun: from above, so near that its light differs over the ball; a cone's rim lies on the ball. */
 static void compare_lamps(void)
@@ -231,6 +279,7 @@ int main(void)
 {
     gn_texture texture;
     try_lengths();
+    try_bends();
     for (uint32_t frame = 0; frame < FRAMES; frame++) {
         demo_scene_make(&demo, frame);
         if (frame & 1) { /* no part of a shadow fades */

@@ -10,6 +10,7 @@ size_t poses_count_affines(const scene *s)
 
 void poses_store(const scene_poses *p, size_t pose_idx, const scene *s)
 {
+    if (!p->n_objects) return; /* nothing is allocated */
     scene_affine *to = p->affines + pose_idx * p->n_affines;
     for (size_t i = 0; i < p->n_objects; i++) {
         *to++ = s->objects[i].to_world;
@@ -19,6 +20,7 @@ void poses_store(const scene_poses *p, size_t pose_idx, const scene *s)
 
 void poses_apply(const scene_poses *p, size_t pose_idx, scene *s)
 {
+    if (!p->n_objects) return;
     const scene_affine *from = p->affines + pose_idx * p->n_affines;
     for (size_t i = 0; i < p->n_objects; i++) {
         s->objects[i].to_world = *from++;
