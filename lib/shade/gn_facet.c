@@ -194,8 +194,8 @@ GN_HOT int gn_facet_shade(gn_shading *s, const gn_rect *box, int32_t n_px)
 #if GN_SHADOWS
     gn_corner_begin_box(&s->lattice, s->frame, surface, box);
 #endif
-    f->n_px = n_px;
-    f->width = box->x1 - box->x0;
+    f->n_px = (int16_t)n_px;
+    f->width = (int16_t)(box->x1 - box->x0);
     f->n_lights = 0;
     begin_colours(f);
     for (int c = 0; c < 3; c++) /* limited before it is multiplied: cells know */

@@ -69,7 +69,7 @@ GN_HOT static GN_NOINLINE int find_screen(gn_facet_screen *out, const gn_frame *
 
 GN_HOT int gn_facet_screen_use(gn_facet_screen *screen, const gn_frame *frame, const gn_surface *surface)
 {
-    if (!screen->found) screen->found = find_screen(screen, frame, surface) ? 1 : -1;
+    if (!screen->found) screen->found = (int8_t)(find_screen(screen, frame, surface) ? 1 : -1);
     return screen->found > 0;
 }
 

@@ -13,8 +13,8 @@ typedef struct {
 
 /* On the screen. */
 typedef struct {
-    int16_t found;           /* 0: not asked for yet; -1: it is large, deep or narrow */
-    int16_t steep;           /* some value changes too fast */
+    int8_t found;            /* 0: not asked for yet; -1: it is large, deep or narrow */
+    int8_t steep;            /* some value changes too fast */
     int16_t size_log2;       /* up to 16, 32 or 64 pixels: 0, 1 or 2 */
     int32_t x0, y0;          /* the pixel of vertex 0, from which others are counted: right and down */
     int32_t along_q24[2][2]; /* the change per pixel, right and down, of what is 1 more at vertex 1, or at vertex 2 */
@@ -61,7 +61,7 @@ enum { GN_FACET_LIGHTS = 3 };
 typedef struct {
     struct gn_shading *s;
     gn_facet_screen screen;
-    int32_t n_px, width;      /* visible pixels, and columns that they lie in */
+    int16_t n_px, width;      /* visible pixels, and columns that they lie in */
     int turns;                /* light is divided by the length of the interpolated normal, */
     uint32_t turn_q28[3];     /* as they differ by so much, squared: vertices 0 and 1, 0 and 2, 1 and 2 */
     int32_t base_q24[3];      /* ambient, and what it emits */
