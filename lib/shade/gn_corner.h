@@ -32,7 +32,7 @@ int32_t gn_corner_depth(const gn_lattice *lattice, const gn_frame *frame, const 
 /* gn_corner_begin()'s: whether one cascade is that of all of the surface. */
 void gn_corner_begin_cascade(gn_lattice *lattice, const gn_frame *frame, const gn_surface *surface);
 
-/* The same of the pixels of `box`. */
+/* Sets the views that small triangles with pixels in `box` may look into. */
 void gn_corner_begin_box(gn_lattice *lattice, const gn_frame *frame, const gn_surface *surface, const gn_rect *box);
 
 /* Once per part: whether one cascade is that of all of its points. */
@@ -106,15 +106,19 @@ GN_HOT static inline int32_t gn_corner_ortho(const gn_ray_plane *r, const gn_cor
     return (int32_t)(at + (uint32_t)(gn_mul_high(ray->z, (int32_t)((uint32_t)r->a0 + across)) >> ray->down));
 }
 
-/* Whether receivers' offsets in a directional view are those of each point's normal; *along_q16: how long they are
- * along it, texels; 0: that is not all. */
-GN_HOT static inline int gn_corner_lifts(const gn_lattice_light *how, const gn_surface *s, const gn_light_state *light,
-                                         const gn_light_view *view, int32_t *along_q16)
+/* Offsets of receivers in a directional view: one of the face; a length along each point's normal; or more than that.
+ */
+enum { GN_OFFSET_OF_FACE, GN_OFFSET_ALONG, GN_OFFSET_OF_POINT };
+
+/* Which of them; sets that length, texels, Q16. */
+GN_HOT static inline int gn_corner_offsets(const gn_lattice_light *how, const gn_surface *s,
+                                           const gn_light_state *light, const gn_light_view *view, int32_t *along_q16)
 {
     const int automatic = GN_AUTO_BIAS && light->auto_bias;
-    if (!GN_SMOOTH(s) || (automatic && !GN_CURVED(s))) return 0;
-    *along_q16 = automatic ? gn_bias_auto_curved_q16(view) : how->lifts ? view->offset_q16 : 0;
-    return 1;
+    if (!GN_SMOOTH(s) || (automatic && !GN_CURVED(s))) return GN_OFFSET_OF_FACE;
+    if (!automatic && !how->lifts) return GN_OFFSET_OF_POINT;
+    *along_q16 = automatic ? gn_bias_auto_curved_q16(view) : view->offset_q16;
+    return GN_OFFSET_ALONG;
 }
 
 /* Texels, Q16, along an axis of a view, of what is moved along a normal. */

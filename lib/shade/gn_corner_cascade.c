@@ -97,12 +97,10 @@ GN_HOT static void find_tangents(const gn_frame *frame, int32_t x0, int32_t x1, 
 GN_HOT void gn_corner_begin_box(gn_lattice *l, const gn_frame *frame, const gn_surface *s, const gn_rect *box)
 {
     extent e = {s->z_min_q16, s->z_max_q16, 0, 0};
-    l->cascade = -1;
     l->views = 0;
     if (!s->shadowed) return;
     find_tangents(frame, box->x0, box->x1 - 1, box->y0, box->y1 - 1, &e);
     l->views = (uint16_t)possible_views(frame, &e);
-    l->cascade = certain_cascade(l->views);
 }
 
 GN_HOT void gn_corner_begin_part(gn_lattice *l, const gn_frame *frame, const gn_surface *s)

@@ -83,9 +83,9 @@ GN_HOT static GN_NOINLINE void place_directional(gn_lattice *l, const gn_frame *
     const int fits = gn_corner_ray_begin(&ray, frame, view->fit.ortho.ray_shift, c->x, c->y, c->z_q16);
     const gn_light_state *light = s->light[slot].state;
     int32_t lifted[3], along = 0;
-    const int each = gn_corner_lifts(&l->light[slot], s, light, view, &along);
-    const int32_t *flat = each ? NULL : flat_offset(l, frame, s, slot, view);
-    if (fits && (flat || along))
+    const int offsets = gn_corner_offsets(&l->light[slot], s, light, view, &along);
+    const int32_t *flat = offsets == GN_OFFSET_OF_FACE ? flat_offset(l, frame, s, slot, view) : NULL;
+    if (fits && offsets != GN_OFFSET_OF_POINT)
         coords_directional(&ray, gn_sample_lifted(s, light, normal_of(s, c), lifted), view, along, flat, coord);
     else gn_sample_in_view(frame, s, slot, view, c->x, c->y, c->z_q16, normal_of(s, c), coord);
     at->u_q16 = coord[0];

@@ -70,7 +70,7 @@ GN_HOT static int find_punctual(gn_facet *f, uint32_t slot, gn_facet_light *out,
         if (gn_facet_shows_shadow(f)) e_q24[k] = e_q24[k] > 0 ? 1 << 24 : 0;
     }
     if (!lamp.has_rim) return said;
-    if (gn_facet_shows_shadow(f) || !gn_facet_use_screen(f)) return GN_CELL_SPLIT;
+    if (gn_facet_shows_shadow(f)) return GN_CELL_SPLIT;
     gn_facet_slope(&f->screen, &out->rim_q20, lamp.rim_q20);
     return f->screen.steep ? GN_CELL_SPLIT : said;
 }
@@ -190,7 +190,6 @@ GN_HOT int gn_facet_shade(gn_shading *s, const gn_rect *box, int32_t n_px)
     /* of a large one pixels may be few, but not light: cells are quicker */
     if ((surface->shadowed | surface->n_punctual) && !gn_facet_use_screen(f)) return 0;
     if (surface->plane.det <= 0 || !find_turns(f) || !use_vertices(f)) return 0;
-    s->lattice.cascade = -1;
 #if GN_SHADOWS
     gn_corner_begin_box(&s->lattice, s->frame, surface, box);
 #endif

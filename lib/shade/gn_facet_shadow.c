@@ -56,13 +56,13 @@ GN_HOT static inline void find_offsets(const gn_shading *shading, uint32_t slot,
     const gn_surface *s = &shading->surface;
     const gn_light_state *light = s->light[slot].state;
     int32_t along = 0, lifted[3];
-    const int each = gn_corner_lifts(&shading->lattice.light[slot], s, light, view, &along);
+    const int offsets = gn_corner_offsets(&shading->lattice.light[slot], s, light, view, &along);
     for (int k = 0; k < 3; k++) {
         int32_t n[3] = {s->normal_q30[0][0], s->normal_q30[0][1], s->normal_q30[0][2]};
         for (int i = 0; k && i < 3; i++) n[i] += s->normal_q30[k][i];
-        if (k && !each)
+        if (k && offsets == GN_OFFSET_OF_FACE)
             for (int i = 0; i < 3; i++) offset[k][i] = offset[0][i];
-        else if (!along) gn_sample_offset(shading->frame, s, slot, view, n, offset[k]);
+        else if (offsets != GN_OFFSET_ALONG) gn_sample_offset(shading->frame, s, slot, view, n, offset[k]);
         else {
             const int32_t *moved = gn_sample_lifted(s, light, n, lifted);
             for (int i = 0; i < 3; i++) offset[k][i] = gn_corner_lift_q16(moved, view->axis_q30[i], along);

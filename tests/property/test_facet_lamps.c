@@ -19,7 +19,7 @@ static gn_renderer renderer;
 static demo_scene demo;
 static gn_shading shading;
 static rng random_state = {40417};
-static int n_lit, n_rims, n_dark, n_split, n_ranges;
+static int n_lit, n_rims, n_dark, n_split, n_ranges, n_refused[2];
 static double nearest_to_bound;
 
 static double uniform(double lo, double hi)
@@ -147,6 +147,18 @@ static void compare(const gn_light_state *light, const gn_facet_vertices *v, con
     CHECK(worst <= lamp->error_q24);
 }
 
+/* What may be off is half as much with each size, so that a larger triangle is refused no later; nothing else changes.
+ */
+static void compare_sizes(const gn_facet_vertices *v, int said)
+{
+    for (int32_t size_log2 = 1; size_log2 <= 2; size_log2++) {
+        gn_facet_lamp lamp = {.error_q24 = 0};
+        const int larger = gn_facet_punctual(&shading, v, 0, 1 << 24, size_log2, &lamp);
+        CHECK(larger == said || larger == GN_CELL_SPLIT);
+        n_refused[size_log2 - 1] += said != GN_CELL_SPLIT && larger == GN_CELL_SPLIT;
+    }
+}
+
 static void try_case(gn_frame *frame)
 {
     static const uint32_t unknown[3] = {0, 0, 0};
@@ -172,6 +184,7 @@ static void try_case(gn_frame *frame)
         }
     if (!CHECK(gn_facet_vertices_find(&v, frame, s, turn_q28))) return;
     const int said = gn_facet_punctual(&shading, &v, 0, 1 << 24, 0, &lamp);
+    compare_sizes(&v, said);
     if (said == GN_CELL_SPLIT) {
         n_split++;
         if (lamp.error_q24) compare(&frame->light[0], &v, &lamp, 0); /* not told before it is known */
@@ -246,6 +259,7 @@ int main(void)
     printf("%d lit, %d of them in a rim, %d with a range; %d dark, %d split; off by up to %.2f of the bound\n", n_lit,
            n_rims, n_ranges, n_dark, n_split, nearest_to_bound);
     CHECK(n_lit > 5000 && n_rims > 1000 && n_ranges > 1000 && n_dark > 1000 && n_split > 1000);
+    CHECK(n_refused[0] > 100 && n_refused[1] > n_refused[0] + 100);
     return check_report();
 }
 

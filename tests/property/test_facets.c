@@ -242,7 +242,9 @@ static void try_bends(void)
         CHECK(longest < (16 << screen.size_log2) + 0.01);
     }
     CHECK(n > 2000 && n_large > 200);
-    CHECK(worst < 2); /* a pixel along each edge of vertex 0, and so twice that along the other */
+    /* of n + 1 pixels, n <= 64, and depths 1 + min(1/4, 4/n) apart: 0.985 along each edge of vertex 0, and so twice
+     * that along the other */
+    CHECK(worst < 2);
     printf("perspective: %ld triangles, %ld of them large, bent by up to %.2f pixels\n", n, n_large, worst);
 }
 

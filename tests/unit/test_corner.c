@@ -493,6 +493,31 @@ static double coord_of(const gn_light_view *view, const known_point *k, double z
     return (along + eye) / texel - view->fit.ortho.origin[i];
 }
 
+/* Offsets in 32 bits against those in 64, automatic bias included: a cut of 2^-32 of the length and one of four units.
+ */
+static long n_along;
+
+static void check_offsets(const gn_lattice *l, const gn_surface *s, const gn_corner *c, uint32_t slot)
+{
+    static const uint8_t form[3] = {0, GN_AUTO_BIAS_DEPTH, GN_AUTO_BIAS_NORMAL};
+    const gn_frame *frame = &renderer.frame;
+    const gn_light_state *own = s->light[slot].state;
+    if (c->cascade == GN_CASCADE_NONE) return;
+    const gn_light_view *view = &frame->view[own->view_idx + c->cascade];
+    gn_light_state *changed = &renderer.frame.light[view->light_idx];
+    if (!CHECK(own == changed)) return;
+    for (int f = 0; f < 1 + 2 * GN_AUTO_BIAS; f++) {
+        int32_t along = -1, want[3], lifted[3];
+        changed->auto_bias = form[f];
+        if (gn_corner_offsets(&l->light[slot], s, own, view, &along) != GN_OFFSET_ALONG) continue;
+        const int32_t *n = gn_sample_lifted(s, own, c->normal_q30, lifted);
+        gn_sample_offset(frame, s, slot, view, c->normal_q30, want);
+        for (int i = 0; i < 3; i++) CHECK(abs(gn_corner_lift_q16(n, view->axis_q30[i], along) - want[i]) <= 5);
+        n_along++;
+    }
+    changed->auto_bias = 0;
+}
+
 static void check_ortho(gn_lattice *l, const gn_surface *s, const known_point *k, gn_corner *c, uint32_t slot)
 {
     const gn_frame *frame = &renderer.frame;
@@ -500,6 +525,7 @@ static void check_ortho(gn_lattice *l, const gn_surface *s, const known_point *k
     if (c->cascade == GN_CASCADE_NONE || !CHECK(at->view == c->cascade)) return;
     const gn_light_view *view = &frame->view[s->light[slot].state->view_idx + c->cascade];
     CHECK(gn_corner_place(l, frame, s, c, slot, c->cascade) && at->placed == c->cascade);
+    if (s->smooth) check_offsets(l, s, c, slot);
     for (int i = 0; i < 3; i++) {
         double axis[3], n[3], off;
         axis_of(view->axis_q30[i], axis);
@@ -670,7 +696,7 @@ static long n_several, n_fading;
 static void check_views(gn_lattice *l, const gn_surface *s, const gn_rect *r, int x, int y)
 {
     const gn_frame *frame = &renderer.frame;
-    const int32_t cascade = l->cascade, left = (int32_t)uniform(0, 64), up = (int32_t)uniform(0, 64);
+    const int32_t left = (int32_t)uniform(0, 64), up = (int32_t)uniform(0, 64);
     const gn_rect box = {r->x0 > x - left ? r->x0 : x - left, r->y0 > y - up ? r->y0 : y - up,
                          r->x1 < x + 64 - left ? r->x1 : x + 64 - left, r->y1 < y + 64 - up ? r->y1 : y + 64 - up};
     gn_sample sample;
@@ -686,8 +712,6 @@ static void check_views(gn_lattice *l, const gn_surface *s, const gn_rect *r, in
             sample.cascade != GN_LAST_CASCADE(frame))
             CHECK(views >> frame->cascade[sample.cascade].next & 1U);
     }
-    if (l->cascade >= 0) check_cascade(s, l->cascade, x, y);
-    l->cascade = (int16_t)cascade;
 }
 
 static void check_part(gn_lattice *l, const gn_surface *s, const gn_rect *r, const known_point *k, int x, int y)
@@ -889,6 +913,7 @@ int main(int argc, char **argv)
     CHECK(n_flat > 1000 && n_flat > 2 * n_not_flat);
     CHECK(n_wide_places > 1000);
     CHECK(n_certain > 1000 && n_uncertain > 100 && n_several > 100 && n_fading > 100);
+    CHECK(n_along > 1000);
     CHECK(lit_by_bias.n > 1000);
     CHECK_TALLY(lit_by_bias, "planes that automatic bias leaves lit");
     CHECK_TALLY(bias_of_need, "automatic bias, no more than needed");
