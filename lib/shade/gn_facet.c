@@ -16,6 +16,7 @@
 GN_HOT static int find_turns(gn_facet *f)
 {
     const int32_t(*n)[3] = (const int32_t(*)[3])f->s->surface.normal_q30;
+    const uint32_t least_q28 = gn_cell_light_log2(f->s->frame) ? 1U << 23 : 1U << 25; /* 1/32, 1/8 */
     uint32_t d2[3] = {0, 0, 0};
     f->turns = 0;
     for (int k = 0; k < 3; k++) f->turn_q28[k] = 0;
@@ -29,7 +30,7 @@ GN_HOT static int find_turns(gn_facet *f)
     }
     for (int k = 0; k < 3; k++) {
         f->turn_q28[k] = d2[k];
-        f->turns |= d2[k] >= 1U << 23; /* 1/32 */
+        f->turns |= d2[k] >= least_q28;
         if (d2[k] > 2U << 28) return 0;
     }
     return 1;
@@ -186,7 +187,7 @@ GN_HOT int gn_facet_shade(gn_shading *s, const gn_rect *box, int32_t n_px)
     if (box->x1 - box->x0 > most || box->y1 - box->y0 > most) return 0;
     if (surface->masked | surface->specular | surface->baked || GN_GLOWS(surface)) return 0;
     f->s = s;
-    f->screen.found = f->screen.steep = 0;
+    f->screen.found = f->screen.steep = f->screen.bent = 0;
     /* of a large one pixels may be few, but not light: cells are quicker */
     if ((surface->shadowed | surface->n_punctual) && !gn_facet_use_screen(f)) return 0;
     if (surface->plane.det <= 0 || !find_turns(f) || !use_vertices(f)) return 0;

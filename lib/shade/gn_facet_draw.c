@@ -236,14 +236,30 @@ GN_HOT static void draw_spans(const gn_facet *f, const facet_look *look)
 }
 
 #if GN_VERTEX_COLOURS
-/* Times the vertices' colours, where light does not vary. Returns 0 if pixels are to be multiplied. */
+/* Whether light times the vertices' colours is close to linear: it is off by a third of both changes at most. */
+GN_HOT static int product_is_linear(const gn_facet *f)
+{
+    const int32_t log2 = gn_max32(gn_cell_light_log2(f->s->frame), 4 - gn_cell_sum_log2(f->s->frame));
+    for (int c = 0; c < 3; c++) {
+        const int32_t *light = f->colour_q24[c], *tint = f->tint_q16[c];
+        const uint32_t change = gn_cell_spread(light[0], light[1], light[2], light[2]),
+                       tints = gn_cell_spread(tint[0], tint[1], tint[2], tint[2]);
+        const int32_t least = f->base_q24[c] + gn_min32(light[0], gn_min32(light[1], light[2])),
+                      dimmest = gn_min32(tint[0], gn_min32(tint[1], tint[2]));
+        const uint64_t seen = ((uint64_t)(uint32_t)least * (uint32_t)dimmest >> 16) + (1U << 19);
+        if (((uint64_t)change * tints >> 16) << log2 > seen) return 0;
+    }
+    return 1;
+}
+
+/* Times the vertices' colours, where that is close to linear. Returns 0 if pixels are to be multiplied. */
 GN_HOT static int tint_vertices(gn_facet *f)
 {
     const gn_surface *s = &f->s->surface;
     if (!GN_COLOURED(s)) return 1;
     for (int c = 0; c < 3; c++)
         for (int k = 0; k < 3; k++) f->tint_q16[c][k] = tint_q16(s, c, k);
-    if (f->n_lights || GN_SMOOTH(s) || s->n_punctual) return 0;
+    if (f->n_lights || f->turns || ((GN_SMOOTH(s) || s->n_punctual) && !product_is_linear(f))) return 0;
     for (int c = 0; c < 3; c++) {
         for (int k = 0; k < 3; k++)
             f->colour_q24[c][k] = gn_facet_tinted(f->base_q24[c] + f->colour_q24[c][k], f->tint_q16[c][k]);
@@ -296,12 +312,31 @@ GN_HOT static int draw_one_colour(gn_facet *f)
     return 1;
 }
 
-/* Sets what varies. Returns 0 if something is too steep. */
+/* Whether three values are close to each other: perspective bends them by 1/16 of their change, here 1/32 of the least
+ * and of `some`. */
+GN_HOT static inline int are_close(const int32_t at[3], int32_t more, int32_t some)
+{
+    const int32_t least = gn_min32(at[0], gn_min32(at[1], at[2])), most = gn_max32(at[0], gn_max32(at[1], at[2]));
+    return 2 * (most - least) <= least + more + some;
+}
+
+/* Whether a bent triangle shows it: edges of shadows and light do. tinted: pixels are multiplied. */
+GN_HOT static int shows_bend(const gn_facet *f, int tinted)
+{
+    int close = !f->n_lights;
+    for (int c = 0; c < 3; c++) {
+        close &= are_close(f->colour_q24[c], f->base_q24[c], 1 << 19);
+        if (tinted) close &= are_close(f->tint_q16[c], 0, 1 << 11);
+    }
+    return !close;
+}
+
+/* Sets what varies. Returns 0 if something is too steep, or bent. */
 GN_HOT static int find_look(gn_facet *f, facet_look *look)
 {
     int32_t one[3] = {1 << 22, 1 << 22, 1 << 22}, above[3];
     const int32_t(*colour)[3] = (const int32_t(*)[3])f->colour_q24;
-    if (!gn_facet_use_screen(f)) return 0;
+    if (!gn_facet_use_screen(f) || (f->screen.bent && shows_bend(f, look->tinted))) return 0;
     for (int c = 0; c < 3; c++) {
         const int32_t *a = colour[c], *b = colour[c ? c - 1 : 0];
         if (c && a[0] == b[0] && a[1] == b[1] && a[2] == b[2]) look->colour_q24[c] = look->colour_q24[c - 1];
@@ -322,7 +357,7 @@ GN_HOT GN_NOINLINE int gn_facet_draw(gn_facet *f)
     look.tinted = !tint_vertices(f);
     look.each = f->n_lights || f->turns || look.tinted;
     if (!look.each && draw_one_colour(f)) return 1;
-    if (!f->screen.steep && use_two_colours(f)) {
+    if (!f->screen.steep && !f->screen.bent && use_two_colours(f)) {
         GN_COUNT(facet_pixels, f->n_px);
         for (int32_t i = 0; i < l->n_spans; i++) draw_pieces(f, NULL, &l->span[i]);
         return 1;
