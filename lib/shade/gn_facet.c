@@ -16,7 +16,7 @@
 GN_HOT static int find_turns(gn_facet *f)
 {
     const int32_t(*n)[3] = (const int32_t(*)[3])f->s->surface.normal_q30;
-    const uint32_t least_q28 = gn_cell_light_log2(f->s->frame) ? 1U << 23 : 1U << 25; /* 1/32, 1/8 */
+    const uint32_t least_q28 = gn_cell_light_log2(f->s->frame) ? 1U << 23 : 1U << 24; /* 1/32, 1/16 */
     uint32_t d2[3] = {0, 0, 0};
     f->turns = 0;
     for (int k = 0; k < 3; k++) f->turn_q28[k] = 0;
@@ -160,7 +160,7 @@ GN_HOT static int add_vertex_light(gn_facet *f, uint32_t slot)
     out->turns = f->turns && !(light->state->kind == GN_LIGHT_DIRECTIONAL && GN_K(f->s->frame, vertex_light));
     if (said != GN_CELL_EDGE && (!share || !(ends || out->turns != f->turns)))
         return add_whole_light(f, light->radiance_uq16, e, share);
-    if (!gn_facet_use_screen(f)) return 0;
+    if (!gn_facet_use_screen(f) || f->screen.bent) return 0;
     find_light_slopes(f, out, light->radiance_uq16, e);
     out->has_edge = said == GN_CELL_EDGE;
     out->lit_uq16 = share;
@@ -188,9 +188,11 @@ GN_HOT int gn_facet_shade(gn_shading *s, const gn_rect *box, int32_t n_px)
     if (surface->masked | surface->specular | surface->baked || GN_GLOWS(surface)) return 0;
     f->s = s;
     f->screen.found = f->screen.steep = f->screen.bent = 0;
-    /* of a large one pixels may be few, but not light: cells are quicker */
-    if ((surface->shadowed | surface->n_punctual) && !gn_facet_use_screen(f)) return 0;
-    if (surface->plane.det <= 0 || !find_turns(f) || !use_vertices(f)) return 0;
+    /* of a large one pixels may be few, but not light: cells are quicker, and where they are of one colour */
+    if ((surface->shadowed | surface->n_punctual) &&
+        (!gn_facet_use_screen(f) || (f->screen.bent && !surface->textured && !GN_COLOURED(surface))))
+        return 0;
+    if (surface->plane.det <= 0 || !find_turns(f) || (f->screen.bent && f->turns) || !use_vertices(f)) return 0;
 #if GN_SHADOWS
     gn_corner_begin_box(&s->lattice, s->frame, surface, box);
 #endif

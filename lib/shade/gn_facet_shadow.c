@@ -281,8 +281,7 @@ GN_HOT static int vertex_places_hold(const gn_frame *frame, const gn_surface *s,
                                      const vertex_places *p)
 {
     /* in a perspective view places bend on both axes, and by much in tiles of few texels: half of it for each */
-    const int32_t place_log2 = GN_K(frame, persp_step) >= 8 ? 2 : 3; /* 2^-this texels */
-    const uint32_t most_q16 = (view->perspective ? 2U : 4U) << (16 - place_log2);
+    const uint32_t most_q16 = (view->perspective ? 2U : 4U) << (16 - gn_cell_place_log2(frame));
     uint32_t bend_q16 = 0;
     if (!GN_FLAT_Q16(frame))
         bend_q16 = gn_quotient_q30((uint32_t)(s->z_max_q16 - s->z_min_q16), (uint32_t)s->z_min_q16) >> 14;
