@@ -4,10 +4,9 @@
 #include <math.h>
 #include <string.h>
 
-#include "bounds.h"
 #include "place.h"
+#include "seen.h"
 #include "vec.h"
-#include "view_range.h"
 
 static const double camera_azimuth_deg = 30; /* from +Z towards +X */
 static const double camera_elevation_deg = 25;
@@ -56,15 +55,24 @@ static bool check_objects(loader *l)
 }
 
 /* Of the whole animation: what is made from it stands still. */
-static bool find_bounds(loader *l, bounds *b)
+static bool find_bounds(loader *l, bool placed, bounds *b)
 {
+    scene_seen *kept = l->options->seen;
     if (!check_objects(l)) return false;
+    if (kept && kept->knows_bounds[placed]) {
+        *b = kept->of_all[placed];
+        return true;
+    }
     for (size_t i = 0; i < l->poses.n; i++) {
         poses_apply(&l->poses, i, l->s);
         if (!check_objects(l)) return false;
     }
     poses_apply(&l->poses, l->poses.n, l->s);
-    return bounds_of_poses(b, l->s, &l->poses, NULL) || loader_fail(l, "%s: the scene has no triangles", l->path);
+    if (!bounds_of_poses(b, l->s, &l->poses, NULL)) return loader_fail(l, "%s: the scene has no triangles", l->path);
+    if (!kept) return true;
+    kept->knows_bounds[placed] = true;
+    kept->of_all[placed] = *b;
+    return true;
 }
 
 /* Adds up the up-facing area near the lowest point, as seen from above: what lies there like a floor. *lies: some
@@ -293,8 +301,13 @@ static void default_shadow(const loader *l, scene_shadow *out)
 
 /* ---- A file's camera -------------------------------------------------------------------------------------------- */
 
-static void find_view_range(loader *l, view_range *r)
+static void find_view_range(loader *l, bool with_ground, view_range *r)
 {
+    scene_seen *kept = l->options->seen;
+    if (kept && kept->knows_range[with_ground]) {
+        *r = kept->range[with_ground];
+        return;
+    }
     const double aspect = (double)l->options->width / l->options->height;
     view_range_begin(r);
     if (l->poses.n == 0) view_range_add(r, l->s, &l->s->camera.to_world, aspect);
@@ -303,6 +316,9 @@ static void find_view_range(loader *l, view_range *r)
         view_range_add(r, l->s, &l->poses.camera[i], aspect);
     }
     poses_apply(&l->poses, l->poses.n, l->s);
+    if (!kept) return;
+    kept->knows_range[with_ground] = true;
+    kept->range[with_ground] = *r;
 }
 
 /* As far as what is seen. Of a wide view that is the usual distance: the texels of the shadow map spread over it. */
@@ -363,7 +379,7 @@ bool loader_add_defaults(loader *l)
     bounds b;
     view_range seen; /* by the file's camera */
     bool changed;
-    if (!find_bounds(l, &b) || !place_objects(l, &b, &changed) || (changed && !find_bounds(l, &b)) ||
+    if (!find_bounds(l, false, &b) || !place_objects(l, &b, &changed) || (changed && !find_bounds(l, true, &b)) ||
         !remark_on_up(l, &b) || !lights_dim(l, b.centre, b.radius))
         return false;
     const floor_parts parts = find_floor(l, &b);
@@ -373,7 +389,7 @@ bool loader_add_defaults(loader *l)
     memcpy(s->background, background, sizeof background);
     default_shadow(l, &s->shadow);
     if (l->has_camera) {
-        find_view_range(l, &seen);
+        find_view_range(l, false, &seen);
         adapt_shadow(l, &seen);
     } else {
         make_camera(l, &b);
@@ -384,6 +400,6 @@ bool loader_add_defaults(loader *l)
     if (!l->has_camera) s->shadow.max_distance = find_shadow_distance(l, &b);
     lights_find_stage(l);
     if (l->wants_ground && !add_ground(l, &b, parts.coplanar)) return false;
-    if (l->has_camera && l->wants_ground) find_view_range(l, &seen);
+    if (l->has_camera && l->wants_ground) find_view_range(l, true, &seen);
     return !l->has_camera || move_near(l, &b, &seen);
 }

@@ -5,7 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "bounds.h"
+#include "seen.h"
 #include "vec.h"
 
 static const double first_azimuth_deg = -60; /* from the camera's: to its left, so that shadows fall to the side */
@@ -118,9 +118,12 @@ static void find_subject(scene *s, const scene_poses *p, bounds *out)
 void lights_find_stage(loader *l)
 {
     scene_stage *stage = &l->s->stage;
+    scene_seen *kept = l->options->seen;
     bounds subject;
     if (!stage->moves) return;
-    find_subject(l->s, &l->poses, &subject);
+    if (kept && kept->knows_subject) subject = kept->subject;
+    else find_subject(l->s, &l->poses, &subject);
+    if (kept) kept->knows_subject = true, kept->subject = subject;
     memcpy(stage->centre, subject.centre, sizeof stage->centre);
     stage->radius = subject.radius;
 }

@@ -81,7 +81,8 @@ int tool_load_with(const tool_options *o, const char *const *sets, int n_sets, s
                              .orbit = o->orbit,
                              .yaw = o->yaw,
                              .pitch = o->pitch,
-                             .zoom = o->zoom};
+                             .zoom = o->zoom,
+                             .seen = o->seen};
     for (int i = 0; i < n_sets; i++) {
         char key[32];
         const char *equals = strchr(sets[i], '=');

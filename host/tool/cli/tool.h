@@ -50,6 +50,7 @@ typedef struct {
     int budget;           /* times the usual limits of what a scene may ask for; 0: once */
     int orbit;            /* --orbit is given: */
     double yaw, pitch, zoom;
+    struct scene_seen *seen; /* of scene_options */
 } tool_options;
 
 /* Exit codes: failures of the work itself, and of the command line. */

@@ -235,7 +235,7 @@ static void make_arguments(const sweep *w, const sweep_row *r, char *out, size_t
 
 static void print_text(const sweep *w, const sweep_row *r)
 {
-    const tool_options *o = w->options;
+    const tool_options *o = &w->options;
     char arguments[ARGUMENT_BYTES];
     make_arguments(w, r, arguments, sizeof arguments);
     printf("%s\n", arguments);
@@ -260,7 +260,7 @@ static void print_text(const sweep *w, const sweep_row *r)
 
 static void print_json(const sweep *w, const sweep_row *r)
 {
-    const tool_options *o = w->options;
+    const tool_options *o = &w->options;
     char arguments[ARGUMENT_BYTES];
     make_arguments(w, r, arguments, sizeof arguments);
     printf("{\"scene\": ");
@@ -283,13 +283,13 @@ static void describe(const sweep *w, size_t row, char *out, size_t bytes)
     const sweep_row *r = &w->rows[row];
     make_arguments(w, r, arguments, sizeof arguments);
     snprintf(out, bytes, "%ld bytes and %.1f instructions per pixel%s%s by %s", r->ram_bytes, r->cost,
-             w->counts ? " on " : "", w->counts ? w->options->target : "", arguments);
+             w->counts ? " on " : "", w->counts ? w->options.target : "", arguments);
 }
 
 /* What would do: each budget's least where the other is kept, or where both are missed, what comes nearest. */
 static int refuse(sweep *w, const budget *b)
 {
-    const tool_options *o = w->options;
+    const tool_options *o = &w->options;
     char message[2 * NEED_BYTES + 256], need[NEED_BYTES], limit[64] = "";
     for (int i = 0; w->counts && i < 2; i++) { /* what is named is counted, too; then another may be */
         count(w, smallest(w, b, true));
@@ -323,7 +323,7 @@ static int refuse(sweep *w, const budget *b)
 /* -1: a budget of instructions on a target where nothing counts them. */
 static int begin_target(sweep *w)
 {
-    const tool_options *o = w->options;
+    const tool_options *o = &w->options;
     if (sweep_target_begin(w)) return -1;
     if (!o->target || w->counts || !o->instructions_per_pixel) return 0;
     tool_error("--instructions-per-pixel %d is of %s: without --target it is of the model", o->instructions_per_pixel,

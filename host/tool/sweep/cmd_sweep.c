@@ -115,7 +115,7 @@ static void print_schedules(const sweep *w)
 
 static void print_text(const sweep *w)
 {
-    const tool_options *o = w->options;
+    const tool_options *o = &w->options;
     size_t n_front = 0;
     for (size_t i = 0; i < w->n_rows; i++) n_front += w->rows[i].on_front;
     printf("%s, %dx%d: %zu configurations, %zu of them on the front (*: no other is as good in RAM, instructions and "
@@ -198,7 +198,7 @@ void sweep_json_row(const sweep *w, const sweep_row *r)
     print_later(w, r);
     if (!r->is_counted) return;
     printf(", \"target\": {\"board\": ");
-    tool_json_string(w->options->target);
+    tool_json_string(w->options.target);
     printf(", ");
     tool_json_number("instructions_per_pixel", r->target);
     printf(", ");
@@ -208,7 +208,7 @@ void sweep_json_row(const sweep *w, const sweep_row *r)
 
 static void print_json(const sweep *w)
 {
-    const tool_options *o = w->options;
+    const tool_options *o = &w->options;
     printf("{\"scene\": ");
     tool_json_string(o->scene_path);
     printf(", \"width\": %d, \"height\": %d, \"refused\": %zu, \"rows\": [", o->width, o->height, w->n_refused);
@@ -351,13 +351,13 @@ static int write_svg(const sweep *w, const char *path, char *error, size_t bytes
 {
     char title[1024], target[128], target_axis[160];
     plot_data d = {0};
-    const char *over = w->moves ? ", mean of later frames" : "", *slash = strrchr(w->options->scene_path, '/');
+    const char *over = w->moves ? ", mean of later frames" : "", *slash = strrchr(w->options.scene_path, '/');
     char cost_axis[96];
     snprintf(cost_axis, sizeof cost_axis, "instructions per pixel (model)%s", over);
-    snprintf(target, sizeof target, "Cost on %.64s against error", w->options->target ? w->options->target : "");
+    snprintf(target, sizeof target, "Cost on %.64s against error", w->options.target ? w->options.target : "");
     snprintf(target_axis, sizeof target_axis, "instructions per pixel (counted)%s", over);
     snprintf(title, sizeof title, "%s, %dx%d; filled: on the front of RAM, cost and error",
-             slash ? slash + 1 : w->options->scene_path, w->options->width, w->options->height);
+             slash ? slash + 1 : w->options.scene_path, w->options.width, w->options.height);
     int failed = gather(&d, w);
     if (failed) snprintf(error, bytes, "out of memory");
     const plot_panel panels[PANELS_MAX] = {
@@ -375,7 +375,7 @@ static int write_svg(const sweep *w, const char *path, char *error, size_t bytes
 static int show(const sweep *w)
 {
     char error[TOOL_ERROR_BYTES];
-    const tool_options *o = w->options;
+    const tool_options *o = &w->options;
     if (o->csv_path && write_csv(w, o->csv_path, error, sizeof error)) return tool_fail(o->csv_path, error);
     if (o->svg_path && write_svg(w, o->svg_path, error, sizeof error)) return tool_fail(o->svg_path, error);
     if (o->json) print_json(w);
@@ -389,7 +389,7 @@ static int count(sweep *w)
     size_t *rows = w->counts ? malloc(w->n_rows * sizeof *rows) : NULL, n = 0;
     if (w->counts && !rows) return -1;
     for (size_t i = 0; w->counts && i < w->n_rows; i++)
-        if (w->rows[i].on_front || w->options->all) rows[n++] = i;
+        if (w->rows[i].on_front || w->options.all) rows[n++] = i;
     sweep_target_count(w, rows, n);
     free(rows);
     return 0;

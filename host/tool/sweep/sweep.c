@@ -15,7 +15,7 @@ enum { ROWS_FIRST = 64 };
 
 static int fail(const sweep *w, const char *error)
 {
-    tool_fail(w->options->scene_path, error);
+    tool_fail(w->options.scene_path, error);
     return -1;
 }
 
@@ -73,7 +73,7 @@ static void take_needs(const sweep *w, sweep_row *row, const scene *s, const set
 {
     settings minimal = *set; /* of features and capacities */
     row->counts = fixed->counts;
-    row->instructions = cost_instructions(&row->counts) / ((double)w->options->width * w->options->height);
+    row->instructions = cost_instructions(&row->counts) / ((double)w->options.width * w->options.height);
     settings_trim(&minimal, s);
     settings_fit(&minimal, &fixed->demand);
     row->ram_bytes = settings_ram(&minimal).total;
@@ -84,7 +84,7 @@ static int measure_colours(const sweep *w, sweep_row *row, const scene *s, const
                            size_t bytes)
 {
     engine_picture fixed;
-    const int width = w->options->width, height = w->options->height;
+    const int width = w->options.width, height = w->options.height;
     if (engine_fixed(&fixed, s, set, width, height, ENGINE_COLOUR_ONLY, error, bytes)) return -1;
     row->truth.psnr_db = metrics_psnr_db(fixed.rgb8, w->common.rgb8, (size_t)width * (size_t)height);
     take_needs(w, row, s, set, &fixed);
@@ -96,7 +96,7 @@ static int measure_colours(const sweep *w, sweep_row *row, const scene *s, const
 static int measure(const sweep *w, sweep_row *row, const scene *s, const settings *set, char *error, size_t bytes)
 {
     engine_picture fixed, reference;
-    const int width = w->options->width, height = w->options->height;
+    const int width = w->options.width, height = w->options.height;
     if (engine_fixed(&fixed, s, set, width, height, ENGINE_ALL, error, bytes)) return -1;
     if (engine_reference(&reference, s, set, width, height, error, bytes)) {
         engine_free(&fixed);
@@ -135,7 +135,7 @@ static int load(const sweep *w, const sweep_config *c, scene *s, settings *set, 
     sweep_text text;
     const char *sets[TOOL_SETS_MAX + SWEEP_KNOBS];
     int n = sweep_config_sets(w, c, &text, sets);
-    return tool_load_with(w->options, sets, n, s, set, error, bytes);
+    return tool_load_with(&w->options, sets, n, s, set, error, bytes);
 }
 
 static int play(const sweep *w, sweep_row *row, const settings *set, char *error, size_t bytes)
@@ -298,8 +298,8 @@ static void look_at_lights(sweep *w, const scene *s)
 
 static void look_at_sets(sweep *w)
 {
-    for (int i = 0; i < w->options->n_sets; i++)
-        for (int k = 0; k < SWEEP_KNOBS; k++) w->held[k] |= sweep_is_held_by((sweep_knob)k, w->options->sets[i]);
+    for (int i = 0; i < w->options.n_sets; i++)
+        for (int k = 0; k < SWEEP_KNOBS; k++) w->held[k] |= sweep_is_held_by((sweep_knob)k, w->options.sets[i]);
 }
 
 int sweep_begin(sweep *w, const tool_options *o)
@@ -308,9 +308,10 @@ int sweep_begin(sweep *w, const tool_options *o)
     scene s;
     settings set;
     memset(w, 0, sizeof *w);
-    w->options = o;
+    w->options = *o;
+    w->options.seen = &w->seen;
     w->scale = 1;
-    if (tool_load(o, &s, &set)) return -1;
+    if (tool_load(&w->options, &s, &set)) return -1;
     look_at_sets(w);
     look_at_lights(w, &s);
     const bool compact = set.build.compact != 0;

@@ -2,6 +2,7 @@
 #ifndef GNOMON_SWEEP_H
 #define GNOMON_SWEEP_H
 
+#include "../../scene/core/seen.h"
 #include "../picture/metrics.h"
 #include "../cli/tool.h"
 
@@ -69,7 +70,8 @@ typedef struct {
 } sweep_row;
 
 typedef struct {
-    const tool_options *options;
+    tool_options options; /* of the command line, for loads that share what is seen */
+    scene_seen seen;
     bool directional, punctual, other; /* shadows in the directional atlas, lights of the other, shadows in it */
     bool held[SWEEP_KNOBS];            /* set on the command line: not varied */
     bool moves, layers;    /* frames differ; some caster moves and is known to, so that a static layer has a use */

@@ -79,7 +79,7 @@ int sweep_config_sets(const sweep *w, const sweep_config *c, sweep_text *text, c
 {
     int n = 0;
     if (is_used(w, c, SWEEP_PRESET)) sets[n++] = say(c, SWEEP_PRESET, text);
-    for (int i = 0; i < w->options->n_sets; i++) sets[n++] = w->options->sets[i];
+    for (int i = 0; i < w->options.n_sets; i++) sets[n++] = w->options.sets[i];
     for (int k = SWEEP_PRESET + 1; k < SWEEP_KNOBS; k++)
         if (is_used(w, c, (sweep_knob)k)) sets[n++] = say(c, (sweep_knob)k, text);
     return n;

@@ -15,7 +15,7 @@ _Static_assert((int)SWEEP_PLAYED < (int)ENGINE_FRAMES_MAX, "the first frame, too
 static int load_frame(const sweep *w, int frame, const char *const *sets, int n_sets, scene *s, char *error,
                       size_t bytes)
 {
-    tool_options o = *w->options;
+    tool_options o = w->options;
     settings set;
     o.frame = frame;
     return tool_load_with(&o, sets, n_sets, s, &set, error, bytes);
@@ -30,7 +30,7 @@ static void free_frames(scene *frames, size_t n)
 static int load_frames(const sweep *w, const char *const *sets, int n_sets, scene *frames, char *error, size_t bytes)
 {
     for (size_t i = 0; i <= w->n_played; i++)
-        if (load_frame(w, w->options->frame + (w->moves ? (int)i : 0), sets, n_sets, &frames[i], error, bytes)) {
+        if (load_frame(w, w->options.frame + (w->moves ? (int)i : 0), sets, n_sets, &frames[i], error, bytes)) {
             free_frames(frames, i);
             return -1;
         }
@@ -42,7 +42,7 @@ static int load_frames(const sweep *w, const char *const *sets, int n_sets, scen
 /* Exact shadows in each frame. */
 static int draw_truth(sweep *w, const settings *set, char *error, size_t bytes)
 {
-    const tool_options *o = w->options;
+    const tool_options *o = &w->options;
     scene frames[SWEEP_PLAYED + 1];
     if (load_frames(w, o->sets, o->n_sets, frames, error, bytes)) return -1;
     int failed = 0;
@@ -60,7 +60,7 @@ static int draw_truth(sweep *w, const settings *set, char *error, size_t bytes)
 
 int sweep_play_begin(sweep *w, const scene *s, const settings *set, char *error, size_t bytes)
 {
-    w->moves = s->fps > 0 && ceil(s->duration * s->fps - 1e-6) > w->options->frame;
+    w->moves = s->fps > 0 && ceil(s->duration * s->fps - 1e-6) > w->options.frame;
     w->n_played = w->moves ? SWEEP_PLAYED : 1;
     for (size_t i = 0; i < s->n_objects; i++) w->layers |= w->moves && s->objects[i].moving;
     return w->moves ? draw_truth(w, set, error, bytes) : 0;
@@ -91,7 +91,7 @@ static void add_error(sweep_error_db *e, double db, size_t n)
 
 static int compare_frame(const play *p, size_t frame, const uint8_t *rgb8, char *error, size_t bytes)
 {
-    const tool_options *o = p->w->options;
+    const tool_options *o = &p->w->options;
     const size_t n_pixels = (size_t)o->width * (size_t)o->height, n = p->w->n_played;
     add_error(&p->played->truth, metrics_psnr_db(rgb8, p->w->truth_rgb8[frame - 1], n_pixels), n);
     if (p->w->colours_only) return 0;
@@ -106,7 +106,7 @@ static int compare_frame(const play *p, size_t frame, const uint8_t *rgb8, char 
 static int take_frame(void *user, size_t frame, const uint8_t *rgb8, const count_all *counts, char *error, size_t bytes)
 {
     const play *p = user;
-    const tool_options *o = p->w->options;
+    const tool_options *o = &p->w->options;
     if (!frame) return 0;
     const double cost = cost_instructions(counts) / ((double)o->width * o->height);
     p->played->instructions += cost / (double)p->w->n_played;
@@ -126,7 +126,7 @@ static int play_frames(const sweep *w, sweep_row *row, const char *const *sets, 
     play p = {w, frames, set, &row->played};
     if (load_frames(w, sets, n_sets, frames, error, bytes)) return -1;
     int failed =
-        engine_play(frames, w->n_played + 1, set, w->options->width, w->options->height, take_frame, &p, error, bytes);
+        engine_play(frames, w->n_played + 1, set, w->options.width, w->options.height, take_frame, &p, error, bytes);
     free_frames(frames, w->n_played + 1);
     return failed;
 }

@@ -46,7 +46,7 @@ static int run_ready(const char *target, char *line, size_t bytes)
 int sweep_target_begin(sweep *w)
 {
     char why[256] = "what counts cannot be built";
-    const char *target = w->options->target;
+    const char *target = w->options.target;
     if (!target) return 0;
     if (access(COUNTER, R_OK)) {
         tool_error("--target %s: there is no " COUNTER " here: it works in the project's folder", target);
@@ -80,7 +80,7 @@ static void append_setting(char *flags, size_t bytes, const char *set)
  * RGB565. */
 static void make_flags(const sweep *w, const sweep_row *row, char *flags, size_t bytes)
 {
-    const tool_options *o = w->options;
+    const tool_options *o = &w->options;
     const char *sets[TOOL_SETS_MAX + SWEEP_KNOBS];
     sweep_text text;
     int n = sweep_sets(w, row, &text, sets),
@@ -103,10 +103,10 @@ static FILE *start(const sweep *w, const sweep_row *row, size_t slot)
     char image[64], file[4096];
     image_name(slot, image, sizeof image);
     snprintf(command, sizeof command, "JOBS=1 sh " COUNTER " ");
-    tool_append_quoted(command, sizeof command, w->options->target);
+    tool_append_quoted(command, sizeof command, w->options.target);
     size_t used = strlen(command);
     snprintf(command + used, sizeof command - used, " %s '0,0 %zu' FW_OPT=-O2 FW_FLAGS=-g0 ", image, w->n_played);
-    snprintf(file, sizeof file, "SCENE=%s", w->options->scene_path);
+    snprintf(file, sizeof file, "SCENE=%s", w->options.scene_path);
     tool_append_quoted(command, sizeof command, file);
     strncat(command, " ", sizeof command - strlen(command) - 1);
     make_flags(w, row, flags, sizeof flags);
@@ -140,7 +140,7 @@ static void finish(sweep *w, const job *j)
                      strncmp(reason, "gnomon: ", 8) == 0 ? reason + 8 : reason);
         return;
     }
-    const double pixels = (double)w->options->width * w->options->height;
+    const double pixels = (double)w->options.width * w->options.height;
     sweep_row *row = &w->rows[j->row];
     row->target = (double)sum[0] / pixels;
     row->target_later = (double)(sum[1] - sum[0]) / (double)w->n_played / pixels;
@@ -152,7 +152,7 @@ static void finish(sweep *w, const job *j)
 static void show_progress(const sweep *w, size_t done, size_t n)
 {
     if (!isatty(STDERR_FILENO)) return;
-    if (done < n) fprintf(stderr, "\r%zu of %zu counted on %s ", done, n, w->options->target);
+    if (done < n) fprintf(stderr, "\r%zu of %zu counted on %s ", done, n, w->options.target);
     else fprintf(stderr, "\r\033[K");
     fflush(stderr);
 }
@@ -168,7 +168,7 @@ static void clean(const sweep *w, size_t slots)
     for (size_t i = 0; i < slots; i++) {
         char image[64], command[COMMAND_BYTES] = "sh " COUNTER " --remove ";
         image_name(i, image, sizeof image);
-        tool_append_quoted(command, sizeof command, w->options->target);
+        tool_append_quoted(command, sizeof command, w->options.target);
         size_t used = strlen(command);
         snprintf(command + used, sizeof command - used, " %s", image);
         FILE *f = popen(command, "r");
