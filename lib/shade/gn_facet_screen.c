@@ -44,7 +44,7 @@ GN_HOT static GN_NOINLINE int find_screen(gn_facet_screen *out, const gn_frame *
         }
     }
     if (longest > (uint32_t)gn_facet_most_px(s) << 13) return 0;
-    out->size_log2 = (int16_t)(longest <= 16 << 13 ? 0 : longest <= 32 << 13 ? 1 : 2);
+    out->size_log2 = (int8_t)(longest <= 16 << 13 ? 0 : longest <= 32 << 13 ? 1 : 2);
     /* perspective bends by a quarter of the change of depth: up to a pixel along the longest, as of 16 pixels */
     out->bent = !GN_FLAT_Q16(frame) && (uint64_t)(longest >> 13) * (uint32_t)(s->z_max_q16 - s->z_min_q16) >
                                            4 * (uint64_t)(uint32_t)s->z_min_q16;

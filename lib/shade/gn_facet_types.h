@@ -16,7 +16,7 @@ typedef struct {
     int8_t found;            /* 0: not asked for yet; -1: it is large, deep or narrow */
     int8_t steep;            /* some value changes too fast */
     int8_t bent;             /* by more than a pixel */
-    int16_t size_log2;       /* up to 16, 32 or 64 pixels: 0, 1 or 2 */
+    int8_t size_log2;        /* up to 16, 32 or 64 pixels: 0, 1 or 2 */
     int32_t x0, y0;          /* the pixel of vertex 0, from which others are counted: right and down */
     int32_t along_q24[2][2]; /* the change per pixel, right and down, of what is 1 more at vertex 1, or at vertex 2 */
     int32_t to_first_q13[2]; /* pixels from vertex 0 to the centre of its pixel, right and down */
