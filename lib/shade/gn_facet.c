@@ -160,7 +160,7 @@ GN_HOT static int add_vertex_light(gn_facet *f, uint32_t slot)
     out->turns = f->turns && !(light->state->kind == GN_LIGHT_DIRECTIONAL && GN_K(f->s->frame, vertex_light));
     if (said != GN_CELL_EDGE && (!share || !(ends || out->turns != f->turns)))
         return add_whole_light(f, light->radiance_uq16, e, share);
-    if (!gn_facet_use_screen(f) || f->screen.bent) return 0;
+    if (!gn_facet_use_screen(f) || f->screen.bent) return 0; /* edges and ends would show that */
     find_light_slopes(f, out, light->radiance_uq16, e);
     out->has_edge = said == GN_CELL_EDGE;
     out->lit_uq16 = share;
@@ -187,12 +187,11 @@ GN_HOT int gn_facet_shade(gn_shading *s, const gn_rect *box, int32_t n_px)
     if (box->x1 - box->x0 > most || box->y1 - box->y0 > most) return 0;
     if (surface->masked | surface->specular | surface->baked || GN_GLOWS(surface)) return 0;
     f->s = s;
-    f->screen.found = f->screen.steep = f->screen.bent = 0;
-    /* of a large one pixels may be few, but not light: cells are quicker, and where they are of one colour */
-    if ((surface->shadowed | surface->n_punctual) &&
-        (!gn_facet_use_screen(f) || (f->screen.bent && !surface->textured && !GN_COLOURED(surface))))
-        return 0;
-    if (surface->plane.det <= 0 || !find_turns(f) || (f->screen.bent && f->turns) || !use_vertices(f)) return 0;
+    f->screen.found = f->screen.steep = 0;
+    if (surface->plane.det <= 0 || !find_turns(f)) return 0;
+    /* of a large one pixels may be few, but not light: cells are quicker */
+    if ((surface->shadowed | surface->n_punctual) && !gn_facet_use_screen(f)) return 0;
+    if (!use_vertices(f)) return 0;
 #if GN_SHADOWS
     gn_corner_begin_box(&s->lattice, s->frame, surface, box);
 #endif

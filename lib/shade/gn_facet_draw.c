@@ -237,17 +237,14 @@ GN_HOT static void draw_spans(const gn_facet *f, const facet_look *look)
 
 #if GN_VERTEX_COLOURS
 /* Whether light times the vertices' colours is close to linear: it is off by a third of both changes at most. */
-GN_HOT static int product_is_linear(const gn_facet *f)
+GN_HOT static int products_are_linear(const gn_facet *f)
 {
     const int32_t log2 = gn_max32(gn_cell_light_log2(f->s->frame), 4 - gn_cell_sum_log2(f->s->frame));
     for (int c = 0; c < 3; c++) {
-        const int32_t *light = f->colour_q24[c], *tint = f->tint_q16[c];
-        const uint32_t change = gn_cell_spread(light[0], light[1], light[2], light[2]),
-                       tints = gn_cell_spread(tint[0], tint[1], tint[2], tint[2]);
-        const int32_t least = f->base_q24[c] + gn_min32(light[0], gn_min32(light[1], light[2])),
-                      dimmest = gn_min32(tint[0], gn_min32(tint[1], tint[2]));
-        const uint64_t seen = ((uint64_t)(uint32_t)least * (uint32_t)dimmest >> 16) + (1U << 19);
-        if (((uint64_t)change * tints >> 16) << log2 > seen) return 0;
+        const int32_t *l = f->colour_q24[c], *t = f->tint_q16[c], base = f->base_q24[c];
+        const int32_t light[4] = {base + l[0], base + l[1], base + l[2], base + l[2]},
+                      tint[4] = {t[0], t[1], t[2], t[2]};
+        if (!gn_cell_product_holds(light, tint, log2)) return 0;
     }
     return 1;
 }
@@ -259,7 +256,7 @@ GN_HOT static int tint_vertices(gn_facet *f)
     if (!GN_COLOURED(s)) return 1;
     for (int c = 0; c < 3; c++)
         for (int k = 0; k < 3; k++) f->tint_q16[c][k] = tint_q16(s, c, k);
-    if (f->n_lights || f->turns || ((GN_SMOOTH(s) || s->n_punctual) && !product_is_linear(f))) return 0;
+    if (f->n_lights || f->turns || !products_are_linear(f)) return 0;
     for (int c = 0; c < 3; c++) {
         for (int k = 0; k < 3; k++)
             f->colour_q24[c][k] = gn_facet_tinted(f->base_q24[c] + f->colour_q24[c][k], f->tint_q16[c][k]);
@@ -312,18 +309,18 @@ GN_HOT static int draw_one_colour(gn_facet *f)
     return 1;
 }
 
-/* Whether three values are close to each other: perspective bends them by 1/16 of their change, here 1/32 of the least
- * and of `some`. */
+/* Whether three values, up to 2^28 with `more`, are close to each other: perspective bends them by 1/16 of their
+ * change, here 1/32 of the least and of `some`. */
 GN_HOT static inline int are_close(const int32_t at[3], int32_t more, int32_t some)
 {
     const int32_t least = gn_min32(at[0], gn_min32(at[1], at[2])), most = gn_max32(at[0], gn_max32(at[1], at[2]));
     return 2 * (most - least) <= least + more + some;
 }
 
-/* Whether a bent triangle shows it: edges of shadows and light do. tinted: pixels are multiplied. */
+/* Whether colours of a bent triangle, without light that pixels ask for, show it. tinted: pixels are multiplied. */
 GN_HOT static int shows_bend(const gn_facet *f, int tinted)
 {
-    int close = !f->n_lights;
+    int close = 1;
     for (int c = 0; c < 3; c++) {
         close &= are_close(f->colour_q24[c], f->base_q24[c], 1 << 19);
         if (tinted) close &= are_close(f->tint_q16[c], 0, 1 << 11);
@@ -357,7 +354,7 @@ GN_HOT GN_NOINLINE int gn_facet_draw(gn_facet *f)
     look.tinted = !tint_vertices(f);
     look.each = f->n_lights || f->turns || look.tinted;
     if (!look.each && draw_one_colour(f)) return 1;
-    if (!f->screen.steep && !f->screen.bent && use_two_colours(f)) {
+    if (!f->screen.steep && use_two_colours(f)) {
         GN_COUNT(facet_pixels, f->n_px);
         for (int32_t i = 0; i < l->n_spans; i++) draw_pieces(f, NULL, &l->span[i]);
         return 1;

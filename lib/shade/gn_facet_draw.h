@@ -8,9 +8,13 @@
 
 #if GN_INTERPOLATES
 
+/* After f->turns is known. Of those that perspective bends, cells are quicker where light is even, and lengths of
+ * normals would bend. */
 GN_HOT static inline int gn_facet_use_screen(gn_facet *f)
 {
-    return gn_facet_screen_use(&f->screen, f->s->frame, &f->s->surface);
+    const gn_surface *s = &f->s->surface;
+    if (!gn_facet_screen_use(&f->screen, f->s->frame, s)) return 0;
+    return !f->screen.bent || (!f->turns && (s->textured || GN_COLOURED(s)));
 }
 
 /* A view of one light's shadow, in which the rest counts for nothing. */

@@ -143,6 +143,12 @@ int gn_cell_find_bend(gn_lattice_cell *cell);
 int gn_cell_textures_hold(const gn_lattice_cell *cell);
 int gn_cell_masks_hold(const gn_lattice_cell *cell);
 
+#if GN_VERTEX_COLOURS
+/* Whether a light times a vertex colour, up to 2^28 and 2^16 at the corners, is close to bilinear: the product of both
+ * changes is at most 2^-log2 of the least product and 1/32. */
+int gn_cell_product_holds(const int32_t light_q24[4], const int32_t tint_q16[4], int32_t log2);
+#endif
+
 /* By how much the square of a distance is off between the corners: a quarter of the squares of the cell's sides. */
 uint64_t gn_cell_bend2_q32(const gn_lattice_cell *cell);
 

@@ -123,7 +123,10 @@ void lights_find_stage(loader *l)
     if (!stage->moves) return;
     if (kept && kept->knows_subject) subject = kept->subject;
     else find_subject(l->s, &l->poses, &subject);
-    if (kept) kept->knows_subject = true, kept->subject = subject;
+    if (kept) {
+        kept->knows_subject = true;
+        kept->subject = subject;
+    }
     memcpy(stage->centre, subject.centre, sizeof stage->centre);
     stage->radius = subject.radius;
 }

@@ -281,16 +281,17 @@ typedef struct {
     int frame;         /* animation frame; time = frame / fps (extras.gnomon.fps, default 24) */
     int width, height; /* of the picture: the default camera frames the scene for it */
     scene_ground ground;
-    scene_up up;             /* z: the whole file is turned, so that its front, -y, is at +Z */
-    bool smooth;             /* meshes without normals: smooth vertex normals instead of face normals */
-    bool outside;            /* a file may name files outside the folder of the scene */
-    bool rig;                /* nodes and clips are kept */
-    bool posed;              /* for what moves alone: textures have no levels, which take long */
-    int budget;              /* how many times the usual limits of what a file may ask for (budget.c); 0: once */
-    bool orbit;              /* in the place of any camera of the file: */
-    double yaw, pitch;       /* degrees: from the front (+Z) to the right (+X); upwards */
-    double zoom;             /* > 0; 1: all is in the picture */
-    struct scene_seen *seen; /* NULL, or what loads with the same options, of other frames, need not find again */
+    scene_up up;       /* z: the whole file is turned, so that its front, -y, is at +Z */
+    bool smooth;       /* meshes without normals: smooth vertex normals instead of face normals */
+    bool outside;      /* a file may name files outside the folder of the scene */
+    bool rig;          /* nodes and clips are kept */
+    bool posed;        /* for what moves alone: textures have no levels, which take long */
+    int budget;        /* how many times the usual limits of what a file may ask for (budget.c); 0: once */
+    bool orbit;        /* in the place of any camera of the file: */
+    double yaw, pitch; /* degrees: from the front (+Z) to the right (+X); upwards */
+    double zoom;       /* > 0; 1: all is in the picture */
+    /* NULL, or what loads with the same options, of other frames, need not find again */
+    struct scene_seen *seen;
 } scene_options;
 
 /* v as a multiple of 1/65536: fades and cascade ratios are such (MODEL 4). */
