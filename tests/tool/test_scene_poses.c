@@ -3,6 +3,7 @@
 #define TMP      "build/tmp/test_scene_poses"
 #define BASE_URI "test%5Fscene%5Fposes.bin"
 
+#include "../host/scene/core/seen.h"
 #include "../host/scene/core/vec.h"
 #include "data/scene_fixture.h"
 
@@ -11,7 +12,7 @@
 /* What was added, as one frame has it. */
 typedef struct {
     scene_camera camera;
-    double max_distance, ground[12], light[3], lamps[2][4];
+    double max_distance, n_cascades, ground[12], light[3], lamps[2][4];
 } added;
 
 static char file[200000];
@@ -29,6 +30,7 @@ static added find_added(void)
     memset(&out, 0, sizeof out);
     out.camera = s.camera;
     out.max_distance = s.shadow.max_distance;
+    out.n_cascades = s.shadow.n_cascades;
     memcpy(out.light, s.lights[0].direction, sizeof out.light);
     const scene_object *ground = find_ground();
     if (ground) memcpy(out.ground, s.meshes[ground->mesh_idx].pos, sizeof out.ground);
@@ -40,6 +42,19 @@ static added find_added(void)
         out.lamps[i][3] = lamp->range;
     }
     return out;
+}
+
+/* By what loads of other frames found, the same is added. */
+static scene_seen kept;
+
+static void check_shared(scene_options at, const added *alone)
+{
+    at.seen = &kept;
+    if (!CHECK_EQ_INT(load(TMP ".gltf", &at), 0)) return (void)puts(error);
+    const added now = find_added();
+    CHECK(kept.knows_bounds[0] && kept.knows_subject && kept.knows_range[0] == !s.added.camera);
+    if (!CHECK(memcmp(alone, &now, sizeof now) == 0)) printf("  frame %d by what others found\n", at.frame);
+    scene_free(&s);
 }
 
 /* How much of the picture's smaller side what is no ground takes, at most; in front of the near plane, above the
@@ -71,6 +86,7 @@ static void check_frames(const char *text, int last, int step, double tolerance)
     added first;
     scene_options at = {.width = 320, .height = 240};
     double largest = 0;
+    memset(&kept, 0, sizeof kept);
     write_file(TMP ".gltf", text, strlen(text));
     for (at.frame = 0; at.frame <= last; at.frame += step) {
         if (!CHECK_EQ_INT(load(TMP ".gltf", &at), 0)) return (void)puts(error);
@@ -81,6 +97,7 @@ static void check_frames(const char *text, int last, int step, double tolerance)
         if (at.frame == 0) first = now;
         if (!CHECK(memcmp(&first, &now, sizeof now) == 0)) printf("  frame %d\n", at.frame);
         scene_free(&s);
+        check_shared(at, &now);
     }
     CHECK_NEAR(largest, 0.7, tolerance);
 }
@@ -122,9 +139,10 @@ static void test_filmed(void)
     snprintf(text, sizeof text, "%s",
              replaced(text, "\"node\":1,\"path\":\"rotation\"", "\"node\":2,\"path\":\"rotation\""));
     write_file(TMP ".gltf", text, strlen(text));
+    memset(&kept, 0, sizeof kept);
     for (int frame = 0; frame <= 8; frame += 4) {
-        if (!CHECK_EQ_INT(load(TMP ".gltf", &(scene_options){.frame = frame, .width = 64, .height = 48}), 0))
-            return (void)puts(error);
+        const scene_options at = {.frame = frame, .width = 64, .height = 48};
+        if (!CHECK_EQ_INT(load(TMP ".gltf", &at), 0)) return (void)puts(error);
         CHECK(!s.added.camera && s.added.light);
         const scene_object *ground = find_ground();
         if (CHECK(s.added.ground && ground != NULL))
@@ -133,7 +151,9 @@ static void test_filmed(void)
         if (frame == 0) memcpy(position, s.camera.to_world.m[0], sizeof position);
         else CHECK(memcmp(position, s.camera.to_world.m[0], sizeof position) != 0);
         CHECK(memcmp(first, s.lights[0].direction, sizeof first) == 0);
+        const added alone = find_added();
         scene_free(&s);
+        check_shared(at, &alone);
     }
 }
 
