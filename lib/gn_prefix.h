@@ -63,7 +63,6 @@
 #define gn_cell_bend2_q32 GN_PREFIXED_(GN_PREFIX, gn_cell_bend2_q32)
 #define gn_cell_find_bend GN_PREFIXED_(GN_PREFIX, gn_cell_find_bend)
 #define gn_cell_masks_hold GN_PREFIXED_(GN_PREFIX, gn_cell_masks_hold)
-#define gn_cell_product_holds GN_PREFIXED_(GN_PREFIX, gn_cell_product_holds)
 #define gn_cell_ramp_bends GN_PREFIXED_(GN_PREFIX, gn_cell_ramp_bends)
 #define gn_cell_shadow GN_PREFIXED_(GN_PREFIX, gn_cell_shadow)
 #define gn_cell_stays_dark GN_PREFIXED_(GN_PREFIX, gn_cell_stays_dark)

@@ -241,10 +241,13 @@ GN_HOT static int products_are_linear(const gn_facet *f)
 {
     const int32_t log2 = gn_max32(gn_cell_light_log2(f->s->frame), 4 - gn_cell_sum_log2(f->s->frame));
     for (int c = 0; c < 3; c++) {
-        const int32_t *l = f->colour_q24[c], *t = f->tint_q16[c], base = f->base_q24[c];
-        const int32_t light[4] = {base + l[0], base + l[1], base + l[2], base + l[2]},
-                      tint[4] = {t[0], t[1], t[2], t[2]};
-        if (!gn_cell_product_holds(light, tint, log2)) return 0;
+        const int32_t *l = f->colour_q24[c], *t = f->tint_q16[c];
+        if (l[0] == l[1] && l[0] == l[2]) continue;
+        const int32_t least = gn_min32(l[0], gn_min32(l[1], l[2])), most = gn_max32(l[0], gn_max32(l[1], l[2])),
+                      dimmest = gn_min32(t[0], gn_min32(t[1], t[2])), brightest = gn_max32(t[0], gn_max32(t[1], t[2]));
+        if (!gn_cell_product_holds((uint32_t)(most - least), f->base_q24[c] + least, (uint32_t)(brightest - dimmest),
+                                   dimmest, log2))
+            return 0;
     }
     return 1;
 }

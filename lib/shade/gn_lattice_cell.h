@@ -102,6 +102,17 @@ GN_HOT static inline uint32_t gn_cell_spread(int32_t a, int32_t b, int32_t c, in
 }
 #endif
 
+#if GN_VERTEX_COLOURS
+/* Whether a light times a vertex colour, up to 2^28 and 2^16, is close to linear: the product of both changes is at
+ * most 2^-log2 of the least product and 1/32. */
+GN_HOT static inline int gn_cell_product_holds(uint32_t change_q24, int32_t least_q24, uint32_t tints_q16,
+                                               int32_t dimmest_q16, int32_t log2)
+{
+    const uint64_t both = (uint64_t)(uint32_t)gn_max32(least_q24, 0) * (uint32_t)gn_max32(dimmest_q16, 0) >> 16;
+    return ((uint64_t)change_q24 * tints_q16 >> 16) << log2 <= both + (1U << 19);
+}
+#endif
+
 /* |b - a| */
 GN_HOT static inline uint32_t gn_cell_change(int32_t a, int32_t b)
 {
@@ -142,12 +153,6 @@ int gn_cell_find_bend(gn_lattice_cell *cell);
 /* Whether texture coordinates may be interpolated; the same of a mask image: a corner per texel. */
 int gn_cell_textures_hold(const gn_lattice_cell *cell);
 int gn_cell_masks_hold(const gn_lattice_cell *cell);
-
-#if GN_VERTEX_COLOURS
-/* Whether a light times a vertex colour, up to 2^28 and 2^16 at the corners, is close to bilinear: the product of both
- * changes is at most 2^-log2 of the least product and 1/32. */
-int gn_cell_product_holds(const int32_t light_q24[4], const int32_t tint_q16[4], int32_t log2);
-#endif
 
 /* By how much the square of a distance is off between the corners: a quarter of the squares of the cell's sides. */
 uint64_t gn_cell_bend2_q32(const gn_lattice_cell *cell);

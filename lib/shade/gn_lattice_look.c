@@ -127,24 +127,18 @@ GN_HOT static GN_NOINLINE void add_colour(const gn_lattice_cell *cell, uint32_t 
 }
 
 #if GN_VERTEX_COLOURS
-GN_HOT int gn_cell_product_holds(const int32_t light_q24[4], const int32_t tint_q16[4], int32_t log2)
-{
-    const uint32_t change = gn_cell_spread(light_q24[0], light_q24[1], light_q24[2], light_q24[3]),
-                   tints = gn_cell_spread(tint_q16[0], tint_q16[1], tint_q16[2], tint_q16[3]);
-    if (!change || !tints) return 1;
-    const int32_t least = gn_min32(gn_min32(light_q24[0], light_q24[1]), gn_min32(light_q24[2], light_q24[3])),
-                  dimmest = gn_min32(gn_min32(tint_q16[0], tint_q16[1]), gn_min32(tint_q16[2], tint_q16[3]));
-    const uint64_t seen = ((uint64_t)(uint32_t)gn_max32(least, 0) * (uint32_t)gn_max32(dimmest, 0) >> 16) + (1U << 19);
-    return ((uint64_t)change * tints >> 16) << log2 <= seen;
-}
-
 /* Of a channel: it is off by a quarter of both changes at most. `light` is that of a colour, at the corners. */
 GN_HOT static int product_holds(const gn_lattice_cell *cell, int channel, const int32_t light_q24[4])
 {
     const int32_t log2 = gn_max32(gn_cell_light_log2(cell->frame) - 2, 1 - gn_cell_sum_log2(cell->frame));
     int32_t tint[4];
     for (int i = 0; i < 4; i++) tint[i] = cell->corner[i]->tint_q16[channel];
-    return gn_cell_product_holds(light_q24, tint, log2);
+    const uint32_t change = gn_cell_spread(light_q24[0], light_q24[1], light_q24[2], light_q24[3]),
+                   tints = gn_cell_spread(tint[0], tint[1], tint[2], tint[3]);
+    if (!change || !tints) return 1;
+    const int32_t least = gn_min32(gn_min32(light_q24[0], light_q24[1]), gn_min32(light_q24[2], light_q24[3])),
+                  dimmest = gn_min32(gn_min32(tint[0], tint[1]), gn_min32(tint[2], tint[3]));
+    return gn_cell_product_holds(change, least, tints, dimmest, log2);
 }
 
 /* The same of a light whose shadow has an edge, which is not part of the cell's colours. */
