@@ -118,8 +118,10 @@ static inline int32_t draw_perspective(gn_casting *casting, gn_alpha_cut *alpha,
 /* A corner in the view's coordinates. Returns 0 if it may be beyond 2^29. */
 static inline int caster_corner(int32_t out[3], const caster_job *job, uint32_t vertex_idx)
 {
-    if (GN_LARGE_CASTERS && !GN_SKIN(job->object))
-        return gn_xform_fast_vertex(out, &job->by.fast, job->object->mesh->pos + 3 * (size_t)vertex_idx);
+    if (!GN_SIZE_FIRST && !GN_SKIN(job->object)) {
+        if (gn_xform_fast_vertex(out, &job->by.fast, job->object->mesh->pos + 3 * (size_t)vertex_idx)) return 1;
+        if (GN_LARGE_CASTERS) return 0;
+    }
     int64_t v[3];
     light_position(v, job, vertex_idx);
     for (int i = 0; i < 3; i++) {
@@ -238,7 +240,7 @@ static GN_NOINLINE gn_status draw_object(gn_frame *frame, gn_casting *casting, c
     if (GN_CASTER_BIAS && job->shrink_q16) {
         if (GN_VERTEX_NORMALS && job->object->mesh->nrm_q15)
             gn_xform_normal_matrix(job->by.normal_matrix, job->object->to_world.m_q30);
-    } else if (GN_LARGE_CASTERS && GN_SMALL_CASTERS) gn_xform_fast_begin(&job->by.fast, &job->to_light);
+    } else if (!GN_SIZE_FIRST) gn_xform_fast_begin(&job->by.fast, &job->to_light);
     const gn_mesh *mesh = job->object->mesh;
     for (uint32_t t = 0; t < mesh->n_triangles; t++) {
         gn_status status = draw_triangle(casting, mesh->idx + 3 * (size_t)t);
