@@ -8,21 +8,43 @@
 #include "light/gn_object.h"
 #include "scene/gn_scene.h"
 
-/* Centre and half extents of the mesh's vertices, posed by the skin if it has one, in the mesh's own format. Returns 0
- * if a position is out of range. */
-static int mesh_box(const gn_object *object, int32_t centre[3], int32_t half[3])
+/* Least and largest of n coordinates, three apart. */
+static void stored_extent(const gn_position *at, uint32_t n, int32_t *lo, int32_t *hi)
 {
-    int32_t p[3], lo[3], hi[3];
+    int32_t least = *at, most = least;
+    for (; n; n--, at += 3) {
+        least = gn_min32(least, *at);
+        most = gn_max32(most, *at);
+    }
+    *lo = least;
+    *hi = most;
+}
+
+/* The same of all coordinates of a mesh that its skin poses. */
+static void posed_extent(const gn_object *object, int32_t lo[3], int32_t hi[3])
+{
+    int32_t p[3];
     gn_position_of(lo, object, 0);
     for (int k = 0; k < 3; k++) hi[k] = lo[k];
-    for (uint32_t i = 0; i < object->mesh->n_vertices; i++) {
+    for (uint32_t i = 1; i < object->mesh->n_vertices; i++) {
         gn_position_of(p, object, i);
-        if (!gn_position_ok(p)) return 0;
         for (int k = 0; k < 3; k++) {
             lo[k] = gn_min32(lo[k], p[k]);
             hi[k] = gn_max32(hi[k], p[k]);
         }
     }
+}
+
+/* Centre and half extents of the mesh's vertices, posed by the skin if it has one, in the mesh's own format. Returns 0
+ * if a position is out of range. */
+static int mesh_box(const gn_object *object, int32_t centre[3], int32_t half[3])
+{
+    const gn_mesh *mesh = object->mesh;
+    int32_t lo[3], hi[3];
+    if (GN_SKIN(object)) posed_extent(object, lo, hi);
+    else
+        for (int k = 0; k < 3; k++) stored_extent(mesh->pos + k, mesh->n_vertices, &lo[k], &hi[k]);
+    if (!gn_position_ok(lo) || !gn_position_ok(hi)) return 0;
     for (int k = 0; k < 3; k++) {
         centre[k] = (int32_t)(((int64_t)lo[k] + hi[k]) >> 1);
         half[k] = (int32_t)(((int64_t)hi[k] - lo[k] + 1) >> 1);

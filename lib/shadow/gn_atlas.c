@@ -135,11 +135,12 @@ static inline int caster_corner(int32_t out[3], const caster_job *job, uint32_t 
 static inline int cached_corners(caster_job *job, const uint16_t idx[3], const int32_t *c[3])
 {
     const gn_mesh *mesh = job->object->mesh;
-    gn_vertex_entry *before[2] = {job->spare, job->spare}; /* no entries of the cache */
+    gn_vertex_entry *const cache = job->cache, *before[2] = {job->spare, job->spare}; /* no entries of the cache */
+    const uint32_t mask = job->cache_mask, n_vertices = mesh->n_vertices, tags = gn_vertex_tag(job->object_idx, 0);
     for (int i = 0; i < 3; i++) {
-        uint32_t vertex_idx = idx[i], tag = gn_vertex_tag(job->object_idx, vertex_idx);
-        if (vertex_idx >= mesh->n_vertices) return 0;
-        gn_vertex_entry *entry = &job->cache[gn_vertex_slot(vertex_idx, job->cache_mask)];
+        uint32_t vertex_idx = idx[i], tag = tags + vertex_idx;
+        if (vertex_idx >= n_vertices) return 0;
+        gn_vertex_entry *entry = &cache[gn_vertex_slot(vertex_idx, mask)];
         if (!gn_vertex_hit(entry, tag)) {
             entry = gn_vertex_claim_corner(entry, tag, before[0], before[1], &job->spare[i]);
             if (!caster_corner(entry->v_q16, job, vertex_idx)) {

@@ -109,10 +109,13 @@ static GN_NOINLINE int ortho_caster(gn_caster *out, const gn_light_view *view, c
     int32_t to_steps = 16 - view->tile_log2 - view->depth_log2;
     gn_bfloat per_n = gn_bf_recip(gn_bf_from_u64(gn_abs32(nn[2])));
     int32_t nu = nn[2] < 0 ? nn[0] : -nn[0], nv = nn[2] < 0 ? nn[1] : -nn[1];
-    int64_t steepest =
-        gn_clamp64(apply((int32_t)(gn_abs32(nu) > gn_abs32(nv) ? gn_abs32(nu) : gn_abs32(nv)), per_n, 16), 0,
-                   (int64_t)1 << 31);                                                       /* texels per texel, Q16 */
-    int64_t bias = view->bias_constant_q16 + gn_shr64(steepest * view->bias_slope_q16, 16); /* 2^31 * 2^22 */
+    int64_t bias = view->bias_constant_q16;
+    if (view->bias_slope_q16) {
+        const int64_t steepest =
+            gn_clamp64(apply((int32_t)gn_max32((int32_t)gn_abs32(nu), (int32_t)gn_abs32(nv)), per_n, 16), 0,
+                       (int64_t)1 << 31);                      /* texels per texel, Q16 */
+        bias += gn_shr64(steepest * view->bias_slope_q16, 16); /* 2^31 * 2^22 */
+    }
     out->bias = depth_q32(view, bias);
     out->dz_du = gn_clamp64(apply(nu, per_n, 16 + to_steps), -GN_CASTER_GRADIENT_MAX, GN_CASTER_GRADIENT_MAX);
     out->dz_dv = gn_clamp64(apply(nv, per_n, 16 + to_steps), -GN_CASTER_GRADIENT_MAX, GN_CASTER_GRADIENT_MAX);
@@ -208,24 +211,20 @@ int32_t gn_ortho_small_triangle(const gn_frame *frame, const gn_light_view *view
 {
     int two_sided = casting->job.two_sided;
     const int32_t ends[2] = {view->tile_texels << 16, GN_TILE_ROWS(view) << 16};
-    int32_t sub = 16 - GN_K(frame, shadow_subpixel_bits), half = (1 << sub) >> 1, x[3], y[3];
+    int32_t sub = 16 - GN_K(frame, shadow_subpixel_bits), half = (1 << sub) >> 1;
     for (int axis = 0; axis < 2; axis++) { /* misses the tile: a sign of all three */
         int32_t end = ends[axis];
         if (((c[0][axis] & c[1][axis] & c[2][axis]) | ((end - c[0][axis]) & (end - c[1][axis]) & (end - c[2][axis]))) <
             0)
             return -1;
     }
-    int32_t e1[3], e2[3], nn[3];
-    for (int i = 0; i < 3; i++) {
-        e1[i] = c[1][i] - c[0][i]; /* < 2^30 */
-        e2[i] = c[2][i] - c[0][i];
-    }
+    const int32_t e1[3] = {c[1][0] - c[0][0], c[1][1] - c[0][1], c[1][2] - c[0][2]}, /* < 2^30 */
+        e2[3] = {c[2][0] - c[0][0], c[2][1] - c[0][1], c[2][2] - c[0][2]};
+    int32_t nn[3];
     int64_t n[3] = {0, 0, (int64_t)e1[0] * e2[1] - (int64_t)e1[1] * e2[0]};
     if (n[2] == 0 || (n[2] > 0 && !two_sided)) return -1;
-    for (int k = 0; k < 3; k++) {
-        x[k] = (c[k][0] + half) >> sub;
-        y[k] = (c[k][1] + half) >> sub;
-    }
+    const int32_t x[3] = {(c[0][0] + half) >> sub, (c[1][0] + half) >> sub, (c[2][0] + half) >> sub},
+                  y[3] = {(c[0][1] + half) >> sub, (c[1][1] + half) >> sub, (c[2][1] + half) >> sub};
     int32_t n_rows = gn_caster_begin(frame, view, &casting->walk, x, y);
     if (!n_rows) return 0;
     gn_caster caster;
