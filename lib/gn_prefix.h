@@ -212,6 +212,7 @@
 #define gn_outcode GN_PREFIXED_(GN_PREFIX, gn_outcode)
 #define gn_part_begin GN_PREFIXED_(GN_PREFIX, gn_part_begin)
 #define gn_part_shade GN_PREFIXED_(GN_PREFIX, gn_part_shade)
+#define gn_persp_corner GN_PREFIXED_(GN_PREFIX, gn_persp_corner)
 #define gn_persp_face GN_PREFIXED_(GN_PREFIX, gn_persp_face)
 #define gn_persp_face_axis GN_PREFIXED_(GN_PREFIX, gn_persp_face_axis)
 #define gn_persp_face_q24 GN_PREFIXED_(GN_PREFIX, gn_persp_face_q24)

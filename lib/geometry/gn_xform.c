@@ -66,15 +66,16 @@ void gn_cam_setup(gn_frame *frame)
 void gn_xform_compose(gn_xform *out, const int32_t axis_q30[3][3], const int32_t origin_q16[3], const gn_object *object)
 {
     const gn_affine *a = &object->to_world;
+    /* up to 2^30 each: times 2^30, three of them with a unit row, below 2^62 */
+    const int32_t from_origin[3] = {a->t_q16[0] - origin_q16[0], a->t_q16[1] - origin_q16[1],
+                                    a->t_q16[2] - origin_q16[2]};
     for (int r = 0; r < 3; r++) {
         for (int c = 0; c < 3; c++) {
             int32_t column[3] = {a->m_q30[0][c], a->m_q30[1][c], a->m_q30[2][c]};
             /* |axis| = 1, |column| <= sqrt(3): the sum is below 2^61, the result below 2^31 */
             out->m[r][c] = gn_sat32(gn_dot_q30(axis_q30[r], column));
         }
-        int64_t t = 0; /* |difference| <= 2^30 each, times 2^30, three of them with a unit row: below 2^62 */
-        for (int c = 0; c < 3; c++) t += ((int64_t)a->t_q16[c] - origin_q16[c]) * axis_q30[r][c];
-        out->t_q16[r] = gn_shr64(t, 30);
+        out->t_q16[r] = gn_dot_q30(axis_q30[r], from_origin);
     }
     /* m has 30 - exp fraction bits, positions pos_frac_bits, or 16 behind a skin; the result 16. 0 <= shift <= 44 by
      * validation. */

@@ -102,7 +102,7 @@ static gn_status transform(const caster_job *job, const uint16_t idx[3], int64_t
 static inline int32_t draw_perspective(gn_casting *casting, gn_alpha_cut *alpha, gn_status *status)
 {
     const caster_job *job = &casting->job;
-    int64_t(*corner)[3] = casting->polygon.p;
+    int64_t(*corner)[3] = casting->of.polygon.p;
     for (int i = 0; i < 3; i++) {
         for (int k = 0; k < 3; k++) {
             if (corner[i][k] <= -GN_VIEW_LIMIT_Q16 || corner[i][k] >= GN_VIEW_LIMIT_Q16) {
@@ -115,8 +115,8 @@ static inline int32_t draw_perspective(gn_casting *casting, gn_alpha_cut *alpha,
     return gn_persp_triangle(job->frame, job->view, casting, alpha);
 }
 
-/* A corner in the view's coordinates. Returns 0 if it may be beyond 2^29. */
-static inline int caster_corner(int32_t out[3], const caster_job *job, uint32_t vertex_idx)
+/* Coordinates of a vertex in the view. Returns 0 if it may be beyond 2^29. */
+static inline int small_position(int32_t out[3], const caster_job *job, uint32_t vertex_idx)
 {
     if (!GN_SIZE_FIRST && !GN_SKIN(job->object)) {
         if (gn_xform_fast_vertex(out, &job->by.fast, job->object->mesh->pos + 3 * (size_t)vertex_idx)) return 1;
@@ -131,24 +131,35 @@ static inline int caster_corner(int32_t out[3], const caster_job *job, uint32_t 
     return 1;
 }
 
-/* Corners through the cache. Returns 0 if one needs the general path. */
-static inline int cached_corners(caster_job *job, const uint16_t idx[3], const int32_t *c[3])
+/* Returns 0 if the corner needs the general path. */
+static inline int fill_corner(gn_caster_corner *c, const caster_job *job, uint32_t vertex_idx)
 {
+    if (!small_position(c->vertex.v_q16, job, vertex_idx)) return 0;
+    if (GN_SMALL_CASTERS && GN_PUNCTUAL_LIGHTS && job->view->perspective) gn_persp_corner(job->frame, job->view, c);
+    return 1;
+}
+
+/* Corners through the cache. Returns 0 if one needs the general path. */
+static inline int cached_corners(gn_casting *casting, const uint16_t idx[3], const gn_caster_corner *c[3])
+{
+    const caster_job *job = &casting->job;
     const gn_mesh *mesh = job->object->mesh;
-    gn_vertex_entry *const cache = job->cache, *before[2] = {job->spare, job->spare}; /* no entries of the cache */
+    gn_caster_corner *const cache = job->cache, *const spare = casting->of.spare,
+                            *before[2] = {spare, spare}; /* no entries of the cache */
     const uint32_t mask = job->cache_mask, n_vertices = mesh->n_vertices, tags = gn_vertex_tag(job->object_idx, 0);
     for (int i = 0; i < 3; i++) {
         uint32_t vertex_idx = idx[i], tag = tags + vertex_idx;
         if (vertex_idx >= n_vertices) return 0;
-        gn_vertex_entry *entry = &cache[gn_vertex_slot(vertex_idx, mask)];
-        if (!gn_vertex_hit(entry, tag)) {
-            entry = gn_vertex_claim_corner(entry, tag, before[0], before[1], &job->spare[i]);
-            if (!caster_corner(entry->v_q16, job, vertex_idx)) {
-                gn_vertex_drop(entry);
+        gn_caster_corner *entry = &cache[gn_vertex_slot(vertex_idx, mask)];
+        if (!gn_vertex_hit(&entry->vertex, tag)) {
+            entry = (gn_caster_corner *)gn_vertex_claim_corner(&entry->vertex, tag, &before[0]->vertex,
+                                                               &before[1]->vertex, &spare[i].vertex);
+            if (!fill_corner(entry, job, vertex_idx)) {
+                gn_vertex_drop(&entry->vertex);
                 return 0;
             }
         }
-        c[i] = entry->v_q16;
+        c[i] = entry;
         before[1] = before[0];
         before[0] = entry;
     }
@@ -158,10 +169,10 @@ static inline int cached_corners(caster_job *job, const uint16_t idx[3], const i
 /* The common case: a caster that is neither shrunk nor cut by alpha, and not far outside. Returns 0 for others. */
 static inline int draw_small(gn_casting *casting, const uint16_t idx[3], int32_t *n_texels)
 {
-    caster_job *job = &casting->job;
-    const int32_t *c[3];
+    const caster_job *job = &casting->job;
+    const gn_caster_corner *c[3];
     if (GN_CASTER_BIAS && job->shrink_q16) return 0;
-    if (job->object->caster_alpha != GN_ALPHA_OPAQUE || !cached_corners(job, idx, c)) return 0;
+    if (job->object->caster_alpha != GN_ALPHA_OPAQUE || !cached_corners(casting, idx, c)) return 0;
     if (GN_SMALL_CASTERS && GN_PUNCTUAL_LIGHTS && job->view->perspective)
         *n_texels = gn_persp_small_triangle(job->frame, job->view, casting, c);
     else *n_texels = gn_ortho_small_triangle(job->frame, job->view, casting, c);
@@ -182,7 +193,7 @@ static gn_alpha_cut *alpha_of(gn_casting *casting)
 static GN_NOINLINE gn_status draw_large(gn_casting *casting, const uint16_t idx[3], int32_t *n_texels)
 {
     const caster_job *job = &casting->job;
-    int64_t(*corner)[3] = casting->polygon.p;
+    int64_t(*corner)[3] = casting->of.polygon.p;
     gn_alpha_cut *with = NULL;
     *n_texels = -1;
     gn_status status = transform(job, idx, corner);
@@ -252,7 +263,8 @@ static GN_NOINLINE gn_status draw_object(gn_frame *frame, gn_casting *casting, c
 
 static gn_status draw_layer(gn_frame *frame, gn_casting *casting, const gn_light_view *view, gn_layer layer)
 {
-    for (uint32_t i = 0; GN_SMALL_CASTERS && i <= casting->job.cache_mask; i++) gn_vertex_drop(&casting->job.cache[i]);
+    for (uint32_t i = 0; GN_SMALL_CASTERS && i <= casting->job.cache_mask; i++)
+        gn_vertex_drop(&casting->job.cache[i].vertex);
     for (uint32_t o = 0; o < frame->scene->n_objects; o++) {
         int culled, drawn = gn_cull_draws(frame, view, o, layer, &culled);
         frame->stats.n_casters_culled += (uint32_t)culled;
@@ -307,8 +319,8 @@ static gn_status draw_view(gn_frame *frame, gn_casting *casting, gn_light_view *
 
 static void use_cache(gn_caster_job *job, uint32_t *memory, uint32_t n_words)
 {
-    job->cache = (gn_vertex_entry *)(void *)memory;
-    job->cache_mask = gn_vertex_mask(n_words * sizeof *memory, sizeof(gn_vertex_entry));
+    job->cache = (gn_caster_corner *)(void *)memory;
+    job->cache_mask = gn_vertex_mask(n_words * sizeof *memory, sizeof(gn_caster_corner));
 }
 
 gn_status gn_atlas_render_tile(gn_frame *frame, gn_casting *casting, uint32_t view_idx, uint32_t *memory,

@@ -184,7 +184,7 @@ static inline void alpha_plane(const gn_frame *frame, const gn_light_view *view,
 int32_t gn_ortho_triangle(const gn_frame *frame, const gn_light_view *view, gn_casting *casting, gn_alpha_cut *alpha)
 {
     gn_caster caster;
-    gn_light_polygon *polygon = &casting->polygon;
+    gn_light_polygon *polygon = &casting->of.polygon;
     polygon->n = 3;
     if (misses_tile(view, polygon->p) || !wide_caster_begin(&caster, view, polygon->p, casting->job.two_sided))
         return -1;
@@ -207,8 +207,9 @@ int32_t gn_ortho_triangle(const gn_frame *frame, const gn_light_view *view, gn_c
 }
 
 int32_t gn_ortho_small_triangle(const gn_frame *frame, const gn_light_view *view, gn_casting *casting,
-                                const int32_t *const c[3])
+                                const gn_caster_corner *const corner[3])
 {
+    const int32_t *const c[3] = {corner[0]->vertex.v_q16, corner[1]->vertex.v_q16, corner[2]->vertex.v_q16};
     int two_sided = casting->job.two_sided;
     const int32_t ends[2] = {view->tile_texels << 16, GN_TILE_ROWS(view) << 16};
     int32_t sub = 16 - GN_K(frame, shadow_subpixel_bits), half = (1 << sub) >> 1;

@@ -178,6 +178,8 @@ GN_HOT static void project_corner(const gn_frame *frame, const gn_light_view *vi
 }
 
 #if GN_SMALL_CASTERS
+#define OUT_OF_BITS (GN_OUT_ALL + 1U) /* in this view, texels need more bits */
+
 /* gn_outcode() of a frustum that is as high as it is wide. */
 GN_HOT static inline uint32_t outcode(const int32_t v_q16[3], int32_t near_q16, int32_t side_q16)
 {
@@ -200,43 +202,47 @@ GN_HOT static inline void project_inner(const gn_light_view *view, int32_t bits,
     *y = (int32_t)(((int64_t)v_q28 * focal2 + half) >> down) + centre;
 }
 
-GN_HOT static inline void copy_corners(int32_t out[3][3], const int32_t *const c[3])
+GN_HOT void gn_persp_corner(const gn_frame *frame, const gn_light_view *view, gn_caster_corner *c)
+{
+    const gn_persp_fit *fit = &view->fit.persp;
+    const int32_t side_q16 = fit->side_q16[0];
+    c->out = outcode(c->vertex.v_q16, fit->clip_q16, side_q16);
+    if (side_q16 >> 19 || fit->focal2_q16 >> 31) c->out |= OUT_OF_BITS;
+    if (!c->out) project_inner(view, GN_K(frame, shadow_subpixel_bits), c->vertex.v_q16, &c->x, &c->y);
+}
+
+GN_HOT static inline void copy_corners(int32_t out[3][3], const gn_caster_corner *const c[3])
 {
     for (int i = 0; i < 3; i++)
-        for (int k = 0; k < 3; k++) out[i][k] = c[i][k];
+        for (int k = 0; k < 3; k++) out[i][k] = c[i]->vertex.v_q16[k];
 }
 
 /* A triangle within the tile's border: most are smaller than a texel, and cover none. */
 GN_HOT static int32_t draw_inner(const gn_frame *frame, const gn_light_view *view, gn_casting *casting,
-                                 const int32_t *const c[3])
+                                 const gn_caster_corner *const c[3])
 {
-    int32_t(*corner)[3] = casting->with.clipping.polygon.v_q16, x[3], y[3];
+    int32_t(*corner)[3] = casting->with.clipping.polygon.v_q16;
+    const int32_t x[3] = {c[0]->x, c[1]->x, c[2]->x}, y[3] = {c[0]->y, c[1]->y, c[2]->y};
     const int two_sided = casting->job.two_sided;
     gn_caster caster;
     gn_plane plane;
-    for (int i = 0; i < 3; i++) project_inner(view, GN_K(frame, shadow_subpixel_bits), c[i], &x[i], &y[i]);
+    /* as roundings may move corners by 1 each, this much of the area says that the plane itself faces away */
+    const int32_t dx1 = x[1] - x[0], dx2 = x[2] - x[0], dy1 = y[1] - y[0], dy2 = y[2] - y[0];
+    const int64_t area = (int64_t)dx1 * dy2 - (int64_t)dy1 * dx2;
+    if (!two_sided && area > 8 + 2 * ((int64_t)gn_abs32(dx1) + gn_abs32(dx2) + gn_abs32(dy1) + gn_abs32(dy2)))
+        return -1;
     const int32_t n_rows = gn_caster_begin(frame, view, &casting->walk, x, y);
-    if (!n_rows) { /* for the statistics */
-        const int64_t area = (int64_t)(x[1] - x[0]) * (y[2] - y[0]) - (int64_t)(y[1] - y[0]) * (x[2] - x[0]);
-        return area == 0 || (area > 0 && !two_sided) ? -1 : 0;
-    }
+    if (!n_rows) return area == 0 || (area > 0 && !two_sided) ? -1 : 0; /* for the statistics */
     copy_corners(corner, c);
     if (!persp_caster(&caster, &plane, view, corner, two_sided)) return -1;
     return gn_caster_rows(view, &caster, &casting->walk, n_rows, NULL);
 }
 
 GN_HOT int32_t gn_persp_small_triangle(const gn_frame *frame, const gn_light_view *view, gn_casting *casting,
-                                       const int32_t *const c[3])
+                                       const gn_caster_corner *const c[3])
 {
-    const gn_persp_fit *fit = &view->fit.persp;
-    uint32_t all = ~0U, any = 0;
-    for (int i = 0; i < 3; i++) {
-        const uint32_t out = outcode(c[i], fit->clip_q16, fit->side_q16[0]);
-        all &= out;
-        any |= out;
-    }
-    if (all) return -1;
-    if (!any && fit->side_q16[0] >> 19 == 0 && !(fit->focal2_q16 >> 31)) return draw_inner(frame, view, casting, c);
+    if (c[0]->out & c[1]->out & c[2]->out & GN_OUT_ALL) return -1;
+    if (!(c[0]->out | c[1]->out | c[2]->out)) return draw_inner(frame, view, casting, c);
     copy_corners(casting->with.clipping.polygon.v_q16, c);
     return gn_persp_triangle(frame, view, casting, NULL);
 }

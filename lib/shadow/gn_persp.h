@@ -22,8 +22,11 @@ void gn_persp_face_axis(int32_t out_q30[3], int32_t face);
  * -1 if it is culled. */
 int32_t gn_persp_triangle(const gn_frame *frame, const gn_light_view *view, gn_casting *casting, gn_alpha_cut *alpha);
 
-/* The same of corners below 2^29, of casters that alpha does not cut. */
+/* Tells where the view sees a corner whose coordinates are known. */
+void gn_persp_corner(const gn_frame *frame, const gn_light_view *view, gn_caster_corner *c);
+
+/* The same of such corners, of casters that alpha does not cut. */
 int32_t gn_persp_small_triangle(const gn_frame *frame, const gn_light_view *view, gn_casting *casting,
-                                const int32_t *const c[3]);
+                                const gn_caster_corner *const c[3]);
 
 #endif

@@ -198,6 +198,15 @@ typedef union {
     uint32_t d32[GN_OTHER_ATLAS_BYTES / 4];
 } gn_other_texels;
 
+/* A corner of a caster as a view sees it. */
+typedef struct {
+    gn_vertex_entry vertex; /* within 2^29 */
+#if GN_PUNCTUAL_LIGHTS      /* of perspective views: gn_persp_corner */
+    int32_t x, y;           /* texels with shadow_subpixel_bits fraction bits, if `out` is 0 */
+    uint32_t out;           /* planes that it lies beyond */
+#endif
+} gn_caster_corner;
+
 /* One caster and one view. */
 typedef struct {
     struct gn_frame *frame;
@@ -205,10 +214,9 @@ typedef struct {
     const gn_object *object;
     uint32_t object_idx;
     int two_sided;
-    gn_vertex_entry *cache; /* of vertices as the view sees them, within 2^29 */
+    gn_caster_corner *cache;
     uint32_t cache_mask;
-    gn_vertex_entry spare[3]; /* see gn_vertex_claim_corner */
-    int32_t shrink_q16;       /* caster bias, texels */
+    int32_t shrink_q16; /* caster bias, texels */
     gn_xform to_light;
     union {
         gn_xform_fast fast;          /* of what is not shrunk */
@@ -231,7 +239,10 @@ typedef struct {
 typedef struct {
     gn_caster_job job;
     gn_walk walk;
-    gn_light_polygon polygon;
+    union {
+        gn_light_polygon polygon;
+        gn_caster_corner spare[3]; /* of those that need no polygon: see gn_vertex_claim_corner */
+    } of;
     union {
         gn_light_polygon uncut; /* orthographic */
         gn_clipping clipping;   /* perspective */

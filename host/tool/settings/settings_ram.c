@@ -71,7 +71,7 @@ static long cut_bytes(const settings *s)
 static long casting_bytes(const settings *s)
 {
     if (!s->feature.shadows) return 0;
-    return 856 + cut_bytes(s);
+    return 808 + cut_bytes(s);
 }
 
 /* gn_corner of lib/shade/gn_shade_types.h */
