@@ -53,6 +53,7 @@ GN_HOT uint32_t gn_rsqrt_norm(uint32_t m, int32_t newton_steps)
         uint32_t less = (3U << 30) - gn_umul_high(m, yy); /* Q2.30, near 2 */
         uint64_t better = (uint64_t)y * less;
         y = better >> 63 ? UINT32_MAX : (uint32_t)(better >> 31);
+        GN_KEEP(y); /* 32 bits */
     }
     return y;
 }
@@ -190,10 +191,12 @@ GN_HOT int gn_normalise_q30(int32_t out_q30[3], const int64_t a[3])
     int32_t s = gn_clz64(sum) & ~1; /* even shift to [2^62, 2^64) */
     uint32_t r =
         gn_rsqrt_norm((uint32_t)((sum << s) >> 32), 2); /* 2^47 / sqrt(sum << s >> 32) = 2^63 / sqrt(sum << s) */
+    /* n / sqrt(sum) = n * r * 2^(s/2 - 63), s = 2 or 4; the factor r, from 2^31 on, as r - 2^32 and once more */
+    int32_t below = (int32_t)(r - 0x80000000U - 0x80000000U);
+    GN_KEEP(below); /* signed: one multiplication */
     for (int i = 0; i < 3; i++) {
-        /* n / sqrt(sum) = n * r * 2^(s/2 - 63), s = 2 or 4; the factor r, from 2^31 on, as r - 2^32 and once more */
         int32_t twice = s == 4 ? 2 * n[i] : n[i];
-        int64_t p = (int64_t)twice * (int32_t)(r - 0x80000000U - 0x80000000U);
+        int64_t p = (int64_t)twice * below;
         int32_t v = (int32_t)(p >> 32) + twice + (int32_t)((uint32_t)p >> 31);
         out_q30[i] = gn_max32(-(1 << 30), gn_min32(v, 1 << 30));
     }

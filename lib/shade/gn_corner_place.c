@@ -154,8 +154,11 @@ GN_HOT static GN_NOINLINE int place_punctual(const gn_frame *frame, const gn_sur
     if (gn_abs32(p[0]) >> 1 >= (uint32_t)z || gn_abs32(p[1]) >> 1 >= (uint32_t)z) return 0;
     int32_t clz = gn_clz32((uint32_t)z), focal2 = (int32_t)view->fit.persp.focal2_q16, middle = view->tile_texels << 15;
     uint32_t recip = gn_recip_norm((uint32_t)z << clz, GN_K(frame, newton_steps));
-    at->u_q16 = coord_persp(p[0], clz, (int32_t)(recip >> 1), focal2, middle);
-    at->v_q16 = coord_persp(p[1], clz, (int32_t)(recip >> 1), focal2, middle);
+    int32_t half = (int32_t)(recip >> 1);
+    GN_KEEP(half); /* signed: one multiplication */
+    GN_KEEP(focal2);
+    at->u_q16 = coord_persp(p[0], clz, half, focal2, middle);
+    at->v_q16 = coord_persp(p[1], clz, half, focal2, middle);
     /* 1 - n / z */
     at->depth_q30 =
         gn_max32((1 << 30) - 1 - less_q30 - (int32_t)((uint64_t)(uint32_t)near_q16 * recip >> (33 - clz)), 0);

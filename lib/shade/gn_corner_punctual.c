@@ -1,6 +1,7 @@
 /* Spot and point lights at corners of cells. */
 #include "gn_internal.h"
 
+#include "base/gn_hint.h"
 #include "base/gn_math.h"
 #include "base/gn_q.h"
 #include "light/gn_punctual.h"
@@ -39,6 +40,7 @@ GN_HOT int32_t gn_corner_irradiance(const gn_frame *frame, const gn_light_state 
     int32_t shift = gn_clz64(d2) & ~1, half = (shift >> 1) - 1, most = INT32_MAX >> half, factor = 1 << 30;
     uint32_t root = gn_rsqrt_norm((uint32_t)((d2 << shift) >> 32), steps);
     int32_t root_q31 = (int32_t)(root >> 1);
+    GN_KEEP(root_q31); /* signed: one multiplication; factor, too */
     out->arrives = GN_CORNER_FULLY;
     if (light->kind == GN_LIGHT_SPOT) {
         int32_t reach = (int32_t)gn_clamp64(-gn_dot_q30(from_q16, light->to_light_q30), -most, most),
@@ -48,15 +50,19 @@ GN_HOT int32_t gn_corner_irradiance(const gn_frame *frame, const gn_light_state 
         else factor = 0, out->arrives = 1 - GN_CORNER_FULLY;
         if (!factor) return 0;
     }
+    GN_KEEP(factor);
     if (light->range2_q32 != UINT64_MAX) factor = 4 * gn_mul_high(factor, gn_corner_window_q30(light, d2));
     int32_t cosine = 2 * gn_mul_high(gn_min32(facing_q16, most) << half, root_q31);
+    GN_KEEP(factor);
     int32_t share = 4 * gn_mul_high(factor, cosine);
     if (d2 < frame->min2_q32) { /* cosines are of the true distance */
         shift = gn_clz64(frame->min2_q32) & ~1;
         root = gn_rsqrt_norm((uint32_t)((frame->min2_q32 << shift) >> 32), steps);
     }
     /* 1 / d^2 = root^2 * 2^(shift - 94), of which 31 bits are used */
-    int32_t q = gn_mul_high(share, (int32_t)(gn_umul_high(root, root) >> 1)), down = 35 - shift - light->colour_exp;
+    int32_t root2 = (int32_t)(gn_umul_high(root, root) >> 1);
+    GN_KEEP(root2);
+    int32_t q = gn_mul_high(share, root2), down = 35 - shift - light->colour_exp;
     if (down >= 0) return gn_min32(down > 31 ? 0 : q >> down, 1 << 27);
     return down < -27 || q >> (27 + down) ? 1 << 27 : q << -down;
 }

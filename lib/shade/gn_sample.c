@@ -89,8 +89,9 @@ GN_HOT static void point_on_ray(const gn_frame *frame, const gn_ray_plane ray[3]
     }
     if (GN_FLAT_Q16(frame)) return;
     for (int i = 0; i < 3; i++) {
-        int64_t a = ray[i].a0 + (int64_t)ray[i].ax * px + (int64_t)ray[i].ay * py; /* < 2^31 */
-        out_q16[i] = gn_shr64(z_q16 * a, ray_shift) + ray[i].d_q16;
+        const gn_ray_plane *r = &ray[i]; /* the sum is below 2^31 */
+        const int32_t a = (int32_t)((uint32_t)r->a0 + (uint32_t)r->ax * (uint32_t)px + (uint32_t)r->ay * (uint32_t)py);
+        out_q16[i] = gn_shr64((int64_t)z_q16 * a, ray_shift) + ray[i].d_q16;
     }
 }
 #endif

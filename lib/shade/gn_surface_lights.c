@@ -119,7 +119,8 @@ GN_HOT static void lift_normal(gn_surface *s)
         else if (along < least) least = along;
     }
     if (least < GN_LEAST_ALONG_Q28) s->bent = 1, least = 0;
-    for (int i = 0; i < 3; i++) s->lift_q30[i] = (int32_t)(((1 << 30) - 4 * (int64_t)least) * s->face_q30[i] >> 32) * 4;
+    const int32_t lift_q30 = (1 << 30) - 4 * least; /* least is 0, or above 7/8, and rounded up at most */
+    for (int i = 0; i < 3; i++) s->lift_q30[i] = gn_mul_high(lift_q30, s->face_q30[i]) * 4;
 }
 #endif
 

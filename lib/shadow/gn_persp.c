@@ -194,7 +194,8 @@ GN_HOT static inline void project_inner(const gn_light_view *view, int32_t bits,
 {
     const int32_t clz = gn_clz32((uint32_t)v_q16[2]), centre = (view->tile_texels << bits) >> 1, down = 45 - bits;
     const uint32_t recip = gn_recip_norm((uint32_t)v_q16[2] << clz, 2);
-    const int32_t focal2 = (int32_t)view->fit.persp.focal2_q16;
+    int32_t focal2 = (int32_t)view->fit.persp.focal2_q16;
+    GN_KEEP(focal2); /* signed: one multiplication */
     const int32_t u_q28 = (int32_t)((((int64_t)v_q16[0] * (int64_t)recip >> (34 - clz)) + 1) >> 1),
                   v_q28 = (int32_t)((((int64_t)v_q16[1] * (int64_t)recip >> (34 - clz)) + 1) >> 1);
     const int64_t half = (int64_t)1 << (down - 1);
