@@ -58,7 +58,8 @@ GN_HOT static inline int64_t gn_clamp64_inline(int64_t v, int64_t lo, int64_t hi
 
 GN_HOT static inline int32_t gn_sat32_inline(int64_t v)
 {
-    return (int32_t)gn_clamp64_inline(v, INT32_MIN, INT32_MAX);
+    if (GN_SELDOM(v != (int32_t)v)) return v < 0 ? INT32_MIN : INT32_MAX;
+    return (int32_t)v;
 }
 
 /* |v| as unsigned: defined for the most negative value too. */

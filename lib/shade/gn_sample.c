@@ -271,6 +271,7 @@ GN_HOT static void punctual_values(const gn_frame *frame, const gn_surface *s, u
         gn_bias_punctual(frame, light, gn_sample_lifted(s, light, n_q30, lifted),
                          sample->value[GN_VALUE_Z] + GN_FLAT_Q16(frame), out + GN_LIGHT_POINT_AT,
                          out + GN_LIGHT_OFFSET);
+    else out[GN_LIGHT_OFFSET] = out[GN_LIGHT_OFFSET + 1] = out[GN_LIGHT_OFFSET + 2] = 0;
 }
 #else
 GN_HOT static void punctual_values(const gn_frame *frame, const gn_surface *s, uint32_t slot, int32_t px, int32_t py,
@@ -326,7 +327,6 @@ GN_HOT static void light_values(const gn_frame *frame, const gn_surface *s, cons
     }
     for (uint32_t i = 0; i < s->n_lights; i++) {
         int32_t *out = &sample->value[GN_VALUE_LIGHT + GN_VALUES_PER_LIGHT * i];
-        for (int k = 1; k < GN_VALUES_PER_LIGHT; k++) out[k] = 0; /* not always set below */
         if (GN_PUNCTUAL_LIGHTS && s->light[i].state->kind != GN_LIGHT_DIRECTIONAL) {
             GN_COUNT(sample_lights_punctual, 1);
             punctual_values(frame, s, i, px, py, n_q30, unit_q30, sample, out);
@@ -334,6 +334,8 @@ GN_HOT static void light_values(const gn_frame *frame, const gn_surface *s, cons
         }
         GN_COUNT(sample_lights, 1);
         out[0] = directional_cosine_q24(frame, s, &s->light[i], h, length, n_q30);
+        if (GN_VALUES_PER_LIGHT > 1) out[1] = out[2] = out[3] = 0; /* places are not always set */
+        if (GN_VALUES_PER_LIGHT > 4) out[4] = out[5] = out[6] = 0;
         if (s->shadowed && with_places) directional_coords(frame, s, i, px, py, n_q30, sample, out + 1);
     }
     if (s->specular) specular_values(frame, px, py, unit_q30, sample);
