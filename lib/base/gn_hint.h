@@ -33,6 +33,14 @@
 #define GN_SELDOM(c) (c)
 #endif
 
+/* Before a loop of two to four turns, their number known: written out, whatever that takes of flash. Not with
+ * GN_SIZE_FIRST. */
+#if !GN_SIZE_FIRST && defined(__GNUC__) && (__GNUC__ >= 8 || defined(__clang__))
+#define GN_UNROLL _Pragma("GCC unroll 4")
+#else
+#define GN_UNROLL
+#endif
+
 /* With GN_SIZE_FIRST a pointer to an element is computed once: the compiler forgets how v was computed. */
 #if GN_SIZE_FIRST && defined(__GNUC__)
 #define GN_ELEMENT(v) __asm__("" : "+r"(v))

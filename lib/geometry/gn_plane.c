@@ -16,6 +16,7 @@ GN_HOT void gn_plane_setup(gn_plane *plane, const int32_t v0[3], const int32_t v
     int32_t e1[3], e2[3], exp = 0;
     int64_t n[3];
     uint32_t wide = 0;
+    GN_UNROLL
     for (int i = 0; i < 3; i++) {
         e1[i] = v1[i] - v0[i]; /* < 2^31 */
         e2[i] = v2[i] - v0[i];
@@ -30,6 +31,7 @@ GN_HOT void gn_plane_setup(gn_plane *plane, const int32_t v0[3], const int32_t v
     plane->back = plane->det < 0;
     if (plane->back) {
         plane->det = -plane->det;
+        GN_UNROLL
         for (int i = 0; i < 3; i++) plane->n[i] = -plane->n[i];
     }
 }
@@ -38,11 +40,13 @@ GN_HOT void gn_bary_setup(gn_bary *bary, const gn_plane *plane, const int32_t v0
                           const int32_t v2[3])
 {
     /* b1 = (e2 x v0) . ray / (n . ray), b2 = (v0 x e1) . ray / (n . ray) */
+    GN_UNROLL
     for (int k = 0; k < 2; k++) {
         const int32_t *to = k == 0 ? v2 : v1;
         int64_t c[3];
         int32_t e[3], exp = 0;
         uint32_t wide = 0;
+        GN_UNROLL
         for (int i = 0; i < 3; i++) {
             e[i] = to[i] - v0[i]; /* < 2^31 */
             wide |= (uint32_t)e[i] ^ (uint32_t)e[i] << 1;
@@ -83,6 +87,7 @@ GN_HOT void gn_bary_at(int32_t b_q30[2], const gn_bary *bary, const gn_ray_recip
                        uint32_t focal2_px_q16)
 {
     const int32_t one = 1 << 30;
+    GN_UNROLL
     for (int k = 0; k < 2; k++) {
         int64_t b = gn_plane_at(bary->form[k], px, py, focal2_px_q16);
         uint32_t t = bary_fraction(b, 32 - recip->clz - bary->exp[k], recip->w_norm);
@@ -97,6 +102,7 @@ GN_HOT void gn_bary_at(int32_t b_q30[2], const gn_bary *bary, const gn_ray_recip
 GN_HOT int gn_bary_beyond(int32_t b_q30[2], const gn_bary *bary, const gn_ray_recip *recip, int32_t px, int32_t py,
                           uint32_t focal2_px_q16)
 {
+    GN_UNROLL
     for (int k = 0; k < 2; k++) {
         int64_t b = gn_plane_at(bary->form[k], px, py, focal2_px_q16);
         int64_t t = gn_scale64((int64_t)gn_abs64(b), 33 - recip->clz - bary->exp[k]); /* half of it */

@@ -184,10 +184,14 @@ GN_HOT static int find_point(const gn_lattice *l, const gn_frame *frame, const g
     z = ((z >> (shift - 1)) + 1) >> 1;
     if (z < (uint32_t)s->z_min_q16 >> 1 || z >> 1 > (uint32_t)s->z_max_q16 || z > INT32_MAX) return 0;
     c->z_q16 = (int32_t)z;
-    for (int k = 0; GN_HAS_BARY(s) && k < 2; k++) {
+    if (!GN_HAS_BARY(s)) return 1;
+    int32_t half = (int32_t)(recip >> 1);
+    GN_KEEP(half); /* signed: one multiplication */
+    GN_UNROLL
+    for (int k = 0; k < 2; k++) {
         int32_t at = along(&plane->b[k], dx, dy);
         if (gn_abs32(at) >= 2 * (uint32_t)w) return 0;
-        p->b_q28[k] = gn_mul_high(at, (int32_t)(recip >> 1)) * (1 << (clz - 2));
+        p->b_q28[k] = gn_mul_high(at, half) * (1 << (clz - 2));
     }
     return 1;
 }
@@ -208,6 +212,7 @@ GN_HOT static int find_normal(const gn_surface *s, gn_corner *c, corner_point *p
 {
     const int32_t(*n)[3] = s->normal_q30;
     const int64_t most = (1 << 30) + (1 << 26);
+    GN_UNROLL
     for (int i = 0; i < 3; i++) {
         p->n_q30[i] = n[0][i];
         if (GN_SMOOTH(s)) {
@@ -226,6 +231,7 @@ GN_HOT static int find_normal(const gn_surface *s, gn_corner *c, corner_point *p
 /* Of length 1. Light of the sun that is interpolated has no use for it. */
 GN_HOT static void find_unit(const gn_frame *frame, const gn_surface *s, corner_point *p)
 {
+    GN_UNROLL
     for (int i = 0; i < 3; i++) p->unit_q30[i] = p->n_q30[i];
     if (GN_SMOOTH(s) && (s->n_punctual || GN_VERTEX_COSINES != 3 || !GN_K(frame, vertex_light)))
         gn_length_unit(gn_length_of(GN_K(frame, newton_steps), p->n_q30), p->n_q30, p->unit_q30);
@@ -243,6 +249,7 @@ GN_HOT static void texture_at(const gn_surface *s, const corner_point *p, int32_
 {
     const gn_texture *texture = GN_SURFACE_TEXTURE(s);
     const int64_t(*uv)[2] = (const int64_t(*)[2])s->uv.uv_q16;
+    GN_UNROLL
     for (int i = 0; i < 2; i++) {
         int32_t e1 = (int32_t)uv[1][i], e2 = (int32_t)uv[2][i];
         if (e1 != uv[1][i] || e2 != uv[2][i]) {
@@ -308,6 +315,7 @@ GN_HOT static int find_ray(const gn_frame *frame, const gn_light_state *any, gn_
     gn_corner_ray ray;
     gn_corner_ray_begin(&ray, frame, any->ray_shift, c->x, c->y, c->z_q16);
     int32_t z_shift = 33 - any->ray_shift - gn_clz32((uint32_t)c->z_q16);
+    GN_UNROLL
     for (int i = 0; i < 3; i++) {
         const gn_ray_plane *r = &any->from_light[i];
         uint32_t across = (uint32_t)r->ax * (uint32_t)ray.px + (uint32_t)r->ay * (uint32_t)ray.py;

@@ -164,6 +164,7 @@ int32_t gn_corner_irradiance(const gn_frame *frame, const gn_light_state *light,
 /* From a spot or point light to the corner: both lie within 2^30 of the eye. */
 GN_HOT static inline void gn_corner_from(const gn_corner *c, const gn_light_state *light, int32_t from_q16[3])
 {
+    GN_UNROLL
     for (int i = 0; i < 3; i++) from_q16[i] = c->ray_q16[i] + (int32_t)light->from_light[i].d_q16;
 }
 

@@ -34,6 +34,7 @@ GN_HOT static const int32_t *flat_offset(gn_lattice *l, const gn_frame *frame, c
 GN_HOT static void coords_directional(const gn_corner_ray *ray, const int32_t n_q30[3], const gn_light_view *view,
                                       int32_t along_q16, const int32_t *flat_q16, int32_t coord_q16[3])
 {
+    GN_UNROLL
     for (int i = 0; i < 3; i++) {
         const int32_t at = gn_corner_ortho(&view->fit.ortho.ray[i], ray);
         if (flat_q16) coord_q16[i] = gn_sat32((int64_t)at + flat_q16[i]); /* automatic bias may say: lit */
@@ -146,7 +147,9 @@ GN_HOT static GN_NOINLINE int place_punctual(const gn_frame *frame, const gn_sur
         less_q30 = (view->auto_step + 3) >> 2;
     }
 #endif
+    GN_UNROLL
     for (int i = 0; i < 3; i++) moved[i] = from[i] + 4 * gn_mul_high(lift, n[i]);
+    GN_UNROLL
     for (int i = 0; i < 3; i++) p[i] = (int32_t)(gn_dot64(moved, view->axis_q30[i]) >> 30);
     int32_t z = p[2], near_q16 = view->fit.persp.near_q16;
     at->seen = z > near_q16;

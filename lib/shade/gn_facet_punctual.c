@@ -14,6 +14,7 @@ GN_HOT static void turn_to_world(gn_facet_vertices *out, const gn_frame *frame, 
 {
     const int32_t(*axis)[3] = (const int32_t(*)[3])frame->cam.axis_q30, *v = s->v_q16[k];
     const int more = k && GN_SMOOTH(s);
+    GN_UNROLL
     for (int i = 0; i < 3; i++) {
         const int64_t at = (int64_t)axis[0][i] * v[0] + (int64_t)axis[1][i] * v[1] + (int64_t)axis[2][i] * v[2];
         out->ray_q16[k][i] = (int32_t)(at >> 30);
@@ -37,6 +38,7 @@ GN_HOT int gn_facet_vertices_find(gn_facet_vertices *out, const gn_frame *frame,
 {
     const int32_t(*v)[3] = (const int32_t(*)[3])surface->v_q16;
     uint32_t all = 0;
+    GN_UNROLL
     for (int k = 0; k < 3; k++) {
         all |= gn_abs32(v[k][0]) | gn_abs32(v[k][1]) | gn_abs32(v[k][2]);
         turn_to_world(out, frame, surface, k);
@@ -65,8 +67,10 @@ GN_HOT static int find_distances(light_at_vertices *at, const gn_frame *frame, c
 {
     at->nearest_q32 = UINT64_MAX;
     at->farthest_q32 = 0;
+    GN_UNROLL
     for (int k = 0; k < 3; k++) {
         uint32_t beyond = 0;
+        GN_UNROLL
         for (int i = 0; i < 3; i++) {
             at->from_q16[k][i] = v->ray_q16[k][i] + (int32_t)at->light->from_light[i].d_q16; /* 2^30 and 2^30 */
             beyond |= (uint32_t)at->from_q16[k][i] + (1U << 30);
@@ -116,6 +120,7 @@ GN_HOT int gn_facet_punctual(gn_shading *s, const gn_facet_vertices *v, uint32_t
     light_at_vertices at = {.light = light->state};
     int32_t least = INT32_MAX, most = INT32_MIN, inner = 1, outer = 1;
     if (!find_distances(&at, s->frame, v)) return GN_CELL_SPLIT;
+    GN_UNROLL
     for (int k = 0; k < 3; k++) {
         gn_corner_light *scratch = &s->lattice.corner.light[slot];
         const int32_t away = (int32_t)(gn_dot64(v->normal_q30[k], at.from_q16[k]) >> 30); /* both are below 2^31 */

@@ -17,6 +17,7 @@ GN_HOT static int vertex_on_screen(const gn_frame *frame, const int32_t v_q16[3]
     int32_t half = (int32_t)(gn_recip_norm((uint32_t)z << clz, GN_K(frame, newton_steps)) >> 1);
     GN_KEEP(half); /* signed: one multiplication */
     GN_KEEP(focal2);
+    GN_UNROLL
     for (int i = 0; i < 2; i++) /* (x / z)_q28 times 2 F */
         p_q12[i] = gn_mul_high(gn_mul_high(v_q16[i] * (1 << (clz - 2)), half), focal2);
     return 1;
@@ -36,8 +37,10 @@ GN_HOT static GN_NOINLINE int find_screen(gn_facet_screen *out, const gn_frame *
     uint32_t longest = 0;
     if (frame->cam.focal2_px_q16 >> 31) return 0;
     if (!GN_FLAT_Q16(frame) && s->z_max_q16 - s->z_min_q16 > s->z_min_q16 >> 2) return 0;
+    GN_UNROLL
     for (int k = 0; k < 3; k++) {
         if (s->v_q16[k][2] < frame->cam.near_q16 || !vertex_on_screen(frame, s->v_q16[k], p[k])) return 0;
+        GN_UNROLL
         for (int i = 0; i < 2; i++) {
             d[k][i] = p[k][i] - p[0][i];
             longest = gn_abs32(d[k][i]) > longest ? gn_abs32(d[k][i]) : longest;
@@ -54,6 +57,7 @@ GN_HOT static GN_NOINLINE int find_screen(gn_facet_screen *out, const gn_frame *
     int32_t clz = gn_clz64(size),
             recip = (int32_t)(gn_recip_norm((uint32_t)(size << clz >> 32), GN_K(frame, newton_steps)) >> 1);
     if (area < 0) recip = -recip;
+    GN_UNROLL
     for (int i = 0; i < 2; i++) { /* 2 d / area */
         out->along_q24[i][0] = upper_32((int64_t)d[2][1 - i] * recip, clz - 25);
         out->along_q24[i][1] = -upper_32((int64_t)d[1][1 - i] * recip, clz - 25);

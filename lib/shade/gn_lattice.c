@@ -97,6 +97,7 @@ GN_HOT static inline gn_corner *corner_at(gn_shading *s, int32_t x, int32_t y)
 
 GN_HOT static void find_corners(gn_shading *s, int32_t x, int32_t y, int32_t size_log2, gn_corner *corner[4])
 {
+    GN_UNROLL
     for (int32_t k = 0; k < 4; k++) corner[k] = corner_at(s, x + ((k & 1) << size_log2), y + ((k >> 1) << size_log2));
 }
 

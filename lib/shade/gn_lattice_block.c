@@ -111,6 +111,7 @@ GN_HOT static GN_NOINLINE void store_block(const gn_frame *frame, const gn_pixel
     for (int32_t end = y + block->size; y < end; y++) {
         uint32_t bits = *block->bits++ >> block->shift & mask;
         if (bits) store_block_row(frame, rows, x, y, bits, block);
+        GN_UNROLL
         for (int c = 0; c < 3; c++) {
             block->from[c] += block->down[c];
             block->across[c] += block->down_across[c];

@@ -227,6 +227,7 @@ GN_HOT static GN_NOINLINE void add_edge_light(const drawing *d, const gn_lattice
     /* light and highlight, 2^27 each where gn_corner_times() limits them: -2^27 .. 2^28 at the corners; doubled, one
      * node beyond the cell, below 2^30.4 */
     int32_t twice[3], step[3];
+    GN_UNROLL
     for (int c = 0; c < 3; c++) {
         int32_t across = 2 * (edge->more_q24[c].dx + below * edge->more_q24[c].dxy);
         twice[c] = 2 * (edge->more_q24[c].at + below * edge->more_q24[c].dy) + d->first * across;
@@ -255,6 +256,7 @@ typedef struct {
 
 GN_INLINE void add_patches(const drawing *d, const gn_patch colour_q24[3], int32_t below, node_row *row)
 {
+    GN_UNROLL
     for (int c = 0; c < 3; c++) {
         const gn_patch *p = &colour_q24[c];
         row->from[c] += gn_patch_at(p, d->first, below);
@@ -361,8 +363,10 @@ GN_HOT static GN_NOINLINE void draw_strip(const drawing *d, int32_t below, const
 /* Colours without the light of edges. */
 GN_HOT static void begin_base(drawing *d, const gn_lattice_look *look)
 {
+    GN_UNROLL
     for (int c = 0; c < 3; c++) {
         int32_t at[4];
+        GN_UNROLL
         for (int i = 0; i < 4; i++) at[i] = look->colour_q24[i][c];
         gn_patch_make(&d->base_q24[c], at, d->size_log2);
     }

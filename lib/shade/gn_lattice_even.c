@@ -17,6 +17,7 @@ GN_HOT int gn_cell_find_bend(gn_lattice_cell *cell)
     const int32_t z[4] = {c[0]->z_q16, c[1]->z_q16, c[2]->z_q16, c[3]->z_q16}, flat = GN_FLAT_Q16(cell->frame);
     uint32_t least = (uint32_t)(flat ? flat : gn_min32(gn_min32(z[0], z[1]), gn_min32(z[2], z[3]))), more[2];
     gn_cell_changes(z, more);
+    GN_UNROLL
     for (int i = 0; i < 2; i++) {
         if (more[i] > least >> 2) return 0;
         if (flat) continue; /* parallel rays bend nothing, but light and shadows may be passed over */
@@ -106,8 +107,10 @@ GN_HOT static int32_t bends_of(const gn_lattice_cell *cell, int axis)
     int32_t bends = 0;
     gn_cell_changes(at, change);
     if ((change[0] | change[1]) * size >> 29) return BENDS_TOO_MUCH; /* 2^9 texels */
+    GN_UNROLL
     for (int i = 0; i < 2; i++) linear[i] = change[i] * size * cell->bend_q16[i] >> 18;
     if (linear[0] + linear[1] <= least) return 0;
+    GN_UNROLL
     for (int i = 0; i < 2; i++) {
         uint64_t square_q16 = (uint64_t)cell->bend_q16[i] * cell->bend_q16[i] >> 16;
         if (2 * linear[i] > least) {
@@ -194,6 +197,7 @@ GN_HOT int gn_cell_ramp_bends(const gn_lattice_cell *cell)
 GN_HOT static uint32_t diagonal(const int32_t *a, const int32_t *b, const int32_t *c, const int32_t *d)
 {
     uint64_t one = 0, other = 0;
+    GN_UNROLL
     for (int i = 0; i < 3; i++) {
         one += gn_abs64((int64_t)a[i] - d[i]);
         other += gn_abs64((int64_t)b[i] - c[i]);
@@ -223,6 +227,7 @@ GN_HOT static uint64_t sides_q30(gn_lattice_cell *cell)
     gn_corner *const *c = cell->corner;
     uint64_t longest[2] = {0, 0};
     if (cell->sides_q30) return cell->sides_q30;
+    GN_UNROLL
     for (int k = 0; k < 4; k++) { /* upper, left, right, lower */
         const int32_t *a = c[k & 2 ? k - 1 : 0]->ray_q16, *b = c[k & 2 ? 3 : k + 1]->ray_q16;
         const int32_t side[3] = {(b[0] - a[0]) >> 1, (b[1] - a[1]) >> 1, (b[2] - a[2]) >> 1};
@@ -255,6 +260,7 @@ GN_HOT static void find_distance(gn_lattice_cell *cell, const gn_light_state *li
 {
     d->nearest_q32 = UINT64_MAX;
     d->farthest_q32 = 0;
+    GN_UNROLL
     for (int i = 0; i < 4; i++) {
         int32_t p[3];
         gn_corner_from(cell->corner[i], light, p);
@@ -316,6 +322,7 @@ GN_HOT static uint32_t size2_q24(const gn_lattice_cell *cell, const light_distan
 GN_HOT static uint64_t scatter_q32(int32_t p[4][3])
 {
     uint64_t sum = 0;
+    GN_UNROLL
     for (int i = 0; i < 3; i++) {
         int64_t one = ((int64_t)p[3][i] - p[0][i]) >> 1, other = ((int64_t)p[2][i] - p[1][i]) >> 1;
         sum += (uint64_t)(one * one) + (uint64_t)(other * other);
@@ -331,6 +338,7 @@ GN_HOT static int faces_away(gn_lattice_cell *cell, int32_t p[4][3])
     if (!GN_SMOOTH(cell->s)) return gn_dot_q30(n, p[0]) >= 0; /* all of it, or nothing */
 #if GN_VERTEX_NORMALS
     int64_t least = INT64_MAX;
+    GN_UNROLL
     for (int i = 0; i < 4; i++) {
         int64_t away = gn_dot_q30(cell->corner[i]->normal_q30, p[i]);
         if (away < least) least = away;
@@ -413,6 +421,7 @@ GN_HOT uint32_t gn_cell_unevenness_q24(gn_lattice_cell *cell, uint32_t slot, int
     uint32_t change = (uint32_t)(most_q24 - least_q24), kink = 0, bend = 0, seen = 0,
              turn = turn_q12(cell) << gn_cell_turn_log2(cell->frame) >> 1;
     int32_t lo = GN_CORNER_FULLY, hi = 0, dark = 0;
+    GN_UNROLL
     for (int i = 0; i < 4; i++) {
         int32_t at = cell->corner[i]->light[slot].arrives;
         hi = gn_max32(hi, at);

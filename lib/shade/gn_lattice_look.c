@@ -62,6 +62,7 @@ GN_HOT static int find_shares(const gn_lattice_cell *cell, uint32_t slot, gn_con
     uint32_t least[2] = {65536, 65536}, most[2] = {0, 0}; /* of masks, and what is left of shadows */
     const gn_lattice_light *near = &cell->lattice->light[slot];
     if (cell->near > 0 && !near->masked) {
+        GN_UNROLL
         for (int i = 0; i < 4; i++) {
             out->dark_uq16[i] = near->dark_uq16;
             out->more_uq16[i] = near->lit_uq16 - near->dark_uq16;
@@ -106,6 +107,7 @@ GN_HOT static inline void add_limited(int32_t sum_q24[3], const uint32_t colour_
 /* The same of what needs no limits. */
 GN_HOT static inline void add_within(int32_t sum_q24[3], const uint32_t colour_uq16[3], int32_t irradiance_q24)
 {
+    GN_UNROLL
     for (int j = 0; j < 3; j++) sum_q24[j] += (int32_t)((uint64_t)colour_uq16[j] * (uint32_t)irradiance_q24 >> 16);
 }
 
@@ -132,6 +134,7 @@ GN_HOT static int product_holds(const gn_lattice_cell *cell, int channel, const 
 {
     const int32_t log2 = gn_max32(gn_cell_light_log2(cell->frame) - 2, 1 - gn_cell_sum_log2(cell->frame));
     int32_t tint[4];
+    GN_UNROLL
     for (int i = 0; i < 4; i++) tint[i] = cell->corner[i]->tint_q16[channel];
     const uint32_t change = gn_cell_spread(light_q24[0], light_q24[1], light_q24[2], light_q24[3]),
                    tints = gn_cell_spread(tint[0], tint[1], tint[2], tint[3]);
@@ -147,6 +150,7 @@ GN_HOT static int edge_product_holds(const gn_lattice_cell *cell, uint32_t slot,
     if (!GN_COLOURED(cell->s) || cell->size_log2 <= gn_cell_finest_log2(cell->frame)) return 1;
     for (int j = 0; j < 3; j++) {
         int32_t at[4];
+        GN_UNROLL
         for (int i = 0; i < 4; i++)
             at[i] = gn_corner_times(cell->s->light[slot].radiance_uq16[j], light->irradiance_q24[i]);
         if (!product_holds(cell, j, at)) return 0;
@@ -160,6 +164,7 @@ GN_HOT static int products_hold(const gn_lattice_cell *cell)
     if (!GN_COLOURED(cell->s) || cell->size_log2 <= gn_cell_finest_log2(cell->frame)) return 1;
     for (int j = 0; j < 3; j++) {
         int32_t at[4];
+        GN_UNROLL
         for (int i = 0; i < 4; i++) at[i] = cell->out->colour_q24[i][j];
         if (!product_holds(cell, j, at)) return 0;
     }
@@ -190,6 +195,7 @@ GN_HOT static int is_faint(gn_lattice_cell *cell, uint32_t slot, int32_t least_q
     uint32_t strongest = gn_cell_strongest(light->radiance_uq16), kink;
     int32_t least = 1 << 22;
     if (cell->s->specular || (GN_RAW_VIEWS && cell->frame->picture.format == GN_FORMAT_RAW32)) return 0;
+    GN_UNROLL
     for (int i = 0; i < 4; i++) least = gn_min32(least, gn_min32(c[i][0], gn_min32(c[i][1], c[i][2])));
     least = gn_max32(1 << 13, least >> 5);
     if (gn_corner_times(strongest, most_q24) >= least) return 0;
@@ -202,6 +208,7 @@ GN_HOT static int is_faint(gn_lattice_cell *cell, uint32_t slot, int32_t least_q
 GN_HOT static int fades(const gn_contribution *light, int shadow)
 {
     uint32_t differ = 0;
+    GN_UNROLL
     for (int i = 1; i < 4; i++)
         differ |= (light->dark_uq16[i] + light->more_uq16[i]) ^ (light->dark_uq16[0] + light->more_uq16[0]);
     return shadow != GN_CELL_LIT || differ;
@@ -216,6 +223,7 @@ GN_HOT static int add_light(gn_lattice_cell *cell, uint32_t slot)
     const uint32_t *colour = cell->s->light[slot].radiance_uq16;
     gn_contribution *light = &cell->lattice->by.look.light;
     int32_t least = INT32_MAX, most = 0;
+    GN_UNROLL
     for (int i = 0; i < 4; i++) {
         int32_t e = light->irradiance_q24[i] = cell->corner[i]->light[slot].irradiance_q24;
         least = gn_min32(least, e);
@@ -253,6 +261,7 @@ GN_HOT static int colours_hold(const gn_lattice_cell *cell)
     const gn_lattice_look *look = cell->out;
     for (int j = 0; j < 3; j++) {
         int32_t at[4];
+        GN_UNROLL
         for (int i = 0; i < 4; i++) at[i] = look->colour_q24[i][j];
         int32_t least = gn_min32(gn_min32(at[0], at[1]), gn_min32(at[2], at[3]));
         uint32_t change[2];
@@ -310,6 +319,7 @@ GN_HOT static int is_even(const gn_lattice_cell *cell)
 GN_HOT static int fading_of(gn_corner *const corner[4])
 {
     uint32_t least = 65536, most = 0;
+    GN_UNROLL
     for (int i = 0; i < 4; i++) {
         uint32_t g = corner[i]->g_uq16;
         least = g < least ? g : least;

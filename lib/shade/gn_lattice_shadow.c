@@ -33,6 +33,7 @@ GN_HOT static int find_places(const gn_lattice_cell *cell, uint32_t slot, uint32
     p->window = NULL;
     p->view_idx = view_idx;
     p->bent = GN_PLACES_BILINEAR;
+    GN_UNROLL
     for (int i = 0; i < 4; i++) {
         gn_corner *c = cell->corner[i];
         seen |= 1U << gn_corner_place(cell->lattice, cell->frame, cell->s, c, slot, view_idx);
@@ -161,6 +162,7 @@ GN_HOT static int places_hold(const gn_lattice_cell *cell, places *p)
         range_of(p->depth, &lo, &hi);
         gn_cell_changes(p->depth, more);
         uint32_t rest = (1U << 30) - (uint32_t)hi;
+        GN_UNROLL
         for (int i = 0; i < 2; i++) {
             if (more[i] > rest >> 1) return BEND;
             bend[i] += gn_quotient_q30(more[i], rest | 1U) >> 14;
@@ -223,6 +225,7 @@ GN_HOT static int add_edge(const gn_lattice_cell *cell, uint32_t slot, const pla
     }
     for (int j = 0; j < 3; j++) {
         int32_t at[4];
+        GN_UNROLL
         for (int i = 0; i < 4; i++) {
             int32_t e = gn_cell_share(light->irradiance_q24[i], share_uq16[i]);
             at[i] = gn_corner_times(cell->s->light[slot].radiance_uq16[j], e);

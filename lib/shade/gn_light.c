@@ -78,6 +78,7 @@ GN_HOT uint32_t gn_light_shadow(const gn_frame *frame, const gn_surface *surface
 /* Light of Q24 irradiance times a colour, Q16, to Q20; 2^24 * 2^31 */
 GN_HOT static void add(uint64_t sum_q20[3], const uint32_t colour_uq16[3], uint32_t irradiance_q24)
 {
+    GN_UNROLL
     for (int c = 0; c < 3; c++) sum_q20[c] += ((uint64_t)colour_uq16[c] * irradiance_q24 + (1U << 19)) >> 20;
 }
 
@@ -158,6 +159,7 @@ GN_HOT void gn_light_radiance(const gn_frame *frame, const gn_surface *surface, 
             GN_COUNT(highlights, 1);
             uint32_t colour[3];
             int32_t lobe[3];
+            GN_UNROLL
             for (int c = 0; c < 3; c++)
                 colour[c] = gn_mul_uq16(light->state->colour_uq16[c], surface->object->specular_uq16[c]);
             add(highlights, colour, gn_mul_uq16(gn_light_highlight(frame, surface, sample, i, lobe), shadow));
@@ -165,6 +167,7 @@ GN_HOT void gn_light_radiance(const gn_frame *frame, const gn_surface *surface, 
     }
     modulate(frame, surface, sample, sum);
     add_glow(frame, surface, sample, sum);
+    GN_UNROLL
     for (int c = 0; c < 3; c++) {
         if (GN_SPECULAR) sum[c] += highlights[c];
         radiance_q20[c] = sum[c] > UINT32_MAX ? UINT32_MAX : (uint32_t)sum[c];

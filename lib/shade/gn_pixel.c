@@ -102,6 +102,7 @@ GN_HOT static uint32_t any_565(const gn_frame *frame, const uint32_t c[3])
 {
     if (GN_LEVEL_TABLES && GN_K(frame, srgb)) {
         uint32_t q24[3];
+        GN_UNROLL
         for (int i = 0; i < 3; i++) q24[i] = c[i] < GN_ONE_Q20 ? c[i] << 4 : (1U << 24) - 1;
         return pack_565(q24[0], q24[1], q24[2]) & 0xFFFFU;
     }
@@ -250,6 +251,7 @@ GN_HOT static void store_colour(const gn_frame *frame, const gn_pixel_rows *rows
         return;
     }
     uint32_t q20[3];
+    GN_UNROLL
     for (int c = 0; c < 3; c++) q20[c] = (uint32_t)gn_max32(colour_q24[c], 0) >> 4;
     gn_pixel_store(frame, rows, x, y, gn_pixel_pack(frame, q20));
 }
@@ -258,6 +260,7 @@ GN_HOT static void store_colour(const gn_frame *frame, const gn_pixel_rows *rows
 GN_HOT static inline void colour_at(const gn_pixel_line *line, int32_t i, int32_t colour_q24[3])
 {
     int32_t log2 = line->spacing_log2, k = i >> log2, t = i & ((1 << log2) - 1);
+    GN_UNROLL
     for (int c = 0; c < 3; c++) {
         int32_t from = line->node[k][c];
         colour_q24[c] = t ? from + t * ((line->node[k + 1][c] - from) >> log2) : from;
@@ -415,6 +418,7 @@ GN_HOT void gn_pixel_store_line(const gn_frame *frame, const gn_pixel_rows *rows
 GN_HOT uint32_t gn_pixel_encode(const gn_frame *frame, const int32_t colour_q24[3], int32_t level_q31[3])
 {
     int wide = GN_OTHER_FORMATS && frame->picture.format == GN_FORMAT_RGB888;
+    GN_UNROLL
     for (int c = 0; c < 3; c++) {
         uint32_t bits = wide ? 8 : c == 1 ? 6 : 5, encoded = encode(frame, (uint32_t)colour_q24[c] >> 4);
         level_q31[c] = (int32_t)(level_uq16(encoded, (1U << bits) - 1) << (15 - bits));

@@ -88,6 +88,7 @@ GN_HOT static void point_on_ray(const gn_frame *frame, const gn_ray_plane ray[3]
         out_q16[i] = gn_shr64((int64_t)z_q16 * ray[i].a0 + across, ray_shift) + ray[i].d_q16;
     }
     if (GN_FLAT_Q16(frame)) return;
+    GN_UNROLL
     for (int i = 0; i < 3; i++) {
         const gn_ray_plane *r = &ray[i]; /* the sum is below 2^31 */
         const int32_t a = (int32_t)((uint32_t)r->a0 + (uint32_t)r->ax * (uint32_t)px + (uint32_t)r->ay * (uint32_t)py);
@@ -114,6 +115,7 @@ GN_HOT static void light_coords(const gn_frame *frame, const gn_light_view *view
 {
     int64_t at[3];
     point_on_ray(frame, view->fit.ortho.ray, view->fit.ortho.ray_shift, px, py, z_q16, at);
+    GN_UNROLL
     for (int i = 0; i < 3; i++) out[i] = gn_sat32(at[i] + offset_q16[i]);
 }
 
@@ -263,6 +265,7 @@ GN_HOT static void punctual_values(const gn_frame *frame, const gn_surface *s, u
     const gn_light_state *light = s->light[slot].state;
     int64_t at[3];
     point_on_ray(frame, light->from_light, light->ray_shift, px, py, sample->value[GN_VALUE_Z], at);
+    GN_UNROLL
     for (int i = 0; i < 3; i++) out[GN_LIGHT_POINT_AT + i] = (int32_t)gn_clamp64(at[i], -INT32_MAX, INT32_MAX);
     out[GN_LIGHT_FACING] = gn_sat32(-gn_dot_q30(unit_q30, out + GN_LIGHT_POINT_AT));
     int own = GN_AUTO_BIAS && !GN_CURVED(s) && light->auto_bias; /* per pixel */
@@ -369,6 +372,7 @@ GN_HOT static void sample_values(const gn_frame *frame, const gn_surface *s, con
     sample->value[GN_VALUE_FADE] = 0;
     sample->cascade = GN_CASCADE_NONE;
     sample->in_reach = 1;
+    GN_UNROLL
     for (int i = 0; i < 3; i++)
         sample->value[GN_VALUE_RGB + i] = GN_COLOURED(s) ? attribute_at(s, h, GN_ATTRIBUTE_RGB + i) : 0;
     if (s->first_value < GN_VALUE_Z) extra_values(s, h, sample->value);

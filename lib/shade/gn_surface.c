@@ -28,8 +28,10 @@ GN_HOT static int without_light(const gn_frame *frame, const gn_surface *s)
 GN_HOT static GN_NOINLINE void find_face(const gn_frame *frame, const gn_surface *s, int32_t out_q30[3])
 {
     int64_t world[3];
+    GN_UNROLL
     for (int i = 0; i < 3; i++) {
         world[i] = 0;
+        GN_UNROLL
         for (int k = 0; k < 3; k++) world[i] -= (int64_t)s->plane.n[k] * frame->cam.axis_q30[k][i]; /* 3 * 2^60 */
     }
     if (!gn_normalise_q30(out_q30, world))
@@ -108,6 +110,7 @@ GN_HOT static void vertex_normal(int32_t out_q30[3], const gn_surface_cache *cac
         gn_surface_normal(entry->v_q16, cache->normal_matrix, nrm_q15);
         gn_vertex_claim(entry, tag);
     }
+    GN_UNROLL
     for (int i = 0; i < 3; i++) out_q30[i] = entry->v_q16[i];
 }
 
@@ -125,14 +128,17 @@ GN_HOT static void normals(const gn_frame *frame, const gn_surface_cache *cache,
     }
     int32_t n[3][3];
     uint32_t object_idx = (uint32_t)(s->object - frame->scene->objects);
+    GN_UNROLL
     for (int k = 0; k < 3; k++) {
         vertex_normal(n[k], cache, vertex, s->object, object_idx, idx[k]);
         if (s->plane.back)
             for (int i = 0; i < 3; i++) n[k][i] = -n[k][i];
     }
     uint32_t any = 0;
+    GN_UNROLL
     for (int i = 0; i < 3; i++) {
         s->normal_q30[0][i] = n[0][i];
+        GN_UNROLL
         for (int k = 1; k < 3; k++) {
             int32_t change = (int32_t)((uint32_t)n[k][i] - (uint32_t)n[0][i]); /* 2^31 is too much by 1 */
             if (change == INT32_MIN && n[k][i] > 0) change = INT32_MAX;
@@ -149,6 +155,7 @@ GN_HOT static void set_attribute(gn_surface *s, int i, const int32_t at[3])
 {
     int32_t first = at[0] + (at[0] >> 15);
     s->attribute_q16[0][i] = first;
+    GN_UNROLL
     for (int k = 1; k < 3; k++) s->attribute_q16[k][i] = at[k] + (at[k] >> 15) - first;
 }
 
@@ -157,17 +164,21 @@ GN_HOT static void vertex_colours(gn_surface *s, const uint16_t *idx)
 {
     const gn_mesh *mesh = s->object->mesh;
     int32_t differs = 0;
+    GN_UNROLL
     for (int i = 0; i < 3; i++) s->albedo_uq16[i] = s->object->albedo_uq16[i];
     s->coloured = 0;
     if (!GN_VERTEX_COLOURS || !mesh->rgb_uq16) return;
+    GN_UNROLL
     for (int i = 0; i < 3; i++) {
         int32_t c[3];
+        GN_UNROLL
         for (int k = 0; k < 3; k++) c[k] = mesh->rgb_uq16[3 * (size_t)idx[k] + (size_t)i];
         set_attribute(s, GN_ATTRIBUTE_RGB + i, c);
         differs |= (c[1] - c[0]) | (c[2] - c[0]);
     }
     s->coloured = differs != 0;
     if (differs) return;
+    GN_UNROLL
     for (int i = 0; i < 3; i++)
         s->albedo_uq16[i] = gn_mul_uq16(s->albedo_uq16[i], (uint32_t)s->attribute_q16[0][GN_ATTRIBUTE_RGB + i]);
 }
@@ -292,6 +303,7 @@ GN_HOT static void begin_lighting(const gn_frame *frame, const gn_surface_cache 
     int unlit = without_light(frame, s);
     const uint32_t *albedo = s->albedo_uq16;
     GN_ELEMENT(albedo);
+    GN_UNROLL
     for (int c = 0; c < 3; c++) /* 2^17 * 2^24 */
         s->base_q20[c] =
             unlit ? albedo[c] << 4 : (uint32_t)(((uint64_t)albedo[c] * scene->ambient_uq16[c] + (1U << 11)) >> 12);
@@ -382,6 +394,7 @@ GN_HOT void gn_surface_begin(const gn_frame *frame, gn_scratch *scratch, gn_surf
     s->smooth = s->curved = s->bent = s->has_bary = s->textured = s->masked = s->baked = s->specular = 0;
     s->first_value = GN_VALUE_Z;
     vertex_colours(s, idx);
+    GN_UNROLL
     for (int i = 0; i < 3; i++) {
         if (GN_SIZE_FIRST || GN_SKIN(s->object))
             gn_setup_vertex(v[i], scratch->vertex, &cache->by.to_view, s->object, tri->object_idx, idx[i]);

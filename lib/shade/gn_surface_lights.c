@@ -17,11 +17,13 @@ GN_HOT static int reaches(const gn_surface *s, const gn_light_state *light, int3
 {
     if (!GN_SMOOTH(s)) {
         int64_t side = 0; /* n points away from the viewer: negative is in front */
+        GN_UNROLL
         for (int k = 0; k < 3; k++) side += (int64_t)s->plane.n[k] * (((int64_t)light->eye_q16[k] - v[0][k]) >> 2);
         if (side >= 0 && s->plane.det > 0) return 0;
     }
     if (light->range2_q32 == UINT64_MAX) return 1;
     uint64_t d2 = 0;
+    GN_UNROLL
     for (int k = 0; k < 3; k++) {
         int64_t lo = gn_min32(v[0][k], gn_min32(v[1][k], v[2][k])), hi = gn_max32(v[0][k], gn_max32(v[1][k], v[2][k]));
         int64_t d = light->eye_q16[k] < lo   ? lo - light->eye_q16[k]
@@ -69,6 +71,7 @@ GN_HOT static void punctual_lights(const gn_frame *frame, const gn_surface_cache
 GN_HOT static int vertex_cosines(const gn_surface *s, const gn_light_state *light, int32_t out_q24[3])
 {
     int32_t any = 0, at[3];
+    GN_UNROLL
     for (int k = 0; k < 3; k++) {
         int64_t dot = gn_dot64(s->normal_q30[0], light->to_light_q30);
         if (k > 0) dot += gn_dot64(s->normal_q30[k], light->to_light_q30);
@@ -113,6 +116,7 @@ GN_HOT void gn_surface_list_lights(const gn_frame *frame, const gn_surface_cache
 GN_HOT static void lift_normal(gn_surface *s)
 {
     int32_t least = -4; /* Q28; roundings */
+    GN_UNROLL
     for (int k = 2; k >= 0; k--) {
         int32_t along = (int32_t)(gn_dot64(s->normal_q30[k], s->face_q30) >> 32);
         if (k == 0) least += along;
@@ -120,6 +124,7 @@ GN_HOT static void lift_normal(gn_surface *s)
     }
     if (least < GN_LEAST_ALONG_Q28) s->bent = 1, least = 0;
     const int32_t lift_q30 = (1 << 30) - 4 * least; /* least is 0, or above 7/8, and rounded up at most */
+    GN_UNROLL
     for (int i = 0; i < 3; i++) s->lift_q30[i] = gn_mul_high(lift_q30, s->face_q30[i]) * 4;
 }
 #endif

@@ -52,6 +52,7 @@ GN_HOT int gn_filter_decides(const gn_frame *frame, const gn_light_view *view, c
     if (n > 2 * GN_BLOCK_REACH) return 0;
     /* bounds are cheaper than one lookup each; what they decide, the texels would, too */
     if (GN_DEPTH_BLOCKS && gn_blocks_decide(view, first[0], first[1], n, least, most, attenuation)) return 1;
+    GN_UNROLL
     for (int i = 0; i < 2; i++) { /* beyond the border texels repeat it, or are lit */
         beyond |= first[i] < 0 || last[i] > end[i];
         first[i] = gn_max32(0, gn_min32(first[i], end[i]));
