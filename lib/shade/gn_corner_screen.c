@@ -57,6 +57,7 @@ GN_HOT static int find_form(const gn_frame *frame, const gn_screen_plane *p, con
 {
     int32_t px = 2 * p->x + 1 - frame->picture.width, py = frame->picture.height - 1 - 2 * p->y;
     int64_t at = 0, dx = 0, dy = 0, eye = 0; /* |row| < 2^30.2, |a| <= 2^30 */
+    GN_UNROLL
     for (int j = 0; j < 3; j++) {
         const gn_ray_plane *r = &frame->light[view->light_idx].from_light[j];
         int32_t row_q27 =

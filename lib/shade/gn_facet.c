@@ -19,15 +19,18 @@ GN_HOT static int find_turns(gn_facet *f)
     const uint32_t least_q28 = gn_cell_light_log2(f->s->frame) ? 1U << 23 : 1U << 24; /* 1/32, 1/16 */
     uint32_t d2[3] = {0, 0, 0};
     f->turns = 0;
+    GN_UNROLL
     for (int k = 0; k < 3; k++) f->turn_q28[k] = 0;
     if (!GN_SMOOTH(&f->s->surface) || gn_facet_shows_shadow(f)) return 1;
     if (GN_K(f->s->frame, vertex_light) && !f->s->surface.n_punctual) return 1;
+    GN_UNROLL
     for (int i = 0; i < 3; i++) {
         int32_t a = n[1][i] >> 16, b = n[2][i] >> 16;
         d2[0] += (uint32_t)(a * a);
         d2[1] += (uint32_t)(b * b);
         d2[2] += (uint32_t)((b - a) * (b - a));
     }
+    GN_UNROLL
     for (int k = 0; k < 3; k++) {
         f->turn_q28[k] = d2[k];
         f->turns |= d2[k] >= least_q28;
@@ -41,6 +44,7 @@ GN_HOT static int find_cosines(const gn_facet *f, const gn_surface_light *light,
 {
     const gn_surface *s = &f->s->surface;
     int32_t most = 0;
+    GN_UNROLL
     for (int k = 0; k < 3; k++) {
         int32_t cosine = light->cosine_q24[0];
         if (GN_SMOOTH(s)) {
@@ -113,6 +117,7 @@ GN_HOT static int add_whole_light(gn_facet *f, const uint32_t radiance_uq16[3], 
     int32_t most = 0;
     for (int k = 0; share && k < 3; k++) {
         int32_t v = gn_cell_share(cosine_q24[k], share);
+        GN_UNROLL
         for (int c = 0; c < 3; c++) {
             f->colour_q24[c][k] += gn_corner_times(radiance_uq16[c], v);
             most = gn_max32(most, f->colour_q24[c][k]);

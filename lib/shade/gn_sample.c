@@ -71,6 +71,7 @@ GN_HOT static int32_t at_hit(const hit *h, int32_t a0, int32_t a1, int32_t a2)
 
 GN_HOT static void normal_at(const gn_surface *s, const hit *h, int32_t n_q30[3])
 {
+    GN_UNROLL
     for (int i = 0; i < 3; i++) {
         int32_t n = s->normal_q30[0][i];
         if (GN_SMOOTH(s)) n = at_hit(h, n, s->normal_q30[1][i], s->normal_q30[2][i]);
