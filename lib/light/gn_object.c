@@ -41,7 +41,7 @@ static int mesh_box(const gn_object *object, int32_t centre[3], int32_t half[3])
 {
     const gn_mesh *mesh = object->mesh;
     int32_t lo[3], hi[3];
-    if (GN_SKIN(object)) posed_extent(object, lo, hi);
+    if (GN_SIZE_FIRST || GN_SKIN(object)) posed_extent(object, lo, hi);
     else
         for (int k = 0; k < 3; k++) stored_extent(mesh->pos + k, mesh->n_vertices, &lo[k], &hi[k]);
     if (!gn_position_ok(lo) || !gn_position_ok(hi)) return 0;

@@ -144,13 +144,12 @@ static inline int cached_corners(gn_casting *casting, const uint16_t idx[3], con
 {
     const caster_job *job = &casting->job;
     const gn_mesh *mesh = job->object->mesh;
-    gn_caster_corner *const cache = job->cache, *const spare = casting->of.spare,
-                            *before[2] = {spare, spare}; /* no entries of the cache */
-    const uint32_t mask = job->cache_mask, n_vertices = mesh->n_vertices, tags = gn_vertex_tag(job->object_idx, 0);
+    gn_caster_corner *const spare = casting->of.spare, *before[2] = {spare, spare}; /* no entries of the cache */
+    const uint32_t tags = gn_vertex_tag(job->object_idx, 0);
     for (int i = 0; i < 3; i++) {
         uint32_t vertex_idx = idx[i], tag = tags + vertex_idx;
-        if (vertex_idx >= n_vertices) return 0;
-        gn_caster_corner *entry = &cache[gn_vertex_slot(vertex_idx, mask)];
+        if (vertex_idx >= mesh->n_vertices) return 0;
+        gn_caster_corner *entry = &job->cache[gn_vertex_slot(vertex_idx, job->cache_mask)];
         if (!gn_vertex_hit(&entry->vertex, tag)) {
             entry = (gn_caster_corner *)gn_vertex_claim_corner(&entry->vertex, tag, &before[0]->vertex,
                                                                &before[1]->vertex, &spare[i].vertex);

@@ -207,33 +207,41 @@ int32_t gn_ortho_triangle(const gn_frame *frame, const gn_light_view *view, gn_c
 }
 
 int32_t gn_ortho_small_triangle(const gn_frame *frame, const gn_light_view *view, gn_casting *casting,
-                                const gn_caster_corner *const corner[3])
+                                const gn_caster_corner *const c[3])
 {
-    const int32_t *const c[3] = {corner[0]->vertex.v_q16, corner[1]->vertex.v_q16, corner[2]->vertex.v_q16};
     int two_sided = casting->job.two_sided;
     const int32_t ends[2] = {view->tile_texels << 16, GN_TILE_ROWS(view) << 16};
-    int32_t sub = 16 - GN_K(frame, shadow_subpixel_bits), half = (1 << sub) >> 1;
+    int32_t sub = 16 - GN_K(frame, shadow_subpixel_bits), half = (1 << sub) >> 1, x[3], y[3];
     for (int axis = 0; axis < 2; axis++) { /* misses the tile: a sign of all three */
         int32_t end = ends[axis];
-        if (((c[0][axis] & c[1][axis] & c[2][axis]) | ((end - c[0][axis]) & (end - c[1][axis]) & (end - c[2][axis]))) <
+        if (((c[0]->vertex.v_q16[axis] & c[1]->vertex.v_q16[axis] & c[2]->vertex.v_q16[axis]) |
+             ((end - c[0]->vertex.v_q16[axis]) & (end - c[1]->vertex.v_q16[axis]) & (end - c[2]->vertex.v_q16[axis]))) <
             0)
             return -1;
     }
-    const int32_t e1[3] = {c[1][0] - c[0][0], c[1][1] - c[0][1], c[1][2] - c[0][2]}, /* < 2^30 */
-        e2[3] = {c[2][0] - c[0][0], c[2][1] - c[0][1], c[2][2] - c[0][2]};
-    int32_t nn[3];
+    int32_t e1[3], e2[3], nn[3];
+    GN_UNROLL
+    for (int i = 0; i < 3; i++) {
+        e1[i] = c[1]->vertex.v_q16[i] - c[0]->vertex.v_q16[i]; /* < 2^30 */
+        e2[i] = c[2]->vertex.v_q16[i] - c[0]->vertex.v_q16[i];
+    }
     int64_t n[3] = {0, 0, (int64_t)e1[0] * e2[1] - (int64_t)e1[1] * e2[0]};
     if (n[2] == 0 || (n[2] > 0 && !two_sided)) return -1;
-    const int32_t x[3] = {(c[0][0] + half) >> sub, (c[1][0] + half) >> sub, (c[2][0] + half) >> sub},
-                  y[3] = {(c[0][1] + half) >> sub, (c[1][1] + half) >> sub, (c[2][1] + half) >> sub};
+    GN_UNROLL
+    for (int k = 0; k < 3; k++) {
+        x[k] = (c[k]->vertex.v_q16[0] + half) >> sub;
+        y[k] = (c[k]->vertex.v_q16[1] + half) >> sub;
+    }
     int32_t n_rows = gn_caster_begin(frame, view, &casting->walk, x, y);
     if (!n_rows) return 0;
     gn_caster caster;
     gn_cross64(n, e1, e2);
     gn_norm_vec(nn, n);
-    if (!ortho_caster(&caster, view, nn, two_sided, gn_min32(c[0][2], gn_min32(c[1][2], c[2][2])),
-                      gn_max32(c[0][2], gn_max32(c[1][2], c[2][2]))))
+    if (!ortho_caster(&caster, view, nn, two_sided,
+                      gn_min32(c[0]->vertex.v_q16[2], gn_min32(c[1]->vertex.v_q16[2], c[2]->vertex.v_q16[2])),
+                      gn_max32(c[0]->vertex.v_q16[2], gn_max32(c[1]->vertex.v_q16[2], c[2]->vertex.v_q16[2]))))
         return -1;
-    caster.z_corner = depth_at_corner(view, &caster, c[0][0], c[0][1], c[0][2]);
+    caster.z_corner =
+        depth_at_corner(view, &caster, c[0]->vertex.v_q16[0], c[0]->vertex.v_q16[1], c[0]->vertex.v_q16[2]);
     return gn_caster_rows(view, &caster, &casting->walk, n_rows, NULL);
 }

@@ -33,7 +33,7 @@ int32_t gn_ortho_triangle(const gn_frame *frame, const gn_light_view *view, gn_c
 
 /* The same for corners within 2^29 (8192 texels), without alpha. */
 int32_t gn_ortho_small_triangle(const gn_frame *frame, const gn_light_view *view, gn_casting *casting,
-                                const gn_caster_corner *const corner[3]);
+                                const gn_caster_corner *const c[3]);
 
 #define GN_ORTHO_TOO_FAR (-2) /* without GN_CASTER_CLIPPING: it extends too far beyond the tile */
 
