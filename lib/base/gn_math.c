@@ -154,7 +154,6 @@ GN_HOT int32_t gn_norm_vec(int32_t out[3], const int64_t a[3])
     }
     int32_t clz = gn_clz64(any), s = clz - 1;         /* one bit more than the result, for rounding */
     if (s < 0 || (any << clz) >> 33 == 0x7FFFFFFFU) { /* may be rounded up to 2^30 */
-        GN_UNROLL
         for (int i = 0; i < 3; i++) {
             int32_t v = halved(s < 0 ? (int32_t)(a[i] >> 33) : upper32(a[i], s));
             out[i] = v == 1 << 30 ? v - 1 : v == -(1 << 30) ? v + 1 : v;
@@ -171,9 +170,7 @@ GN_HOT int gn_det_sign(const int32_t m[3][3])
 {
     int32_t row[3][3], n[3];
     int64_t wide[3];
-    GN_UNROLL
     for (int r = 0; r < 3; r++) {
-        GN_UNROLL
         for (int c = 0; c < 3; c++) wide[c] = m[r][c];
         gn_norm_vec(row[r], wide);
     }

@@ -123,7 +123,7 @@ GN_HOT static void lift_normal(gn_surface *s)
         else if (along < least) least = along;
     }
     if (least < GN_LEAST_ALONG_Q28) s->bent = 1, least = 0;
-    const int32_t lift_q30 = (1 << 30) - 4 * least; /* least is 0, or above 7/8, and rounded up at most */
+    const int32_t lift_q30 = (1 << 30) - 4 * least; /* least is 0, or 7/8 to 1 and some LSB: 32 bits */
     GN_UNROLL
     for (int i = 0; i < 3; i++) s->lift_q30[i] = gn_mul_high(lift_q30, s->face_q30[i]) * 4;
 }

@@ -10,6 +10,8 @@
 static gn_renderer one;
 static gn_scene scene;
 
+enum { T = 64 }; /* texels of a tile for casters */
+
 /* MODEL 5: t with (1 - A) P t^2 - (1 - P - A) t + 1 = 0, the smaller root; A = 2 (k + 1) / T, P = nu A / sqrt(2). 2
  * if there is none up to 2. */
 static double face(int k, double nu, int texels, int *clamped)
@@ -103,44 +105,55 @@ static double within(rng *state, double lo, double hi)
     return lo + (hi - lo) * ldexp(rng_u32(state), -32);
 }
 
+/* A view of a spot light: of four widths, with and without biases. */
+static void make_spot(gn_light_view *view, int i)
+{
+    static const double degrees[] = {3, 40, 120, 170};
+    gn_light light = {.kind = GN_LIGHT_SPOT, .near_q16 = 6554, .bias_constant_q16 = i & 8 ? 1 << 14 : 0};
+    *view = (gn_light_view){.tile_texels = T, .tile_log2 = 6, .depth_bits = 16, .perspective = 1};
+    light.outer_turn = (uint16_t)lround(degrees[i & 3] / 360 * 65536);
+    view->bias_constant_q16 = light.bias_constant_q16;
+    view->bias_slope_q16 = i & 16 ? 1 << 15 : 0;
+#if GN_DEPTH_BLOCKS
+    static gn_depth_block blocks[T * T / 64];
+    view->block = blocks;
+#endif
+#if GN_TIGHT_FIT
+    view->tile_rows = T;
+#endif
+    gn_persp_fit_view(&one.frame, view, &light);
+}
+
+/* A triangle of 1/8 to 64 texels, most of it in the tile. */
+static void make_caster(gn_caster_corner corner[3], const gn_light_view *view, rng *state)
+{
+    const double tangent = T * 65536.0 / view->fit.persp.focal2_q16, size = ldexp(1, (int)rng_below(state, 9) - 3);
+    const double u = within(state, -6, T + 6), v = within(state, -6, T + 6), away = within(state, 0.05, 30);
+    for (int k = 0; k < 3; k++) {
+        const double z = fmax(away + within(state, -0.2, 0.2) * size * away * tangent / T, 0.01);
+        const double at[2] = {u + within(state, -size, size), v + within(state, -size, size)};
+        for (int axis = 0; axis < 2; axis++)
+            corner[k].vertex.v_q16[axis] = (int32_t)lround((at[axis] - T / 2.0) * 2 / T * tangent * z * 65536);
+        corner[k].vertex.v_q16[2] = (int32_t)lround(z * 65536);
+        gn_persp_corner(&one.frame, view, &corner[k]);
+    }
+}
+
 /* Small casters, told apart by the quick way at their corners, against the general way: the same texels, and as many.
  */
 static void test_small_casters(void)
 {
-    enum { T = 64, TRIANGLES = 20000 };
+    enum { TRIANGLES = 20000 };
     static uint16_t texels[2][T * T];
-    static gn_depth_block blocks[T * T / 64];
     static gn_casting casting;
     rng state = {77};
     int n_drawn = 0, n_culled = 0, n_cut = 0;
     for (int i = 0; i < TRIANGLES; i++) {
-        static const double degrees[] = {3, 40, 120, 170};
-        gn_light light = {.kind = GN_LIGHT_SPOT, .near_q16 = 6554, .bias_constant_q16 = i & 8 ? 1 << 14 : 0};
-        gn_light_view view = {.tile_texels = T, .tile_log2 = 6, .depth_bits = 16, .perspective = 1};
-        light.outer_turn = (uint16_t)lround(degrees[i & 3] / 360 * 65536);
-        view.bias_constant_q16 = light.bias_constant_q16;
-        view.bias_slope_q16 = i & 16 ? 1 << 15 : 0;
-#if GN_DEPTH_BLOCKS
-        view.block = blocks;
-#endif
-#if GN_TIGHT_FIT
-        view.tile_rows = T;
-#endif
-        gn_persp_fit_view(&one.frame, &view, &light);
-        const double tangent = T * 65536.0 / view.fit.persp.focal2_q16,
-                     size = ldexp(1, (int)(rng_below(&state, 9)) - 3);
-        const double u = within(&state, -6, T + 6), v = within(&state, -6, T + 6), away = within(&state, 0.05, 30);
+        gn_light_view view;
         gn_caster_corner corner[3];
-        const gn_caster_corner *c[3];
-        for (int k = 0; k < 3; k++) {
-            const double z = fmax(away + within(&state, -0.2, 0.2) * size * away * tangent / T, 0.01);
-            const double at[2] = {u + within(&state, -size, size), v + within(&state, -size, size)};
-            for (int axis = 0; axis < 2; axis++)
-                corner[k].vertex.v_q16[axis] = (int32_t)lround((at[axis] - T / 2.0) * 2 / T * tangent * z * 65536);
-            corner[k].vertex.v_q16[2] = (int32_t)lround(z * 65536);
-            gn_persp_corner(&one.frame, &view, &corner[k]);
-            c[k] = &corner[k];
-        }
+        const gn_caster_corner *c[3] = {&corner[0], &corner[1], &corner[2]};
+        make_spot(&view, i);
+        make_caster(corner, &view, &state);
         casting.job.two_sided = i & 4;
         int32_t n[2];
         memset(texels, 255, sizeof texels);
