@@ -83,7 +83,7 @@ GN_HOT int gn_arrival_place(const gn_frame *frame, const gn_surface *surface, co
     const uint32_t end = (uint32_t)view->tile_texels << 16;
     if (GN_AUTO_BIAS && seen && form == GN_AUTO_BIAS_NORMAL && !GN_CURVED(surface) &&
         ((uint32_t)out->u_q16 > end || (uint32_t)out->v_q16 > end))
-        seen = 2 * place_in(frame, surface, z_q16, view, GN_AUTO_BIAS_DEPTH, from_q16, offset_q16, out);
+        seen = GN_SEEN_OUTSIDE * place_in(frame, surface, z_q16, view, GN_AUTO_BIAS_DEPTH, from_q16, offset_q16, out);
     return seen;
 }
 

@@ -15,7 +15,7 @@ uint32_t gn_arrival_irradiance_q24(const gn_frame *frame, const gn_light_state *
                                    int *arrives);
 
 /* Where a view sees a point: from the light, and the receiver's offset, which B6 on flat surfaces replaces. Returns 0
- * if it is nearer than the near plane, 2 if B6 goes along the ray there instead of along the normal. */
+ * if it is nearer than the near plane, GN_SEEN_OUTSIDE if B6 goes along the ray there instead of along the normal. */
 int gn_arrival_place(const gn_frame *frame, const gn_surface *surface, const gn_light_view *view, int32_t z_q16,
                      const int32_t from_q16[3], const int32_t offset_q16[3], gn_arrival *out);
 

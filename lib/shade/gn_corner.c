@@ -451,6 +451,7 @@ GN_HOT int gn_corner_locate(const gn_lattice *l, const gn_frame *frame, const gn
     c->y = (int16_t)y;
     if (!find_point(l, frame, s, c, &p) || !find_normal(s, c, &p)) return 0;
     c->light[slot].placed = GN_VIEW_NONE;
+    c->light[slot].arrives = GN_CORNER_FULLY; /* for all that is known */
 #if GN_PUNCTUAL_LIGHTS
     const gn_light_state *light = s->light[slot].state;
     if (light->kind != GN_LIGHT_DIRECTIONAL) return find_ray(frame, light, c);

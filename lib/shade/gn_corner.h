@@ -53,7 +53,8 @@ int gn_corner_place_any(gn_lattice *lattice, const gn_frame *frame, const gn_sur
                         uint32_t slot, const gn_light_view *view);
 
 /* The same of a flat surface in a perspective view, of the plane at pixel (x, y) itself, which need not be a corner.
- * Returns 0 if that is to be done as of any point: gn_corner_screen.c. */
+ * Returns 0 if that is to be done as of any point: gn_corner_screen.c. at->seen: 0 nearer than the view's near plane,
+ * GN_SEEN_OUTSIDE moved along the normal although that leaves the tile. */
 int gn_corner_place_flat(gn_lattice *lattice, const gn_frame *frame, const gn_surface *surface, uint32_t slot,
                          const gn_light_view *view, int32_t x, int32_t y, gn_corner_light *at);
 
@@ -127,7 +128,8 @@ GN_HOT static inline int32_t gn_corner_lift_q16(const int32_t n_q30[3], const in
     return 4 * gn_mul_high((int32_t)(gn_dot64(n_q30, axis_q30) >> 30), along_q16); /* |n| is 9/8 at most */
 }
 
-/* Sets u, v, depth in whichever way there is; once per corner, until another view is asked for. */
+/* Sets u, v, depth in whichever way there is; once per corner, until another view is asked for. Where a spot's light
+ * does not arrive, automatic bias goes on along the normal: cells of its rim stay on one plane. */
 GN_HOT static inline int gn_corner_place(gn_lattice *l, const gn_frame *frame, const gn_surface *s, gn_corner *c,
                                          uint32_t slot, uint32_t view_idx)
 {
@@ -137,8 +139,10 @@ GN_HOT static inline int gn_corner_place(gn_lattice *l, const gn_frame *frame, c
     at->placed = (uint8_t)view_idx;
     GN_COUNT(places, 1);
 #if GN_PUNCTUAL_LIGHTS
-    if (view->perspective && !GN_SMOOTH(s) && gn_corner_place_flat(l, frame, s, slot, view, c->x, c->y, at))
-        return at->seen;
+    if (view->perspective && !GN_SMOOTH(s) && gn_corner_place_flat(l, frame, s, slot, view, c->x, c->y, at)) {
+        if (at->seen == GN_SEEN_OUTSIDE && at->arrives <= 0) at->seen = 1;
+        if (at->seen != GN_SEEN_OUTSIDE) return at->seen;
+    }
 #endif
     return gn_corner_place_any(l, frame, s, c, slot, view);
 }

@@ -227,7 +227,7 @@ GN_HOT int gn_corner_place_flat(gn_lattice *l, const gn_frame *frame, const gn_s
 #if GN_AUTO_BIAS
     const uint32_t end = (uint32_t)view->tile_texels << 16;
     at->depth_q30 = gn_max32(at->depth_q30 - forms->less_q30, 0);
-    if (forms->in_tile && ((uint32_t)at->u_q16 > end || (uint32_t)at->v_q16 > end)) return 0; /* a spot's rim */
+    if (forms->in_tile && ((uint32_t)at->u_q16 > end || (uint32_t)at->v_q16 > end)) at->seen = GN_SEEN_OUTSIDE;
 #endif
     return 1;
 }

@@ -314,9 +314,9 @@ GN_HOT static int is_even(const gn_lattice_cell *cell)
     return error << gn_cell_light_log2(cell->frame) <= (uint64_t)(gn_max32(least, 0) + (1 << 19)) << more_log2;
 }
 
-/* 1: shadows do not fade in the cell; -1: they begin or end to, and change by more than 1/32: no bilinear function is
- * near; 0: on a ramp. */
-GN_HOT static int fading_of(gn_corner *const corner[4])
+/* 1: shadows do not fade in the cell; -1: they begin or end to, and change by more than the tolerance: no bilinear
+ * function is near; 0: on a ramp. */
+GN_HOT static int fading_of(const gn_frame *frame, gn_corner *const corner[4])
 {
     uint32_t least = 65536, most = 0;
     GN_UNROLL
@@ -326,7 +326,7 @@ GN_HOT static int fading_of(gn_corner *const corner[4])
         most = g > most ? g : most;
     }
     if (least == 65536) return 1;
-    return (!least || most == 65536) && most - least > 65536 >> 5 ? -1 : 0;
+    return (!least || most == 65536) && most - least > 65536U >> gn_cell_fade_log2(frame) ? -1 : 0;
 }
 
 /* Returns 0 if the cell is too steep or its textures too uneven. */
@@ -337,7 +337,7 @@ GN_HOT static int begin_look(gn_lattice *lattice, const gn_frame *frame, const g
     gn_lattice_cell *cell = &lattice->by.look.cell;
     *cell = (gn_lattice_cell){lattice, frame, surface, corner, size_log2, {0, 0}, 1, 0, 0, 0, look, ask};
     if (!gn_cell_find_bend(cell) || !gn_cell_textures_hold(cell) || !gn_cell_masks_hold(cell)) return 0;
-    if (surface->n_lights) cell->near = fading_of(corner);
+    if (surface->n_lights) cell->near = fading_of(frame, corner);
 #if GN_SHADOWS
     if (!cell->near && size_log2 > gn_cell_finest_log2(frame) && gn_cell_ramp_bends(cell)) cell->near = -1;
 #endif

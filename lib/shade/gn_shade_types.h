@@ -201,7 +201,8 @@ typedef struct {
 #endif
 } gn_corner_light;
 
-#define GN_VIEW_NONE 7
+#define GN_VIEW_NONE    7
+#define GN_SEEN_OUTSIDE 2 /* automatic bias along the normal leaves the tile there */
 
 enum { GN_CORNER_DARK = -128, GN_CORNER_FULLY = 127 };
 
