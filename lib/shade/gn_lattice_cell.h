@@ -58,7 +58,7 @@ GN_HOT static inline int32_t gn_cell_turn_log2(const gn_frame *frame)
 GN_HOT static inline int32_t gn_cell_fade_log2(const gn_frame *frame)
 {
     (void)frame;
-    return GN_K(frame, persp_step) >= 8 ? 3 : 5;
+    return GN_K(frame, persp_step) == 16 ? 3 : GN_K(frame, persp_step) == 8 ? 4 : 5;
 }
 
 /* Cells of this size are not split any more, unless they have no corners. */

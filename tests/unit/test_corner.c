@@ -673,6 +673,29 @@ static void check_auto(gn_lattice *l, const gn_surface *s, const gn_corner *c, u
           "depth %g, step %g, of %g", depth, step, least_needed);
 }
 
+static tally rim_dark, rim_lit;
+
+/* Where automatic bias along the normal leaves the tile it goes on along it if no light arrives there, so that cells of
+ * a rim keep one plane; else along the ray. [B6] */
+static void check_rim(gn_lattice *l, const gn_surface *s, const gn_corner *corner, uint32_t slot)
+{
+    const gn_frame *frame = &renderer.frame;
+    gn_corner c = *corner;
+    gn_corner_light *at = &c.light[slot], forms = *at;
+    if (s->smooth || !s->light[slot].state->auto_bias || at->view == GN_VIEW_NONE) return;
+    const uint32_t view_idx = at->view;
+    const gn_light_view *view = &frame->view[s->light[slot].state->view_idx + (int32_t)view_idx];
+    if (!gn_corner_place_flat(l, frame, s, slot, view, c.x, c.y, &forms) || forms.seen != GN_SEEN_OUTSIDE) return;
+    for (int lit = 0; lit < 2; lit++) { /* hardly any corner there is lit */
+        at->placed = GN_VIEW_NONE;
+        at->arrives = lit ? 1 : 0;
+        const int how = gn_corner_place(l, frame, s, &c, slot, view_idx);
+        const int same = at->u_q16 == forms.u_q16 && at->v_q16 == forms.v_q16 && at->depth_q30 == forms.depth_q30;
+        if (lit) HOLDS(&rim_lit, how == GN_SEEN_OUTSIDE && !same, "seen %d", how);
+        else HOLDS(&rim_dark, how == 1 && same, "seen %d", how);
+    }
+}
+
 /* ---- Cascades ---------------------------------------------------------------------------------------------------- */
 
 static long n_certain, n_uncertain;
@@ -849,6 +872,7 @@ static void check_corner(gn_lattice *l, const gn_surface *s, const plane *p, con
         check_irradiance(s, from, &corner, at);
         check_persp(l, s, &corner, slot);
         check_auto(l, s, &corner, slot);
+        check_rim(l, s, &corner, slot);
     }
     if (s->n_lights) check_part(l, s, r, &k, x, y);
 }
@@ -915,6 +939,8 @@ int main(int argc, char **argv)
     CHECK(n_certain > 1000 && n_uncertain > 100 && n_several > 100 && n_fading > 100);
     CHECK(n_along > 1000);
     CHECK(lit_by_bias.n > 1000);
+    CHECK_TALLY(rim_dark, "corners beyond a rim");
+    CHECK_TALLY(rim_lit, "corners in a rim");
     CHECK_TALLY(lit_by_bias, "planes that automatic bias leaves lit");
     CHECK_TALLY(bias_of_need, "automatic bias, no more than needed");
     return table ? (check_n_failed ? 1 : 0) : check_report();
