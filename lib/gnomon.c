@@ -142,6 +142,7 @@
 #include "shade/gn_facet_punctual.c"
 #include "shade/gn_facet_screen.c"
 #include "shade/gn_facet_shadow.c"
+#include "shade/gn_facet_specular.c"
 #include "shade/gn_facet_texture.c"
 #if GN_INTERPOLATES
 #include "shade/gn_corner.c"

@@ -8,6 +8,7 @@
 #include "shade/gn_facet.h"
 #include "shade/gn_facet_draw.h"
 #include "shade/gn_facet_punctual.h"
+#include "shade/gn_facet_specular.h"
 #include "shade/gn_lattice_cell.h"
 
 #if GN_INTERPOLATES
@@ -157,6 +158,9 @@ GN_HOT static int add_vertex_light(gn_facet *f, uint32_t slot)
         if (said != GN_CELL_LIT) return said == GN_CELL_DARK;
     }
     if (gn_cell_is_limited(&f->s->surface, light->radiance_uq16, gn_max32(e[0], gn_max32(e[1], e[2])))) return 0;
+#if GN_SPECULAR
+    if (f->s->surface.specular && gn_facet_shines(f->s, slot)) return 0;
+#endif
     int ends = (e[0] | e[1] | e[2]) < 0 || out->has_rim;
     if (gn_facet_shows_shadow(f) && (e[0] != e[1] || e[0] != e[2])) return 0;
     if (lattice_light->realtime) said = gn_facet_shadow(f->s, &f->screen, vertices_of(f), f->n_px, slot, &out->edge);
@@ -190,7 +194,7 @@ GN_HOT int gn_facet_shade(gn_shading *s, const gn_rect *box, int32_t n_px)
     gn_facet *f = &s->lattice.from.facet;
     const int32_t most = gn_facet_most_px(surface);
     if (box->x1 - box->x0 > most || box->y1 - box->y0 > most) return 0;
-    if (surface->masked | surface->specular | surface->baked || GN_GLOWS(surface)) return 0;
+    if (surface->masked | surface->baked || GN_GLOWS(surface)) return 0;
     f->s = s;
     f->screen.found = f->screen.steep = 0;
     if (surface->plane.det <= 0 || !find_turns(f)) return 0;

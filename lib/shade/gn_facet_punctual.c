@@ -108,7 +108,7 @@ GN_HOT static int is_uneven(const gn_frame *frame, const gn_surface_light *light
 {
     const uint32_t strongest = gn_cell_strongest(light->radiance_uq16);
     const uint64_t seen = (uint64_t)gn_corner_times(strongest, gn_max32(least_q24, 0)) + (uint32_t)base_q24 + (1 << 19);
-    const int32_t log2 = gn_max32(gn_cell_light_log2(frame), 2 - gn_cell_sum_log2(frame)) + size_log2;
+    const int32_t log2 = gn_max32(gn_cell_light_log2(frame), 1 - gn_cell_sum_log2(frame)) + size_log2 + (size_log2 > 0);
     return (uint64_t)gn_corner_times(strongest, (int32_t)error) << log2 > seen;
 }
 

@@ -159,6 +159,9 @@ typedef struct {
 #endif
 } gn_arrival;
 
+/* How a view sees a point: automatic bias along the normal leaves the tile there. */
+#define GN_SEEN_OUTSIDE 2
+
 #define GN_CASCADE_NONE 4
 
 typedef struct {
@@ -201,8 +204,7 @@ typedef struct {
 #endif
 } gn_corner_light;
 
-#define GN_VIEW_NONE    7
-#define GN_SEEN_OUTSIDE 2 /* automatic bias along the normal leaves the tile there */
+#define GN_VIEW_NONE 7
 
 enum { GN_CORNER_DARK = -128, GN_CORNER_FULLY = 127 };
 

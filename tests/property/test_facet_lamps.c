@@ -6,6 +6,7 @@
 #include "../lib/light/gn_punctual.h"
 #include "../lib/shade/gn_corner.h"
 #include "../lib/shade/gn_facet_punctual.h"
+#include "../lib/shade/gn_facet_specular.h"
 #include "../lib/shade/gn_lattice_cell.h"
 #include "check.h"
 #include "demo_scene.h"
@@ -127,7 +128,11 @@ static void compare(const gn_light_state *light, const gn_facet_vertices *v, con
             d2 += pow(ldexp((double)v->ray_q16[k][i] + (double)light->from_light[i].d_q16, -16), 2);
         nearest2 = fmin(nearest2, d2);
     }
-    const double full = ldexp(1 / nearest2, light->colour_exp + 24), rounding = full * ldexp(1, -13) + 4;
+    double share = ldexp(1, -13); /* a rim's cosine is off by half a unit of length, 4.10 */
+    if (light->kind == GN_LIGHT_SPOT)
+        share +=
+            2 * ldexp(1, -16) / sqrt(nearest2) * ldexp((double)light->angle_scale.mant, light->angle_scale.exp + 30);
+    const double full = ldexp(1 / nearest2, light->colour_exp + 24), rounding = full * share + 4;
     double worst = 0;
     for (int i = 0; i <= PER_SIDE; i++)
         for (int j = 0; i + j <= PER_SIDE; j++) {
@@ -159,6 +164,56 @@ static void compare_sizes(const gn_facet_vertices *v, int said)
     }
 }
 
+static int n_shining, n_dull;
+static double brightest;
+
+static void normalise(double v[3])
+{
+    const double length = sqrt(dot(v, v));
+    for (int i = 0; i < 3; i++) v[i] /= length;
+}
+
+/* (n . h)^2^k at a point of the triangle. */
+static double highlight_at(const gn_light_state *light, const gn_facet_vertices *v, const double b[3])
+{
+    double n[3], to_eye[3], h[3];
+    for (int i = 0; i < 3; i++) {
+        n[i] = to_eye[i] = 0;
+        for (int k = 0; k < 3; k++) {
+            n[i] += b[k] * v->normal_q30[k][i];
+            to_eye[i] -= b[k] * v->ray_q16[k][i];
+        }
+        h[i] = light->kind == GN_LIGHT_DIRECTIONAL ? light->to_light_q30[i]
+                                                   : to_eye[i] - (double)light->from_light[i].d_q16;
+    }
+    normalise(n);
+    normalise(to_eye);
+    normalise(h);
+    for (int i = 0; i < 3; i++) h[i] += to_eye[i];
+    normalise(h);
+    return pow(fmax(0, dot(n, h)), ldexp(1, shading.surface.object->shininess_log2));
+}
+
+/* Where it is said that no highlight is seen, none is above e^-7 of the light. */
+static void try_highlight(gn_light_state *light, const gn_facet_vertices *v)
+{
+    static gn_object object;
+    const uint8_t kind = light->kind;
+    gn_surface *s = &shading.surface;
+    object.shininess_log2 = (uint8_t)rng_below(&random_state, 8);
+    s->object = &object;
+    if (rng_below(&random_state, 2)) light->kind = GN_LIGHT_DIRECTIONAL;
+    const int shines = gn_facet_shines(&shading, 0);
+    n_shining += shines;
+    n_dull += !shines;
+    for (int i = 0; !shines && i <= PER_SIDE; i++)
+        for (int j = 0; i + j <= PER_SIDE; j++) {
+            const double b[3] = {1 - (double)(i + j) / PER_SIDE, (double)i / PER_SIDE, (double)j / PER_SIDE};
+            brightest = fmax(brightest, highlight_at(light, v, b));
+        }
+    light->kind = kind;
+}
+
 static void try_case(gn_frame *frame)
 {
     static const uint32_t unknown[3] = {0, 0, 0};
@@ -183,6 +238,7 @@ static void try_case(gn_frame *frame)
             turn_q28[k] += (uint32_t)lround(ldexp(d * d, 28));
         }
     if (!CHECK(gn_facet_vertices_find(&v, frame, s, turn_q28))) return;
+    try_highlight(&frame->light[0], &v);
     const int said = gn_facet_punctual(&shading, &v, 0, 1 << 24, 0, &lamp);
     compare_sizes(&v, said);
     if (said == GN_CELL_SPLIT) {
@@ -259,6 +315,8 @@ int main(void)
     printf("%d lit, %d of them in a rim, %d with a range; %d dark, %d split; off by up to %.2f of the bound\n", n_lit,
            n_rims, n_ranges, n_dark, n_split, nearest_to_bound);
     CHECK(n_lit > 5000 && n_rims > 1000 && n_ranges > 1000 && n_dark > 1000 && n_split > 1000);
+    printf("highlights: %d, %d without any; there up to %.6f\n", n_shining, n_dull, brightest);
+    CHECK(n_shining > 5000 && n_dull > 5000 && brightest <= exp(-7));
     CHECK(n_refused[0] > 100 && n_refused[1] > n_refused[0] + 100);
     return check_report();
 }
