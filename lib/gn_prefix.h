@@ -111,6 +111,7 @@
 #define gn_facet_screen_use GN_PREFIXED_(GN_PREFIX, gn_facet_screen_use)
 #define gn_facet_shade GN_PREFIXED_(GN_PREFIX, gn_facet_shade)
 #define gn_facet_shadow GN_PREFIXED_(GN_PREFIX, gn_facet_shadow)
+#define gn_facet_shines GN_PREFIXED_(GN_PREFIX, gn_facet_shines)
 #define gn_facet_slope GN_PREFIXED_(GN_PREFIX, gn_facet_slope)
 #define gn_facet_texture_begin GN_PREFIXED_(GN_PREFIX, gn_facet_texture_begin)
 #define gn_facet_texture_row GN_PREFIXED_(GN_PREFIX, gn_facet_texture_row)
