@@ -71,9 +71,8 @@ GN_HOT static int16_t certain_cascade(uint32_t views)
 GN_HOT void gn_corner_begin_cascade(gn_lattice *l, const gn_frame *frame, const gn_surface *s)
 {
     const extent all = {s->z_min_q16, s->z_max_q16, 0, (uint64_t)frame->tan2_q24};
-    l->cascade = -1;
-    if (s->shadowed) l->cascade = certain_cascade(possible_views(frame, &all));
-    l->surface_cascade = l->cascade;
+    l->views = s->shadowed ? (uint16_t)possible_views(frame, &all) : 0;
+    l->surface_cascade = l->cascade = s->shadowed ? certain_cascade(l->views) : -1;
 }
 
 /* Squares of the least and the largest distance from 0 of lo .. hi. */
@@ -119,7 +118,8 @@ GN_HOT void gn_corner_begin_part(gn_lattice *l, const gn_frame *frame, const gn_
     e.z_lo_q16 = gn_max32(e.z_lo_q16 - 1, s->z_min_q16);
     e.z_hi_q16 = gn_min32(e.z_hi_q16 + 1, s->z_max_q16);
     find_tangents(frame, x[0], x[1], y[0], y[1], &e);
-    l->cascade = certain_cascade(possible_views(frame, &e));
+    l->views = (uint16_t)possible_views(frame, &e);
+    l->cascade = certain_cascade(l->views);
 }
 
 GN_HOT void gn_corner_cascade(const gn_lattice *l, const gn_frame *frame, const gn_surface *s, int32_t x, int32_t y,

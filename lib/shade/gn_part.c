@@ -24,47 +24,10 @@ GN_HOT void gn_part_begin(gn_shading *s)
 /* ---- Lights ------------------------------------------------------------------------------------------------------ */
 
 #if GN_SHADOWS
-/* Views that a pixel looks into, a bit each. */
-GN_HOT static uint32_t views_at(gn_shading *s, int32_t x, int32_t y)
+/* Views that the part may look into, a bit each. */
+GN_HOT static uint32_t views_of_part(const gn_lattice *l, int cascaded)
 {
-    gn_corner_cascade(&s->lattice, s->frame, &s->surface, x, y, &s->sample);
-    int32_t cascade = s->sample.cascade;
-    if (cascade == GN_CASCADE_NONE) return 0;
-    uint32_t views = 1U << cascade;
-    int blends = GN_BLENDED_CASCADES && s->frame->scene->shadow.blend != GN_BLEND_HARD;
-    if (blends && s->sample.value[GN_VALUE_FADE] < 65536 && cascade != GN_LAST_CASCADE(s->frame))
-        views |= 1U << s->frame->cascade[cascade].next;
-    return views;
-}
-
-enum { ROWS_APART = 4 };
-
-/* The same of some of the surface's rows, of `views` that corners of the part look into: those may lie off the surface,
- * in cascades that none of its pixels is in. A view that only rows in between look into has no window, but lookups. */
-GN_HOT static GN_NOINLINE uint32_t views_of_rows(gn_shading *s, uint32_t views)
-{
-    const gn_lattice *l = &s->lattice;
-    uint32_t found = 0;
-    for (int32_t i = 0; i < l->n_spans && views & ~found; i += ROWS_APART) {
-        const gn_run_span *span = &l->span[i];
-        int32_t x = gn_max32(span->x, l->x), last = gn_min32(span->x + span->n_px, l->part_end) - 1;
-        if (span->y < l->y || span->y >= l->y + l->n_rows || x > last) continue;
-        found |= views_at(s, x, span->y) | views_at(s, (x + last) >> 1, span->y) | views_at(s, last, span->y);
-    }
-    return found;
-}
-
-/* Views that the part looks into, a bit each. */
-GN_HOT static uint32_t views_of_part(gn_shading *s, int cascaded)
-{
-    const gn_lattice *l = &s->lattice;
-    uint32_t views = 0;
-    if (!cascaded) return 1;
-    if (l->cascade >= 0) return l->cascade == GN_CASCADE_NONE ? 0 : 1U << l->cascade;
-    for (int i = 0; i < 4; i++)
-        views |= views_at(s, i & 1 ? gn_min32(l->x_end, l->x + GN_PART_WIDTH) - 1 : l->x,
-                          i & 2 ? gn_min32(l->y + l->n_rows, l->y_end) - 1 : l->y);
-    return views & (views - 1) ? views_of_rows(s, views) : views;
+    return cascaded ? l->views & (GN_VIEWS_FADE - 1U) : 1;
 }
 
 /* What a light's windows say of the whole part, and each of them. */
@@ -73,7 +36,7 @@ GN_HOT static GN_NOINLINE int windows_of_part(gn_shading *s, uint32_t slot, part
     gn_lattice *l = &s->lattice;
     const gn_light_view *first = &s->frame->view[s->surface.light[slot].state->view_idx];
     int all = -1;
-    uint32_t views = views_of_part(s, !first->border_lit);
+    uint32_t views = views_of_part(l, !first->border_lit);
     for (uint32_t i = 0; i < 4; i++) {
         int said = GN_WINDOW_MIXED;
         if (view) view[i] = (part_view){first + i, NULL, GN_WINDOW_MIXED, {0, 0, 0}};

@@ -381,7 +381,8 @@ typedef struct gn_lattice {
     int32_t offset_q16[3];            /* and the receiver's offset in it */
     int32_t uniform;                  /* nothing but shadows varies over the surface */
     int16_t cascade;                  /* of all of the part, none of which fades; -1: of each point for itself */
-    uint16_t views;                   /* small triangles: views of cascades, a bit each, and GN_VIEWS_FADE */
+    uint16_t views;                   /* views of cascades that the part, or the small triangle, may look into, a bit
+                                         each, and GN_VIEWS_FADE */
     int16_t surface_cascade;          /* the same of the surface */
     int32_t size_log2;                /* of the largest cells, in pixels */
     int32_t x, y, x_end, y_end;       /* of the part, and where the surface ends */
