@@ -41,7 +41,8 @@ GN_HOT static range range_of_three(int32_t a, int32_t b, int32_t c)
     return (range){gn_min32(a, gn_min32(b, c)), gn_max32(a, gn_max32(b, c))};
 }
 
-/* Between the vertices the lobe leaves the plane of the three by less than (2 |dq|^2 + 3 |dn|^2) / 6. */
+/* Between the vertices the lobe leaves the plane of the three by (2 |dq|^2 + 3 |dn|^2) / 6 at most, but where eye and
+ * light are nearly opposite: there e^-7 may be e^-6. */
 GN_HOT int gn_facet_shines(gn_shading *s, uint32_t slot)
 {
     const gn_surface *surface = &s->surface;

@@ -20,7 +20,8 @@ typedef struct {
     const gn_light_view *view;
     const gn_window *window;
     uint32_t view_idx;
-    int bent; /* GN_PLACES_... */
+    int bent;    /* GN_PLACES_... */
+    int outside; /* of the tile, so that bias goes along rays: forms on the screen do not say where */
     int32_t u[4], v[4], depth[4];
 } places;
 
@@ -41,6 +42,7 @@ GN_HOT static int find_places(const gn_lattice_cell *cell, uint32_t slot, uint32
         p->v[i] = c->light[slot].v_q16;
         p->depth[i] = c->light[slot].depth_q30;
     }
+    p->outside = seen == 1U << GN_SEEN_OUTSIDE;
     return seen & (seen - 1) ? PLACED_PARTLY : seen & 1U ? PLACED_NOWHERE : PLACED;
 }
 
@@ -171,6 +173,7 @@ GN_HOT static int places_hold(const gn_lattice_cell *cell, places *p)
     int32_t least_log2 = 16 - gn_cell_place_log2(cell->frame);
     p->bent = GN_PLACES_BILINEAR;
     if (gn_cell_bends_by_less(u, bend, least_log2) && gn_cell_bends_by_less(v, bend, least_log2)) return HOLD;
+    if (p->outside) return BEND;
     p->bent = GN_PLACES_BY_ROW;
     return gn_cell_row_bends_by_less(u, bend, least_log2) && gn_cell_row_bends_by_less(v, bend, least_log2) ? BEND_DOWN
                                                                                                             : BEND;

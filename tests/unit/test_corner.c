@@ -715,18 +715,13 @@ static void check_cascade(const gn_surface *s, int32_t cascade, int x, int y)
 
 static long n_several, n_fading;
 
-/* Views that a box of pixels may look into must be those of each of its pixels, and whether shadows fade there. */
-static void check_views(gn_lattice *l, const gn_surface *s, const gn_rect *r, int x, int y)
+/* Views that a part, or a box of pixels, may look into must be those of each of its pixels, and whether shadows fade
+ * there. */
+static void check_pixel_views(const gn_lattice *l, const gn_surface *s, int x, int y)
 {
     const gn_frame *frame = &renderer.frame;
-    const int32_t left = (int32_t)uniform(0, 64), up = (int32_t)uniform(0, 64);
-    const gn_rect box = {r->x0 > x - left ? r->x0 : x - left, r->y0 > y - up ? r->y0 : y - up,
-                         r->x1 < x + 64 - left ? r->x1 : x + 64 - left, r->y1 < y + 64 - up ? r->y1 : y + 64 - up};
-    gn_sample sample;
-    gn_corner_begin_box(l, frame, s, &box);
     const uint32_t views = l->views & (GN_VIEWS_FADE - 1U);
-    n_several += (views & (views - 1)) != 0;
-    n_fading += l->views & GN_VIEWS_FADE ? 1 : 0;
+    gn_sample sample;
     gn_sample_at(frame, s, x, y, &sample);
     if (gn_shadow_distance(frame, s, &sample) < 65536) CHECK(l->views & GN_VIEWS_FADE);
     if (sample.cascade != GN_CASCADE_NONE) {
@@ -735,6 +730,18 @@ static void check_views(gn_lattice *l, const gn_surface *s, const gn_rect *r, in
             sample.cascade != GN_LAST_CASCADE(frame))
             CHECK(views >> frame->cascade[sample.cascade].next & 1U);
     }
+}
+
+static void check_views(gn_lattice *l, const gn_surface *s, const gn_rect *r, int x, int y)
+{
+    const int32_t left = (int32_t)uniform(0, 64), up = (int32_t)uniform(0, 64);
+    const gn_rect box = {r->x0 > x - left ? r->x0 : x - left, r->y0 > y - up ? r->y0 : y - up,
+                         r->x1 < x + 64 - left ? r->x1 : x + 64 - left, r->y1 < y + 64 - up ? r->y1 : y + 64 - up};
+    gn_corner_begin_box(l, &renderer.frame, s, &box);
+    const uint32_t views = l->views & (GN_VIEWS_FADE - 1U);
+    n_several += (views & (views - 1)) != 0;
+    n_fading += l->views & GN_VIEWS_FADE ? 1 : 0;
+    check_pixel_views(l, s, x, y);
 }
 
 static void check_part(gn_lattice *l, const gn_surface *s, const gn_rect *r, const known_point *k, int x, int y)
@@ -749,6 +756,7 @@ static void check_part(gn_lattice *l, const gn_surface *s, const gn_rect *r, con
     l->y_end = r->y1;
     gn_corner_begin_part(l, &renderer.frame, s);
     check_cascade(s, l->cascade, x, y);
+    if (l->cascade < 0) check_pixel_views(l, s, x, y);
     l->cascade = l->surface_cascade;
     check_views(l, s, r, x, y);
 }
