@@ -310,8 +310,10 @@ GN_HOT static int is_even(const gn_lattice_cell *cell)
         const int32_t *c = cell->out->colour_q24[i];
         least = gn_min32(least, gn_max32(c[0], gn_max32(c[1], c[2])));
     }
-    uint64_t error = cell->size_log2 > gn_cell_finest_log2(cell->frame) ? cell->error_q24 : cell->kink_q24;
-    return error << gn_cell_light_log2(cell->frame) <= (uint64_t)(gn_max32(least, 0) + (1 << 19)) << more_log2;
+    const uint64_t most = (uint64_t)(gn_max32(least, 0) + (1 << 19)) << more_log2;
+    const int32_t log2 = gn_cell_light_log2(cell->frame);
+    if (cell->size_log2 > gn_cell_finest_log2(cell->frame) && cell->error_q24 << log2 > most) return 0;
+    return cell->kink_q24 << log2 <= most - (most >> 2); /* rims and ends are seen sooner */
 }
 
 /* 1: shadows do not fade in the cell; -1: they begin or end to, and change by more than the tolerance: no bilinear
