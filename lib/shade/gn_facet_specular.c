@@ -13,13 +13,12 @@ GN_HOT static void lobe_at(gn_shading *s, uint32_t slot, int k, int32_t lobe_q30
 {
     const gn_surface *surface = &s->surface;
     const gn_cam *cam = &s->frame->cam;
-    const int more = k && GN_SMOOTH(surface);
     gn_sample *sample = &s->sample;
     int64_t normal[3], to_eye[3];
     for (int i = 0; i < 3; i++) {
         int64_t ray = 0; /* 3 * 2^60 */
         for (int j = 0; j < 3; j++) ray += (int64_t)cam->axis_q30[j][i] * surface->v_q16[k][j];
-        normal[i] = (int64_t)surface->normal_q30[0][i] + (more ? surface->normal_q30[k][i] : 0);
+        normal[i] = (int64_t)surface->normal_q30[0][i] + (k ? surface->normal_q30[k][i] : 0);
         to_eye[i] = GN_FLAT_Q16(s->frame) ? -(int64_t)cam->axis_q30[2][i] : -ray;
 #if GN_PUNCTUAL_LIGHTS
         int32_t *from = &sample->value[GN_VALUE_LIGHT + GN_VALUES_PER_LIGHT * slot + GN_LIGHT_POINT_AT];
@@ -31,7 +30,7 @@ GN_HOT static void lobe_at(gn_shading *s, uint32_t slot, int k, int32_t lobe_q30
     gn_light_highlight(s->frame, surface, sample, slot, lobe_q30);
 }
 
-/* Three vectors, Q12: bounds along an axis, and the square of what they differ by. */
+/* Bounds of three values. */
 typedef struct {
     int32_t lo, hi;
 } range;
@@ -41,8 +40,9 @@ GN_HOT static range range_of_three(int32_t a, int32_t b, int32_t c)
     return (range){gn_min32(a, gn_min32(b, c)), gn_max32(a, gn_max32(b, c))};
 }
 
-/* Between the vertices the lobe leaves the plane of the three by (2 |dq|^2 + 3 |dn|^2) / 6 at most, but where eye and
- * light are nearly opposite: there e^-7 may be e^-6. */
+/* Between the vertices the lobe leaves the plane of the three by some (2 |dq|^2 + 3 |dn|^2) / 6; where eye and light
+ * are nearly opposite by more: there e^-6 was found in place of e^-7. |q| <= 2: squares are below 3 * 2^28, and their
+ * sum below 2^32. */
 GN_HOT int gn_facet_shines(gn_shading *s, uint32_t slot)
 {
     const gn_surface *surface = &s->surface;
@@ -55,7 +55,7 @@ GN_HOT int gn_facet_shines(gn_shading *s, uint32_t slot)
         q[i] = range_of_three(q30[0][i] >> 18, q30[1][i] >> 18, q30[2][i] >> 18);
         const range turn = range_of_three(0, n[1][i] >> 18, n[2][i] >> 18);
         q2 += (uint32_t)((q[i].hi - q[i].lo) * (q[i].hi - q[i].lo));
-        if (GN_SMOOTH(surface)) n2 += (uint32_t)((turn.hi - turn.lo) * (turn.hi - turn.lo));
+        n2 += (uint32_t)((turn.hi - turn.lo) * (turn.hi - turn.lo));
     }
     const int32_t bent = (int32_t)((2 * q2 + 3 * n2) / 6 >> 12) + 1;
     for (int i = 0; i < 3; i++) {

@@ -54,7 +54,8 @@ GN_HOT static inline int32_t gn_cell_turn_log2(const gn_frame *frame)
     return GN_K(frame, persp_step) == 8;
 }
 
-/* Where shadows begin or end to fade they may change by 2^-this over a cell, which is what they are off by at most. */
+/* Where shadows begin or end to fade with depth they may change by 2^-this over a cell: they are off by that at most.
+ */
 GN_HOT static inline int32_t gn_cell_fade_log2(const gn_frame *frame)
 {
     (void)frame;

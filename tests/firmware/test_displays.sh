@@ -78,7 +78,7 @@ build/capture 5 READY "$tmp/none.ppm" build/no-such-emulator >/dev/null 2>"$tmp/
 for file in boards/*/board.mk; do
     grep -q '^SCREEN_SIZE' "$file" && grep -q '^BOARD_RUNS := no$' "$file" || continue
     board=$(basename "$(dirname "$file")")
-    build "the clock of $board" firmware BOARD=$board APP=clock FW_OPT=-O1
+    build "the clock of $board" firmware BOARD=$board APP=clock
 done
 
 echo "$passed passed, $failed failed"

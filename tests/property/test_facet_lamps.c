@@ -164,8 +164,8 @@ static void compare_sizes(const gn_facet_vertices *v, int said)
     }
 }
 
-static int n_shining, n_dull;
-static double brightest;
+static int n_shining, n_dull, n_opposite;
+static double brightest, brightest_opposite;
 
 static void normalise(double v[3])
 {
@@ -194,24 +194,67 @@ static double highlight_at(const gn_light_state *light, const gn_facet_vertices 
     return pow(fmax(0, dot(n, h)), ldexp(1, shading.surface.object->shininess_log2));
 }
 
-/* Where it is said that no highlight is seen, none is above e^-7 of the light. */
-static void try_highlight(gn_light_state *light, const gn_facet_vertices *v)
+/* The brightest highlight of the light in the triangle, if it is said that none is seen; else 0. */
+static double unseen_highlight(const gn_light_state *light, const gn_facet_vertices *v)
 {
     static gn_object object;
-    const uint8_t kind = light->kind;
-    gn_surface *s = &shading.surface;
+    double most = 0;
     object.shininess_log2 = (uint8_t)rng_below(&random_state, 8);
-    s->object = &object;
-    if (rng_below(&random_state, 2)) light->kind = GN_LIGHT_DIRECTIONAL;
+    shading.surface.object = &object;
     const int shines = gn_facet_shines(&shading, 0);
     n_shining += shines;
     n_dull += !shines;
     for (int i = 0; !shines && i <= PER_SIDE; i++)
         for (int j = 0; i + j <= PER_SIDE; j++) {
             const double b[3] = {1 - (double)(i + j) / PER_SIDE, (double)i / PER_SIDE, (double)j / PER_SIDE};
-            brightest = fmax(brightest, highlight_at(light, v, b));
+            most = fmax(most, highlight_at(light, v, b));
         }
+    return most;
+}
+
+static void try_highlight(gn_light_state *light, const gn_facet_vertices *v)
+{
+    const uint8_t kind = light->kind;
+    if (rng_below(&random_state, 2)) light->kind = GN_LIGHT_DIRECTIONAL;
+    brightest = fmax(brightest, unseen_highlight(light, v));
     light->kind = kind;
+}
+
+/* Eye and light nearly opposite, normals near the half vectors: those turn fast, and not evenly. */
+static void try_opposite(gn_frame *frame)
+{
+    static const uint32_t unknown[3] = {0, 0, 0};
+    gn_surface *s = &shading.surface;
+    gn_light_state *light = &frame->light[0];
+    gn_facet_vertices v;
+    double aside[3], to_side[3], to_light[3];
+    draw_triangle(s, pow(2, uniform(-5, 4)));
+    if (!CHECK(gn_facet_vertices_find(&v, frame, s, unknown))) return;
+    const double apart = uniform(0.02, 1), off = uniform(0, 1.5), turn = uniform(0, 0.2);
+    direction(aside);
+    direction(to_side);
+    for (int k = 0; k < 3; k++) {
+        double to_eye[3], n[3], own[3];
+        for (int i = 0; i < 3; i++) to_eye[i] = -v.ray_q16[k][i];
+        normalise(to_eye);
+        for (int i = 0; i < 3 && !k; i++) to_light[i] = apart * aside[i] - to_eye[i];
+        if (!k) normalise(to_light);
+        for (int i = 0; i < 3; i++) n[i] = to_light[i] + to_eye[i];
+        normalise(n);
+        direction(own);
+        for (int i = 0; i < 3; i++) n[i] += off * to_side[i] + turn * own[i];
+        normalise(n);
+        for (int i = 0; i < 3; i++) {
+            light->to_light_q30[i] = (int32_t)lround(ldexp(to_light[i] * 0.9999999, 30));
+            v.normal_q30[k][i] = (int32_t)lround(ldexp(n[i] * 0.999999, 30));
+            s->normal_q30[k][i] = v.normal_q30[k][i] - (k ? v.normal_q30[0][i] : 0);
+        }
+    }
+    s->smooth = 1;
+    light->kind = GN_LIGHT_DIRECTIONAL;
+    const double most = unseen_highlight(light, &v);
+    n_opposite += most > 0;
+    brightest_opposite = fmax(brightest_opposite, most);
 }
 
 static void try_case(gn_frame *frame)
@@ -315,8 +358,11 @@ int main(void)
     printf("%d lit, %d of them in a rim, %d with a range; %d dark, %d split; off by up to %.2f of the bound\n", n_lit,
            n_rims, n_ranges, n_dark, n_split, nearest_to_bound);
     CHECK(n_lit > 5000 && n_rims > 1000 && n_ranges > 1000 && n_dark > 1000 && n_split > 1000);
-    printf("highlights: %d, %d without any; there up to %.6f\n", n_shining, n_dull, brightest);
     CHECK(n_shining > 5000 && n_dull > 5000 && brightest <= exp(-7));
+    for (int i = 0; i < CASES; i++) try_opposite(&renderer.frame);
+    printf("highlights: %d, %d without any; there up to %.6f, %.6f where eye and light are opposite\n", n_shining,
+           n_dull, brightest, brightest_opposite);
+    CHECK(n_opposite > 1000 && brightest_opposite <= exp(-6));
     CHECK(n_refused[0] > 100 && n_refused[1] > n_refused[0] + 100);
     return check_report();
 }

@@ -732,6 +732,7 @@ static void check_pixel_views(const gn_lattice *l, const gn_surface *s, int x, i
     }
 }
 
+/* Those of a box. */
 static void check_views(gn_lattice *l, const gn_surface *s, const gn_rect *r, int x, int y)
 {
     const int32_t left = (int32_t)uniform(0, 64), up = (int32_t)uniform(0, 64);
@@ -821,6 +822,38 @@ static void check_light(const gn_lattice *from, const gn_surface *s, int x, int 
         n_split += bound >= 3.99 * most;
         if (bound < 3.99 * most) check_light_inside(&c->cell, slot, bound); /* else the cell is split in any case */
     }
+}
+
+static long n_fades;
+
+/* Where shadows begin or end to fade with depth, what is linear between corners is off by what those differ by, at
+ * most: depths in the cell lie between those of its corners. */
+static void check_fade(const gn_lattice *from, const gn_surface *s, int x, int y, int size_log2)
+{
+    static gn_sample sample;
+    static gn_corner at;
+    const int size = 1 << size_log2;
+    cell_case *c = cell_at(from, s, x, y, size_log2);
+    uint32_t least = 65536, most = 0, fade = 65536;
+    if (!c || fixed.shadow.distance_mode != GN_DISTANCE_DEPTH) return;
+    for (int i = 0; i < 4; i++) {
+        const gn_corner *k = &c->corner[i];
+        least = k->g_uq16 < least ? k->g_uq16 : least;
+        most = k->g_uq16 > most ? k->g_uq16 : most;
+        fade &= k->fade_uq16;
+    }
+    const int cascades = renderer.frame.has_cascades; /* the last ends by itself */
+    if (least == most || (least && most < 65536) || (cascades && fade != 65536)) return;
+    for (int j = 0; j <= size; j += size / 2)
+        for (int i = 0; i <= size; i += size / 2) {
+            gn_corner_find(&c->shading.lattice, &renderer.frame, s, x + i, y + j, &sample, &at);
+            if (at.state != GN_CORNER_KNOWN || (cascades && at.fade_uq16 != 65536)) continue;
+            double between = 0;
+            for (int k = 0; k < 4; k++)
+                between += (double)(k & 1 ? i : size - i) * (k & 2 ? j : size - j) * c->corner[k].g_uq16;
+            CHECK(fabs(between / (size * size) - at.g_uq16) <= most - least + 2);
+            n_fades++;
+        }
 }
 
 /* ---- Tests ------------------------------------------------------------------------------------------------------- */
@@ -914,6 +947,9 @@ static void check_scene(const gn_knobs *knobs)
         for (int i = 0; has_plane && surface.n_punctual && i < 6; i++)
             check_light(&lattice, &surface, (int)uniform(r.x0 - 12, r.x1 + 2), (int)uniform(r.y0 - 12, r.y1 + 2),
                         3 + i % 2);
+        for (int i = 0; has_plane && surface.shadowed && i < 6; i++)
+            check_fade(&lattice, &surface, (int)uniform(r.x0 - 12, r.x1 + 2), (int)uniform(r.y0 - 12, r.y1 + 2),
+                       1 + i % 4);
         for (int i = 0; has_plane && surface.textured && i < 6; i++)
             check_cell(&lattice, &surface, &p, (int)uniform(r.x0 - 6, r.x1 + 2), (int)uniform(r.y0 - 6, r.y1 + 2),
                        1 + i % 4);
@@ -945,7 +981,8 @@ int main(int argc, char **argv)
     CHECK(n_flat > 1000 && n_flat > 2 * n_not_flat);
     CHECK(n_wide_places > 1000);
     CHECK(n_certain > 1000 && n_uncertain > 100 && n_several > 100 && n_fading > 100);
-    CHECK(n_along > 1000);
+    printf("cells: shadows that begin or end to fade at %ld places\n", n_fades);
+    CHECK(n_along > 1000 && n_fades > 200);
     CHECK(lit_by_bias.n > 1000);
     CHECK_TALLY(rim_dark, "corners beyond a rim");
     CHECK_TALLY(rim_lit, "corners in a rim");
