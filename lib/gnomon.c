@@ -147,6 +147,7 @@
 #if GN_INTERPOLATES
 #include "shade/gn_corner.c"
 #include "shade/gn_corner_cascade.c"
+#include "shade/gn_corner_pixel.c"
 #include "shade/gn_corner_place.c"
 #include "shade/gn_corner_punctual.c"
 #include "shade/gn_corner_screen.c"

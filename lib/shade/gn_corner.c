@@ -23,10 +23,10 @@ GN_HOT static inline int32_t along(const gn_slope *s, int32_t dx, int32_t dy)
     return s->at + s->dx * dx + s->dy * dy;
 }
 
-/* A linear form of view space, at least 2^29 long, on the screen, times 2^-shift. Returns 0 if it leaves +-2^30 within
- * `rect`, as it does everywhere with a small shift. */
+/* A linear form of view space, at least 2^29 long, on the screen, times 2^-shift. Returns 0 if it, or a part of its
+ * sum, leaves 32 bits where the plane is asked for, as it does everywhere with a small shift. */
 GN_HOT static int form_on_screen(gn_slope *out, const gn_frame *frame, const gn_screen_plane *p, const int32_t form[3],
-                                 int32_t shift, const gn_rect *rect)
+                                 int32_t shift)
 {
     int32_t px = 2 * p->x + 1 - frame->picture.width, py = frame->picture.height - 1 - 2 * p->y, s = shift - 17;
     if (s < 1 || s > 45) return 0;
@@ -36,9 +36,9 @@ GN_HOT static int form_on_screen(gn_slope *out, const gn_frame *frame, const gn_
     out->at = ((int32_t)at + 1) >> 1;
     out->dx = ((form[0] >> (s - 1)) + 1) >> 1;
     out->dy = -(((form[1] >> (s - 1)) + 1) >> 1);
-    uint32_t dx = gn_abs32(out->dx), dy = gn_abs32(out->dy), w = (uint32_t)(rect->x1 - rect->x0) + 16,
-             h = (uint32_t)(rect->y1 - rect->y0) + 16; /* cells go beyond */
-    return gn_abs32(out->at) < 1U << 30 && (dx | dy) < 1U << 26 && (uint64_t)dx * w + (uint64_t)dy * h < 1U << 30;
+    const uint64_t most = gn_abs32(out->at) + (uint64_t)gn_abs32(out->dx) * (uint32_t)p->w_px +
+                          (uint64_t)gn_abs32(out->dy) * (uint32_t)p->h_px;
+    return gn_abs32(out->at) < 1U << 30 && !(most >> 31);
 }
 
 #if GN_ORTHOGRAPHIC
@@ -49,7 +49,7 @@ GN_HOT static void times_per_w(int32_t *v, uint32_t recip, int32_t clz)
 
 /* Barycentrics of parallel rays, whose n . ray is the same everywhere: below 7, and sums of steps below 2^31, where the
  * plane is asked for. */
-GN_HOT static int find_flat_plane(gn_screen_plane *p, const gn_frame *frame, const gn_surface *s, const gn_rect *rect)
+GN_HOT static int find_flat_plane(gn_screen_plane *p, const gn_frame *frame, const gn_surface *s)
 {
     const int64_t w = gn_plane_at(s->screen.n, 0, 0, frame->cam.focal2_px_q16);
     if (w < (int64_t)1 << 45) return 0;
@@ -59,7 +59,7 @@ GN_HOT static int find_flat_plane(gn_screen_plane *p, const gn_frame *frame, con
     const uint32_t recip = gn_recip_norm(w_q27 << clz, 2);
     for (int k = 0; k < 2; k++) {
         gn_slope *b = &p->b[k];
-        if (!form_on_screen(b, frame, p, s->bary.form[k], shift - s->bary.exp[k], rect)) return 0;
+        if (!form_on_screen(b, frame, p, s->bary.form[k], shift - s->bary.exp[k])) return 0;
         const uint32_t most = gn_abs32(b->at) + gn_abs32(b->dx) * (uint32_t)p->w_px + /* 2^30 and 2^30 */
                               gn_abs32(b->dy) * (uint32_t)p->h_px;
         if (most >= 7 * w_q27) return 0;
@@ -84,22 +84,24 @@ GN_HOT int32_t gn_corner_flat_depth(const gn_screen_plane *p, const gn_surface *
 }
 #endif
 
-/* Forms of the surface at a common scale, at which n . ray is below 2^27 on the triangle. */
-GN_HOT static int find_plane(gn_screen_plane *p, const gn_frame *frame, const gn_surface *s, const gn_rect *rect)
+/* Forms of the surface at a common scale, at which n . ray is below 2^27 on the triangle, for pixels of `rect` and
+ * `beyond` more each way. */
+GN_HOT static int find_plane(gn_screen_plane *p, const gn_frame *frame, const gn_surface *s, const gn_rect *rect,
+                             int32_t beyond)
 {
     if (s->plane.det <= 0) return 0;
     p->x = (rect->x0 + rect->x1) >> 1;
     p->y = (rect->y0 + rect->y1) >> 1;
-    p->w_px = ((rect->x1 - rect->x0) >> 1) + 17;
-    p->h_px = ((rect->y1 - rect->y0) >> 1) + 17;
+    p->w_px = ((rect->x1 - rect->x0) >> 1) + beyond + 1;
+    p->h_px = ((rect->y1 - rect->y0) >> 1) + beyond + 1;
 #if GN_ORTHOGRAPHIC
-    if (GN_FLAT_Q16(frame)) return find_flat_plane(p, frame, s, rect);
+    if (GN_FLAT_Q16(frame)) return find_flat_plane(p, frame, s);
 #endif
     int32_t shift = s->depth_scale.exp + 32 - (31 - gn_clz32((uint32_t)s->z_min_q16)) - 27;
     p->z_shift = 31 + shift - s->depth_scale.exp;
-    if (!form_on_screen(&p->w, frame, p, s->plane.n, shift, rect)) return 0;
+    if (!form_on_screen(&p->w, frame, p, s->plane.n, shift)) return 0;
     for (int k = 0; GN_HAS_BARY(s) && k < 2; k++)
-        if (!form_on_screen(&p->b[k], frame, p, s->bary.form[k], shift - s->bary.exp[k], rect)) return 0;
+        if (!form_on_screen(&p->b[k], frame, p, s->bary.form[k], shift - s->bary.exp[k])) return 0;
     return 1;
 }
 
@@ -146,9 +148,10 @@ GN_HOT int gn_corner_begin_lights(gn_lattice *l, const gn_frame *frame, const gn
     return 1;
 }
 
-GN_HOT int gn_corner_begin(gn_lattice *l, const gn_frame *frame, const gn_surface *s, const gn_rect *rect)
+GN_HOT int gn_corner_begin(gn_lattice *l, const gn_frame *frame, const gn_surface *s, const gn_rect *rect,
+                           int32_t beyond)
 {
-    if (!find_plane(&l->plane, frame, s, rect)) return 0;
+    if (!find_plane(&l->plane, frame, s, rect, beyond)) return 0;
     gn_corner_forget_forms(l);
     l->cascade = -1;
 #if GN_SHADOWS

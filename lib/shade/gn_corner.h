@@ -13,7 +13,8 @@
 int gn_corner_begin_lights(gn_lattice *lattice, const gn_frame *frame, const gn_surface *surface);
 
 /* Then, for pixels of `rect`. Returns 0 if its plane does not fit 32 bits there. */
-int gn_corner_begin(gn_lattice *lattice, const gn_frame *frame, const gn_surface *surface, const gn_rect *rect);
+int gn_corner_begin(gn_lattice *lattice, const gn_frame *frame, const gn_surface *surface, const gn_rect *rect,
+                    int32_t beyond);
 
 /* Makes a corner known, at the centre of pixel (x, y), or unseen where the plane cannot be sampled there. `sample` is
  * scratch. */

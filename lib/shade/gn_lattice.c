@@ -5,6 +5,7 @@
 
 #include "base/gn_count.h"
 #include "base/gn_q.h"
+#include "shade/gn_corner_pixel.h"
 #include "shade/gn_exact.h"
 #include "shade/gn_facet.h"
 #include "shade/gn_lattice.h"
@@ -51,20 +52,37 @@ GN_HOT static int mark(gn_lattice *l)
     return any;
 }
 
-GN_HOT static int has_pixels(const gn_lattice *l, int32_t x, int32_t y, int32_t size_log2)
+/* Pixels of a cell, counted up to one more than `most`. */
+GN_HOT static int32_t count_some(const gn_lattice *l, int32_t x, int32_t y, int32_t size_log2, int32_t most)
 {
-    return gn_lattice_columns(l, x, y, 1 << size_log2, size_log2) != 0;
+    int32_t n = 0;
+    for (int32_t j = y; j < y + (1 << size_log2) && n <= most; j++)
+        for (uint32_t bits = gn_lattice_bits(l, x, j, size_log2); bits && n <= most; bits &= bits - 1) n++;
+    return n;
 }
+
+/* A small triangle, a part, or a cell costs as much as these pixels do by themselves; a part, more where its box is
+ * long. */
+enum { FEW_OF_A_FACET = 3, FEW_OF_ONE_COLOUR = 8, FEW = 20, FEW_OF_A_CELL = 5 };
 
 /* ---- Cells ------------------------------------------------------------------------------------------------------- */
 
-GN_HOT static void shade_exactly(gn_shading *s, int32_t x, int32_t y, int32_t size_log2)
+GN_HOT static void shade_pixels_of(gn_shading *s, int32_t x, int32_t y, int32_t size_log2)
 {
     for (int32_t j = y; j < y + (1 << size_log2); j++) {
         uint32_t bits = gn_lattice_bits(&s->lattice, x, j, size_log2);
         for (int32_t i = x; bits; bits >>= 1, i++)
-            if (bits & 1U) gn_exact_pixel(s, i, j);
+            if (bits & 1U) gn_corner_pixel(s, i, j);
     }
+}
+
+/* If they are few. Returns 0 if the cell is worth it. */
+GN_HOT static int shade_few(gn_shading *s, int32_t x, int32_t y, int32_t size_log2)
+{
+    const int32_t n = count_some(&s->lattice, x, y, size_log2, FEW_OF_A_CELL);
+    if (n > FEW_OF_A_CELL) return 0;
+    if (n) shade_pixels_of(s, x, y, size_log2);
+    return 1;
 }
 
 /* Another corner, in place of one that is none of the last four. One that another has taken the place of in corner_at
@@ -109,7 +127,7 @@ GN_HOT static int next_quarter(gn_shading *s, gn_split_cell *split, int32_t *x, 
         *x = split->x + ((split->next & 1) << log2);
         *y = split->y + ((split->next >> 1) << log2);
         split->next++;
-        if (!has_pixels(&s->lattice, *x, *y, log2)) continue;
+        if (shade_few(s, *x, *y, log2)) continue;
         find_corners(s, *x, *y, log2, corner);
         return 1;
     }
@@ -127,10 +145,10 @@ GN_HOT static void shade_cell(gn_shading *s, int32_t x, int32_t y, int32_t size_
         GN_COUNT(cells, 1);
         if (gn_lattice_look_at(&s->lattice, s->frame, &s->surface, corner, size_log2))
             gn_lattice_draw(s, x, y, size_log2, corner);
-        else if (size_log2 > 1) {
+        else if (size_log2 > GN_SMALLEST_CELL_LOG2) {
             GN_COUNT(cells_split, 1);
             split[depth++] = (gn_split_cell){(int16_t)x, (int16_t)y, (uint8_t)size_log2, 0};
-        } else shade_exactly(s, x, y, size_log2);
+        } else shade_pixels_of(s, x, y, size_log2);
         while (depth > 0 && !next_quarter(s, &split[depth - 1], &x, &y, corner)) depth--;
         if (!depth) return;
         size_log2 = split[depth - 1].size_log2 - 1;
@@ -154,7 +172,7 @@ GN_HOT static GN_NOINLINE void shade_part(gn_shading *s)
     forget_corners(l);
     for (int32_t x = l->x; x < x_end; x += size)
         for (int32_t y = l->y; y < l->y + l->n_rows; y += size)
-            if (has_pixels(l, x, y, log2)) shade_cell(s, x, y, log2);
+            if (!shade_few(s, x, y, log2)) shade_cell(s, x, y, log2);
 }
 
 #if GN_SHADOWS
@@ -185,15 +203,12 @@ GN_HOT static void begin_part(gn_shading *s)
 /* Cells as large as the knob says, but not much larger than the surface; if its normals turn, than its shorter side. */
 GN_HOT static int32_t cell_log2(const gn_frame *frame, const gn_surface *s, const gn_rect *box)
 {
-    int32_t most = GN_K(frame, persp_step) >= 8 ? 4 : 3, log2 = 1;
+    int32_t most = GN_K(frame, persp_step) >= 8 ? 4 : 3, log2 = GN_SMALLEST_CELL_LOG2;
     int32_t w = box->x1 - box->x0, h = box->y1 - box->y0, across = GN_CURVED(s) ? gn_min32(w, h) : gn_max32(w, h);
     (void)frame, (void)s;
     while (log2 < most && 1 << log2 < across) log2++;
     return log2;
 }
-
-/* What a small triangle, or cells, or a window cost as much as these pixels do by themselves. */
-enum { FEW_OF_A_FACET = 2, FEW_OF_ONE_COLOUR = 3, FEW = 16 };
 
 GN_HOT static int32_t count_pixels(const gn_lattice *l)
 {
@@ -210,6 +225,20 @@ GN_HOT void gn_lattice_begin_tile(gn_shading *s)
 #endif
 }
 
+/* Each for itself; `pixel`: how. */
+GN_HOT static void shade_pixels(gn_shading *s, void (*pixel)(gn_shading *, int32_t, int32_t))
+{
+    const gn_lattice *l = &s->lattice;
+    for (int32_t i = 0; i < l->n_spans; i++)
+        for (int32_t k = 0; k < l->span[i].n_px; k++) pixel(s, l->span[i].x + k, l->span[i].y);
+}
+
+/* Whether pixels are fewer than a part pays for. */
+GN_HOT static int are_few(const gn_lattice *l, const gn_rect *box, int32_t n_px)
+{
+    return n_px <= (l->uniform ? FEW_OF_ONE_COLOUR : FEW + ((box->x1 - box->x0 + box->y1 - box->y0) >> 1));
+}
+
 GN_HOT void gn_lattice_shade(gn_shading *s)
 {
     gn_lattice *l = &s->lattice;
@@ -222,18 +251,23 @@ GN_HOT void gn_lattice_shade(gn_shading *s)
     }
     gn_surface_use_bary(s->frame, &s->surface);
     /* of parallel rays each pixel has its own highlight: gn_sample_on_plane() is of rays from the eye */
-    const int alone = GN_SPECULAR && s->surface.specular && s->surface.n_lights && GN_FLAT_Q16(s->frame);
-    if (n_px <= (l->uniform ? FEW_OF_ONE_COLOUR : FEW) || !reached || alone ||
-        !gn_corner_begin(l, s->frame, &s->surface, &box)) {
-        for (int32_t i = 0; i < l->n_spans; i++)
-            for (int32_t k = 0; k < l->span[i].n_px; k++) gn_exact_pixel(s, l->span[i].x + k, l->span[i].y);
+    const int alone = n_px == 1 || (GN_FLAT_Q16(s->frame) && GN_SPECULAR && s->surface.specular && s->surface.n_lights);
+    const int few = are_few(l, &box, n_px);
+    l->size_log2 = few ? 0 : cell_log2(s->frame, &s->surface, &box);
+    const int32_t beyond = 1 << (l->uniform && !few ? 4 : l->size_log2); /* rows of parts look ahead */
+    if (!reached || alone || !gn_corner_begin(l, s->frame, &s->surface, &box, beyond)) {
+        shade_pixels(s, gn_exact_pixel);
         return;
     }
-    l->size_log2 = cell_log2(s->frame, &s->surface, &box);
+    l->has_face = 0;
+    if (few) {
+        l->cascade = l->surface_cascade;
+        shade_pixels(s, gn_corner_pixel);
+        return;
+    }
     l->n_rows = gn_min32(2 << l->size_log2, GN_PART_ROWS);
     l->x_end = box.x1;
     l->y_end = box.y1;
-    l->has_face = 0;
     forget_windows(l);
     for (l->y = box.y0; l->y < box.y1; l->y += l->n_rows) {
         for (l->x = box.x0; l->x < box.x1; l->x = l->part_end) {

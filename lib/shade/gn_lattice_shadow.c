@@ -416,7 +416,7 @@ GN_HOT static GN_NOINLINE int add_blend(const gn_lattice_cell *cell, uint32_t sl
         if (find_places(cell, slot, view_idx, p) != PLACED) return 0;
         gn_shadow_slopes(cell->frame, cell->s, p->view, NULL, slope);
         if (verdict(cell, slot, view_idx, p, slope) == GN_CELL_SPLIT) return 0;
-        if (places_hold(cell, p) == BEND && cell->size_log2 > 1) return 0;
+        if (places_hold(cell, p) == BEND) return 0;
         uint32_t part[4];
         for (int i = 0; i < 4; i++) part[i] = gn_mul_uq16(light->more_uq16[i], k ? 65536 - share[i] : share[i]);
         if (!add_edge(cell, slot, p, slope, light, part)) return 0;
@@ -468,7 +468,7 @@ GN_HOT int gn_cell_shadow(const gn_lattice_cell *cell, uint32_t slot, const gn_c
     }
     if (!left) return all;
     if (views & (views - 1)) added = add_of_several(cell, slot, light, views, from, slope, &p);
-    else if (places_hold(cell, &p) == BEND && cell->size_log2 > 1) return GN_CELL_SPLIT;
+    else if (places_hold(cell, &p) == BEND) return GN_CELL_SPLIT;
     else added = add_edge(cell, slot, &p, slope, light, light->more_uq16);
     return added ? GN_CELL_EDGE : GN_CELL_SPLIT;
 }

@@ -342,7 +342,7 @@ typedef struct {
     int16_t x, y, n_px;
 } gn_run_span;
 
-enum { GN_SPANS = 32, GN_PART_WIDTH = 64, GN_PART_ROWS = 16 };
+enum { GN_SPANS = 32, GN_PART_WIDTH = 64, GN_PART_ROWS = 16, GN_SMALLEST_CELL_LOG2 = 2 };
 
 /* A directional view's coordinates of points in view space: texels, ray_shift fraction bits more than Q16. */
 typedef struct {
@@ -397,7 +397,7 @@ typedef struct gn_lattice {
     uint32_t corner_used[GN_CORNERS], now; /* when they were, counted */
     uint32_t next_corner;                  /* to be replaced */
     uint8_t corner_at[8][8];               /* which of them is that of a pixel, by bits of y and x */
-    gn_split_cell split[4];                /* of 16, 8, 4 and 2 pixels, one in the other */
+    gn_split_cell split[2];                /* of 16 and 8 pixels, one in the other */
 #if GN_SHADOWS
     gn_window window[GN_WINDOWS];
 #endif

@@ -939,7 +939,7 @@ static void check_scene(const gn_knobs *knobs)
         gn_surface_use_bary(&renderer.frame, &surface);
         const gn_rect r = gn_setup_bounds(&renderer.frame, tri);
         const int reached = gn_corner_begin_lights(&lattice, &renderer.frame, &surface);
-        const int has_plane = reached && gn_corner_begin(&lattice, &renderer.frame, &surface, &r);
+        const int has_plane = reached && gn_corner_begin(&lattice, &renderer.frame, &surface, &r, 16);
         n_planes += has_plane;
         n_no_plane += !has_plane;
         for (int y = r.y0 - 6; has_plane && y < r.y1 + 14; y += 5)
