@@ -12,7 +12,7 @@
 /* Once per surface. Returns 0 if a light is out of reach of 32 bits. */
 int gn_corner_begin_lights(gn_lattice *lattice, const gn_frame *frame, const gn_surface *surface);
 
-/* Then, for pixels of `rect`. Returns 0 if its plane does not fit 32 bits there. */
+/* Then, for pixels of `rect` and `beyond` more each way. Returns 0 if its plane does not fit 32 bits there. */
 int gn_corner_begin(gn_lattice *lattice, const gn_frame *frame, const gn_surface *surface, const gn_rect *rect,
                     int32_t beyond);
 

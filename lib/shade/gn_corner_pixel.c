@@ -71,9 +71,10 @@ GN_HOT static uint32_t share_of(gn_shading *s, gn_corner *c, uint32_t slot)
 GN_HOT static int light_corner(gn_shading *s, gn_corner *c, int32_t sum_q24[3])
 {
     const gn_surface *surface = &s->surface;
+    const int dims = surface->textured | GN_COLOURED(surface);
     if (surface->shadowed && is_blended(s->frame, c)) return 0;
     for (int i = 0; i < 3; i++) sum_q24[i] = c->base_q24[i];
-    if ((surface->textured | GN_COLOURED(surface)) && (sum_q24[0] | sum_q24[1] | sum_q24[2]) >> 27) return 0;
+    if (dims && (sum_q24[0] | sum_q24[1] | sum_q24[2]) >> 27) return 0;
     for (uint32_t slot = 0; slot < surface->n_lights; slot++) {
         const uint32_t *colour = surface->light[slot].radiance_uq16;
         const int32_t e = c->light[slot].irradiance_q24;
@@ -83,21 +84,28 @@ GN_HOT static int light_corner(gn_shading *s, gn_corner *c, int32_t sum_q24[3])
         GN_UNROLL
         for (int i = 0; i < 3; i++) sum_q24[i] = gn_min32(sum_q24[i] + gn_corner_times(colour[i], left), 1 << 30);
     }
-    return 1;
+    return !(dims && (sum_q24[0] | sum_q24[1] | sum_q24[2]) >> 30);
+}
+
+/* Whether the plane is that of a deep triangle, far behind its nearest depth: little is left of its forms. */
+GN_HOT static inline int is_coarse(const gn_shading *s, const gn_corner *c)
+{
+    return c->z_q16 >> 8 > s->surface.z_min_q16 && !GN_FLAT_Q16(s->frame);
 }
 
 /* Times the colours of vertices and textures, Q20. */
-GN_HOT static void modulate_corner(const gn_shading *s, const gn_corner *c, uint32_t q20[3])
+GN_HOT static void modulate_corner(gn_shading *s, const gn_corner *c, uint32_t q20[3])
 {
-    gn_lit_point at = {c->z_q16, NULL, NULL};
+    int32_t *value = s->sample.value;
     uint64_t sum[3] = {q20[0], q20[1], q20[2]};
+    value[GN_VALUE_Z] = c->z_q16;
 #if GN_TEXTURES
-    at.uv_q20 = c->uv_q20;
+    for (int i = 0; i < 2; i++) value[GN_VALUE_UV + i] = c->uv_q20[i];
 #endif
 #if GN_VERTEX_COLOURS
-    at.tint_q16 = c->tint_q16;
+    for (int i = 0; i < 3; i++) value[GN_VALUE_RGB + i] = c->tint_q16[i];
 #endif
-    gn_light_modulate(s->frame, &s->surface, &at, sum);
+    gn_light_modulate(s->frame, &s->surface, &s->sample, sum);
     for (int i = 0; i < 3; i++) q20[i] = sum[i] > UINT32_MAX ? UINT32_MAX : (uint32_t)sum[i];
 }
 
@@ -109,7 +117,7 @@ GN_HOT GN_NOINLINE void gn_corner_pixel(gn_shading *s, int32_t x, int32_t y)
     if (!(GN_SPECULAR && s->surface.specular && s->surface.n_lights)) /* those know more */
         gn_corner_find(&s->lattice, s->frame, &s->surface, x, y, &s->sample, c);
     else c->state = GN_CORNER_UNSEEN;
-    if (c->state != GN_CORNER_KNOWN || !light_corner(s, c, sum_q24)) {
+    if (c->state != GN_CORNER_KNOWN || is_coarse(s, c) || !light_corner(s, c, sum_q24)) {
         gn_exact_pixel(s, x, y);
         return;
     }

@@ -1,5 +1,5 @@
 /* A surface by cells: squares of pixels, between whose corners light is interpolated. Cells whose light is too uneven
- * are split; what even the smallest cannot show is shaded pixel by pixel (gn_exact). */
+ * are split; what even the smallest cannot show is shaded pixel by pixel (gn_corner_pixel). */
 #ifndef GN_LATTICE_H
 #define GN_LATTICE_H
 

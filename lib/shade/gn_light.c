@@ -84,60 +84,61 @@ GN_HOT static void add(uint64_t sum_q20[3], const uint32_t colour_uq16[3], uint3
 
 #if GN_TEXTURES
 /* A texture of the surface, whose smaller levels begin at depth2. */
-GN_HOT static GN_NOINLINE void look_up(const gn_frame *frame, const gn_lit_point *at, const gn_texture *texture,
+GN_HOT static GN_NOINLINE void look_up(const gn_frame *frame, const gn_sample *sample, const gn_texture *texture,
                                        uint64_t depth2_q32, uint32_t colour_uq16[3])
 {
 #if GN_MIPMAPS
     gn_texture level;
     if (gn_texture_has_levels(texture)) {
-        int32_t z_q16 = GN_FLAT_Q16(frame) ? GN_FLAT_Q16(frame) : at->z_q16;
+        int32_t z_q16 = GN_FLAT_Q16(frame) ? GN_FLAT_Q16(frame) : sample->value[GN_VALUE_Z];
         gn_texture_use_level(&level, texture, gn_texture_level_at(texture, depth2_q32, z_q16));
         texture = &level;
     }
 #endif
     (void)frame, (void)depth2_q32;
     GN_COUNT(textured, 1);
-    gn_texture_colour(texture, at->uv_q20[0], at->uv_q20[1], colour_uq16);
+    gn_texture_colour(texture, sample->value[GN_VALUE_UV], sample->value[GN_VALUE_UV + 1], colour_uq16);
 }
 #endif
 
 /* Vertex colour and texture. [M3] */
-GN_HOT static GN_NOINLINE void modulate(const gn_frame *frame, const gn_surface *surface, const gn_lit_point *at,
-                                        uint64_t sum[3])
+GN_HOT static inline void modulate(const gn_frame *frame, const gn_surface *surface, const gn_sample *sample,
+                                   uint64_t sum[3])
 {
     if (GN_COLOURED(surface))
-        for (int c = 0; c < 3; c++) sum[c] = (sum[c] * (uint32_t)gn_max32(at->tint_q16[c], 0) + 0x8000U) >> 16;
+        for (int c = 0; c < 3; c++)
+            sum[c] = (sum[c] * (uint32_t)gn_max32(sample->value[GN_VALUE_RGB + c], 0) + 0x8000U) >> 16;
 #if GN_TEXTURES
     uint32_t colour[3];
     if (!surface->textured || !surface->object->texture) return;
-    look_up(frame, at, surface->object->texture, GN_LEVEL_DEPTH2(surface), colour);
+    look_up(frame, sample, surface->object->texture, GN_LEVEL_DEPTH2(surface), colour);
     for (int c = 0; c < 3; c++) sum[c] = (sum[c] * colour[c] + 0x8000U) >> 16;
 #endif
     (void)frame;
 }
 
 /* Light that the surface emits, of which texture and colours take nothing away. [M10] */
-GN_HOT static void add_glow(const gn_frame *frame, const gn_surface *surface, const gn_lit_point *at, uint64_t sum[3])
+GN_HOT static void add_glow(const gn_frame *frame, const gn_surface *surface, const gn_sample *sample, uint64_t sum[3])
 {
     const uint32_t *emissive = surface->object->emissive_uq16;
     if (!GN_GLOWS(surface)) return;
 #if GN_GLOW_TEXTURES
     uint32_t colour[3];
     if (surface->glow) {
-        look_up(frame, at, surface->glow, GN_GLOW_DEPTH2(surface), colour);
+        look_up(frame, sample, surface->glow, GN_GLOW_DEPTH2(surface), colour);
         for (int c = 0; c < 3; c++) sum[c] += ((uint64_t)emissive[c] * colour[c] + 0x800U) >> 12; /* 2^24 * 2^16 */
         return;
     }
 #endif
     for (int c = 0; c < 3; c++) sum[c] += emissive[c] << 4;
-    (void)frame, (void)at;
+    (void)frame, (void)sample;
 }
 
-GN_HOT void gn_light_modulate(const gn_frame *frame, const gn_surface *surface, const gn_lit_point *at,
-                              uint64_t sum_q20[3])
+GN_HOT GN_NOINLINE void gn_light_modulate(const gn_frame *frame, const gn_surface *surface, const gn_sample *sample,
+                                          uint64_t sum_q20[3])
 {
-    modulate(frame, surface, at, sum_q20);
-    add_glow(frame, surface, at, sum_q20);
+    modulate(frame, surface, sample, sum_q20);
+    add_glow(frame, surface, sample, sum_q20);
 }
 
 /* Baked light and all lights; a shadow is looked up only where light arrives. [P10] [M9] */
@@ -171,8 +172,7 @@ GN_HOT void gn_light_radiance(const gn_frame *frame, const gn_surface *surface, 
             add(highlights, colour, gn_mul_uq16(gn_light_highlight(frame, surface, sample, i, lobe), shadow));
         }
     }
-    const gn_lit_point at = {sample->value[GN_VALUE_Z], &sample->value[GN_VALUE_UV], &sample->value[GN_VALUE_RGB]};
-    gn_light_modulate(frame, surface, &at, sum);
+    gn_light_modulate(frame, surface, sample, sum);
     GN_UNROLL
     for (int c = 0; c < 3; c++) {
         if (GN_SPECULAR) sum[c] += highlights[c];

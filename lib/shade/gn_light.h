@@ -8,18 +8,12 @@
  * arrives. */
 uint32_t gn_light_shadow(const gn_frame *frame, const gn_surface *surface, const gn_sample *sample, uint32_t light_idx);
 
-/* What light is multiplied by at a point: view depth, coordinates of textures, the vertices' colours. */
-typedef struct {
-    int32_t z_q16;
-    const int32_t *uv_q20, *tint_q16;
-} gn_lit_point;
-
-/* Times the colours of vertices and textures, with what the surface emits. Q20. */
-void gn_light_modulate(const gn_frame *frame, const gn_surface *surface, const gn_lit_point *at, uint64_t sum_q20[3]);
-
 /* Radiance towards the viewer, Q20 per channel, not clamped to 1. */
 void gn_light_radiance(const gn_frame *frame, const gn_surface *surface, const gn_sample *sample,
                        uint32_t radiance_q20[3]);
+
+/* Times the colours of vertices and texture, with what the surface emits: of a sample's values, Q20. */
+void gn_light_modulate(const gn_frame *frame, const gn_surface *surface, const gn_sample *sample, uint64_t sum_q20[3]);
 
 /* The highlight of the light in a slot of the surface's list, Q24, if its specular colour is 1; and the half vector
  * minus the normal. */

@@ -3,6 +3,7 @@
 
 #include "base/gn_count.h"
 #include "base/gn_q.h"
+#include "shade/gn_corner_pixel.h"
 #include "shade/gn_exact.h"
 #include "shade/gn_lattice_window.h"
 #include "shade/gn_levels.h"
@@ -139,9 +140,9 @@ GN_HOT static GN_SHARED int attenuations(const gn_shading *s, const part_view *v
     return said;
 }
 
-GN_HOT static void shade_row_exactly(gn_shading *s, int32_t x, int32_t y, int32_t n)
+GN_HOT static void shade_row_by_pixels(gn_shading *s, int32_t x, int32_t y, int32_t n)
 {
-    for (; n > 0; n--, x++) gn_exact_pixel(s, x, y);
+    for (; n > 0; n--, x++) gn_corner_pixel(s, x, y);
 }
 
 /* Pixels of one row between two places. */
@@ -151,7 +152,7 @@ GN_HOT static GN_NOINLINE void mixed_chunk(gn_shading *s, const part_look *look,
     uint32_t attenuation[CHUNK];
     int said = attenuations(s, view, row, n, ahead, attenuation);
     if (said == GN_WINDOW_MIXED) store_row(s, x, y, n, attenuation);
-    else if (said == GN_WINDOW_MISSED) shade_row_exactly(s, x, y, n);
+    else if (said == GN_WINDOW_MISSED) shade_row_by_pixels(s, x, y, n);
     else gn_pixel_fill(s->frame, &s->rows, x, y, n, said == GN_WINDOW_LIT ? look->lit : look->dark);
 }
 
@@ -305,7 +306,7 @@ GN_HOT static GN_NOINLINE void fading_span(gn_shading *s, const part_look *look,
             n >>= 1;
             b = cascade_at(s, x + n - 1, y);
         }
-        if (!fading_chunk(s, look, x, y, n, &a, &b)) shade_row_exactly(s, x, y, n);
+        if (!fading_chunk(s, look, x, y, n, &a, &b)) shade_row_by_pixels(s, x, y, n);
     }
 }
 

@@ -10,6 +10,8 @@
 #include "shadow/gn_texel_rows.h"
 #include "shadow/gn_window.h"
 
+#if GN_INTERPOLATES
+
 /* ---- Comparing --------------------------------------------------------------------------------------------------- */
 
 /* How far from a receiver the centres of the texels are that its filter reads, per axis, in half texels. */
@@ -434,3 +436,5 @@ GN_HOT int gn_window_row(const gn_frame *frame, const gn_window *window, const g
 #endif
     return said;
 }
+
+#endif

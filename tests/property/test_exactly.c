@@ -133,6 +133,43 @@ static void test_nearer(void)
     CHECK_EQ_INT(n_behind, 0);
 }
 
+/* ---- Close to a lamp --------------------------------------------------------------------------------------------- */
+
+/* Where irradiance is above 8 corners limit it: what a dark surface leaves of it is found for each pixel. Below the
+ * lamp, at 0.9, it is 29 / (0.81 + r^2)^1.5, above 8 up to a radius of 1.2; 24 pixels are 1. */
+static void test_close_to_lamp(void)
+{
+    static uint8_t exactly[3 * W * H];
+    begin_ground();
+    gn_light *light = ls_add_light(&ls, GN_LIGHT_POINT);
+    const int32_t above[3] = {0, GN_Q16(0.9), 0};
+    memcpy(light->position_q16, above, sizeof above);
+    light->colour_exp = 5;
+    light->shadow_strength_uq16 = 0;
+    for (int k = 0; k < 3; k++) {
+        light->colour_uq16[k] = 65536;
+        ls.object[0].albedo_uq16[k] = 1200;
+        ls.scene.ambient_uq16[k] = 0;
+    }
+    ls_look(&ls, 0, GN_Q16(4), GN_Q16(0.05));
+    if (!draw(GN_FORMAT_RGB888, 1)) return;
+    memcpy(exactly, picture.pixels, sizeof exactly);
+    canvas_end(&picture);
+    for (int32_t step = 4; step <= 16; step *= 2) {
+        int n_off = 0, brightest = 0;
+        if (!draw(GN_FORMAT_RGB888, step)) return;
+        for (int y = H / 2 - 12; y < H / 2 + 12; y++)
+            for (int x = W / 2 - 12; x < W / 2 + 12; x++)
+                for (int k = 0, i = 3 * (y * W + x); k < 3; k++) {
+                    n_off += picture.pixels[i + k] != exactly[i + k];
+                    if (exactly[i + k] > brightest) brightest = exactly[i + k];
+                }
+        canvas_end(&picture);
+        CHECK_EQ_INT(n_off, 0);
+        CHECK(brightest > 170 && brightest < 255); /* limited to 8 it is 107 */
+    }
+}
+
 /* ---- Parallel rays ----------------------------------------------------------------------------------------------- */
 
 /* Shiny things, by an orthographic camera, after a frame of another one: each pixel has its own highlight, whatever was
@@ -196,6 +233,7 @@ int main(void)
 {
     test_beside();
     test_nearer();
+    if (GN_PUNCTUAL_LIGHTS && GN_RUNTIME_KNOBS) test_close_to_lamp();
     if (GN_SPECULAR && GN_ORTHOGRAPHIC && GN_PUNCTUAL_LIGHTS && GN_RUNTIME_KNOBS) test_parallel_highlights();
 #if GN_COUNTERS
     test_counts();
