@@ -8,7 +8,7 @@
  * - place: where a receiver lies in a view: u and v in texels, and depth
  * - kept tile: one that is not drawn again, as nothing that it depends on has changed since an earlier frame
  * - cell, in visible/: the word of one pixel, depth above and triangle below
- * - cell, in shade/: a square of 2 to 16 pixels, between whose corners light is interpolated
+ * - cell, in shade/: a square of 4 to 16 pixels, between whose corners light is interpolated
  * - corner: a pixel at which all that light depends on is computed; it need not lie on the triangle
  * - lattice: the cells of one surface and their corners; part: 64 x 16 pixels of it at most
  * - look of a cell: what is known before it is drawn: colours at corners, lights whose shadow has an edge in it

@@ -80,7 +80,9 @@ GN_HOT static int light_corner(gn_shading *s, gn_corner *c, int32_t sum_q24[3])
         const int32_t e = c->light[slot].irradiance_q24;
         if (e <= 0) continue;
         if (gn_cell_is_limited(surface, colour, e)) return 0;
-        const int32_t left = gn_cell_share(e, share_of(s, c, slot));
+        const uint32_t share = share_of(s, c, slot);
+        if (gn_cell_hides(colour, e, share)) return 0;
+        const int32_t left = gn_cell_share(e, share);
         GN_UNROLL
         for (int i = 0; i < 3; i++) sum_q24[i] = gn_min32(sum_q24[i] + gn_corner_times(colour[i], left), 1 << 30);
     }
@@ -121,11 +123,11 @@ GN_HOT GN_NOINLINE void gn_corner_pixel(gn_shading *s, int32_t x, int32_t y)
         gn_exact_pixel(s, x, y);
         return;
     }
-    GN_COUNT(shaded, 1);
     if (GN_RAW_VIEWS && s->frame->picture.format == GN_FORMAT_RAW32) {
         s->scratch->pixel.raw[(y - s->rect.y0) * s->rows.width + x - s->rect.x0] = (uint32_t)sum_q24[0] >> 8;
         return;
     }
+    GN_COUNT(shaded, 1);
     for (int i = 0; i < 3; i++) q20[i] = ((uint32_t)sum_q24[i] + 8) >> 4;
     if (s->surface.textured | GN_COLOURED(&s->surface)) modulate_corner(s, c, q20);
     gn_pixel_store(s->frame, &s->rows, x, y, gn_exact_pack(s, q20));

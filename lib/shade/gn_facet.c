@@ -157,15 +157,17 @@ GN_HOT static int add_vertex_light(gn_facet *f, uint32_t slot)
         said = find_punctual(f, slot, out, e);
         if (said != GN_CELL_LIT) return said == GN_CELL_DARK;
     }
-    if (gn_cell_is_limited(&f->s->surface, light->radiance_uq16, gn_max32(e[0], gn_max32(e[1], e[2])))) return 0;
+    const int32_t most = gn_max32(e[0], gn_max32(e[1], e[2]));
+    if (gn_cell_is_limited(&f->s->surface, light->radiance_uq16, most)) return 0;
 #if GN_SPECULAR
     if (f->s->surface.specular && gn_facet_shines(f->s, slot)) return 0;
 #endif
     int ends = (e[0] | e[1] | e[2]) < 0 || out->has_rim;
     if (gn_facet_shows_shadow(f) && (e[0] != e[1] || e[0] != e[2])) return 0;
     if (lattice_light->realtime) said = gn_facet_shadow(f->s, &f->screen, vertices_of(f), f->n_px, slot, &out->edge);
-    if (said == GN_CELL_SPLIT) return 0;
+    if (said == GN_CELL_SPLIT || (said == GN_CELL_EDGE && most >= 1 << 27)) return 0;
     uint32_t share = said == GN_CELL_DARK ? lattice_light->dark_uq16 : lattice_light->lit_uq16;
+    if (gn_cell_hides(light->radiance_uq16, most, share)) return 0;
     out->turns = f->turns && !(light->state->kind == GN_LIGHT_DIRECTIONAL && GN_K(f->s->frame, vertex_light));
     if (said != GN_CELL_EDGE && (!share || !(ends || out->turns != f->turns)))
         return add_whole_light(f, light->radiance_uq16, e, share);

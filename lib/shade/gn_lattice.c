@@ -67,7 +67,7 @@ enum { FEW_OF_A_FACET = 3, FEW_OF_ONE_COLOUR = 8, FEW = 20, FEW_OF_A_CELL = 5 };
 
 /* ---- Cells ------------------------------------------------------------------------------------------------------- */
 
-GN_HOT static void shade_pixels_of(gn_shading *s, int32_t x, int32_t y, int32_t size_log2)
+GN_HOT static void shade_cell_by_pixels(gn_shading *s, int32_t x, int32_t y, int32_t size_log2)
 {
     for (int32_t j = y; j < y + (1 << size_log2); j++) {
         uint32_t bits = gn_lattice_bits(&s->lattice, x, j, size_log2);
@@ -81,7 +81,7 @@ GN_HOT static int shade_few(gn_shading *s, int32_t x, int32_t y, int32_t size_lo
 {
     const int32_t n = count_some(&s->lattice, x, y, size_log2, FEW_OF_A_CELL);
     if (n > FEW_OF_A_CELL) return 0;
-    if (n) shade_pixels_of(s, x, y, size_log2);
+    if (n) shade_cell_by_pixels(s, x, y, size_log2);
     return 1;
 }
 
@@ -148,7 +148,7 @@ GN_HOT static void shade_cell(gn_shading *s, int32_t x, int32_t y, int32_t size_
         else if (size_log2 > GN_SMALLEST_CELL_LOG2) {
             GN_COUNT(cells_split, 1);
             split[depth++] = (gn_split_cell){(int16_t)x, (int16_t)y, (uint8_t)size_log2, 0};
-        } else shade_pixels_of(s, x, y, size_log2);
+        } else shade_cell_by_pixels(s, x, y, size_log2);
         while (depth > 0 && !next_quarter(s, &split[depth - 1], &x, &y, corner)) depth--;
         if (!depth) return;
         size_log2 = split[depth - 1].size_log2 - 1;

@@ -195,7 +195,7 @@ GN_HOT void gn_lattice_draw_blocks(gn_shading *s, int32_t x, int32_t y, int32_t 
         if (s->frame->picture.format != GN_FORMAT_RAW32 && is_plain(s, colour, &packed))
             fill_cell(s, x, y, size_log2, packed);
         else draw_block(s, x, y, size_log2, colour, 0);
-    } else if (size_log2 >= 2 && is_gentle(s->frame, colour, 0)) draw_encoded(s, x, y, size_log2, colour);
+    } else if (is_gentle(s->frame, colour, 0)) draw_encoded(s, x, y, size_log2, colour);
     else if (size_log2 == 4 && is_gentle(s->frame, colour, 1)) draw_quarters(s, x, y, 3, colour);
     else draw_block(s, x, y, size_log2, colour, 0);
 }

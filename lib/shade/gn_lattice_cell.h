@@ -23,13 +23,20 @@ GN_HOT static inline uint32_t gn_cell_strongest(const uint32_t colour_uq16[3])
     return colour_uq16[2] > most ? colour_uq16[2] : most;
 }
 
-/* Whether light of a colour is limited, which hides how bright what shadows, masks, texture or vertex colours dim is:
- * irradiance for all of them, its product with the colour for the last two. */
+/* Whether light of a colour is limited, which hides how bright what texture or vertex colours dim is. */
 GN_HOT static inline int gn_cell_is_limited(const gn_surface *s, const uint32_t colour_uq16[3], int32_t most_q24)
 {
-    if (most_q24 >= 1 << 27) return 1;
     if (!s->textured && !GN_COLOURED(s)) return 0;
-    return (int)((uint64_t)gn_cell_strongest(colour_uq16) * (uint32_t)gn_max32(most_q24, 0) >> 43);
+    return most_q24 >= 1 << 27 || (uint64_t)gn_cell_strongest(colour_uq16) * (uint32_t)gn_max32(most_q24, 0) >> 43;
+}
+
+/* The same of irradiance, of which colour, shadow and mask leave less than 1. */
+GN_HOT static inline int gn_cell_hides(const uint32_t colour_uq16[3], int32_t most_q24, uint32_t share_uq16)
+{
+    if (most_q24 < 1 << 27 || !share_uq16) return 0;
+    for (int c = 0; c < 3; c++)
+        if (colour_uq16[c] && (uint64_t)colour_uq16[c] * share_uq16 >> 29 == 0) return 1;
+    return 0;
 }
 
 /* ---- Tolerances -------------------------------------------------------------------------------------------------- */
@@ -97,7 +104,7 @@ GN_HOT static inline int32_t gn_cell_texture_log2(const gn_frame *frame, const g
 GN_HOT static inline uint32_t gn_cell_lookup_texels_q16(const gn_frame *frame, const gn_light_view *view)
 {
     if (view->filter == GN_FILTER_HARD || view->filter == GN_FILTER_DISK) return 0;
-    uint32_t tent = GN_K(frame, persp_step) >= 8 ? 65536 : 49152;
+    uint32_t tent = GN_K(frame, persp_step) == 16 ? 65536 : 49152;
     if (view->filter == GN_FILTER_2X2) return tent / 3;
     return view->filter_idx == 1 ? tent : tent * (2 * (uint32_t)view->filter_idx + 1) >> 2;
 }

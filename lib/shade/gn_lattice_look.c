@@ -214,6 +214,17 @@ GN_HOT static int fades(const gn_contribution *light, int shadow)
     return shadow != GN_CELL_LIT || differ;
 }
 
+/* Whether it is seen that irradiance is limited. */
+GN_HOT static int limit_is_seen(const uint32_t colour_uq16[3], const gn_contribution *light, int shadow)
+{
+    if (shadow == GN_CELL_EDGE) return 1;
+    for (int i = 0; i < 4; i++)
+        if (gn_cell_hides(colour_uq16, light->irradiance_q24[i],
+                          light->dark_uq16[i] + (shadow == GN_CELL_LIT ? light->more_uq16[i] : 0)))
+            return 1;
+    return 0;
+}
+
 /* Cells of this size may hide the light of a cone, or of the end of a range, that no corner sees. */
 enum { UNSEEN_LOG2 = 2 };
 
@@ -243,6 +254,7 @@ GN_HOT static int add_light(gn_lattice_cell *cell, uint32_t slot)
         shadow = realtime > 0 && !faint ? gn_cell_shadow(cell, slot, light) : GN_CELL_LIT;
     if (realtime < 0 || shadow == GN_CELL_SPLIT || (cell->near < 0 && fades(light, shadow))) return 0;
     if (shadow == GN_CELL_EDGE && !edge_product_holds(cell, slot, light)) return 0;
+    if (most >= 1 << 27 && limit_is_seen(colour, light, shadow)) return 0;
     if (shadow != GN_CELL_DARK && !faint) {
         uint32_t kink, strongest = gn_cell_strongest(colour);
         uint32_t error = gn_cell_unevenness_q24(cell, slot, least, most, &kink);

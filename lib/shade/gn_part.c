@@ -262,7 +262,7 @@ GN_HOT static int attenuations_in(gn_shading *s, const part_look *look, uint32_t
 }
 
 /* Pixels of one row where shadows fade, or cascades blend: shares are linear along chunks. Returns 0 if they are to be
- * shaded exactly. */
+ * shaded each for itself. */
 GN_HOT static GN_NOINLINE int fading_chunk(gn_shading *s, const part_look *look, int32_t x, int32_t y, int32_t n,
                                            const row_end *a, const row_end *b)
 {
