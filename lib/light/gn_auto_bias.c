@@ -35,7 +35,7 @@ GN_HOT int32_t gn_bias_auto_curved_q16(const gn_light_view *view)
 }
 
 /* Filter radius: the largest distance to the centre of a texel that the filter reads, per axis; texels, Q16. */
-GN_HOT static int32_t taps_q16(const gn_light_view *view)
+static int32_t taps_q16(const gn_light_view *view)
 {
     if (view->filter == GN_FILTER_HARD) return 32768;
     if (view->filter == GN_FILTER_DISK) return view->disk_radius_q16 + 32768;
@@ -55,7 +55,7 @@ GN_HOT static int64_t depth_step_q32(const gn_frame *frame, const gn_light_view 
 
 /* sqrt(1 + k^2) times the relative error of view depths, and of a pixel's ray, whose three coefficients are rounded in
  * each axis: 2^-28 of W + H. Q40: 2^7 * (2^-17 + 2^-16) at most. */
-GN_HOT static int32_t ray_error_q40(const gn_frame *frame)
+static int32_t ray_error_q40(const gn_frame *frame)
 {
     uint64_t ray2_q48 = (((uint64_t)1 << 24) + (uint64_t)gn_cascade_tan2_q24(frame)) << 24; /* <= (2^24 + 2^38) 2^24 */
     uint64_t ray_q24 = gn_isqrt64(ray2_q48), pixels = (uint64_t)frame->picture.width + frame->picture.height;
@@ -63,7 +63,7 @@ GN_HOT static int32_t ray_error_q40(const gn_frame *frame)
 }
 
 /* Position error of a receiver at the far end of the view's cascade, texels, Q16. */
-GN_HOT static int32_t place_error_q16(const gn_frame *frame, const gn_light_view *view)
+static int32_t place_error_q16(const gn_frame *frame, const gn_light_view *view)
 {
     int64_t farthest_q16 = frame->scene->shadow.max_distance_q16;
     if (!view->border_lit) {
@@ -79,7 +79,7 @@ GN_HOT static int32_t place_error_q16(const gn_frame *frame, const gn_light_view
     return (int32_t)gn_clamp64(texels_q16, 0, 8 << 16);
 }
 
-GN_HOT void gn_bias_auto_view(const gn_frame *frame, gn_light_view *view)
+void gn_bias_auto_view(const gn_frame *frame, gn_light_view *view)
 {
     view->offset_q16 = taps_q16(view) + auto_delta_q16(frame);
     if (view->perspective) {

@@ -55,7 +55,7 @@ GN_HOT static uint32_t looked_up(gn_shading *s, gn_corner *c, uint32_t slot)
 #endif
 
 /* What shadow and mask leave of a light. */
-GN_HOT static uint32_t share_of(gn_shading *s, gn_corner *c, uint32_t slot)
+GN_HOT static GN_NOINLINE uint32_t share_of(gn_shading *s, gn_corner *c, uint32_t slot)
 {
     const gn_light_state *light = s->surface.light[slot].state;
     uint32_t mask = 65536;
@@ -83,7 +83,6 @@ GN_HOT static int light_corner(gn_shading *s, gn_corner *c, int32_t sum_q24[3])
         const uint32_t share = share_of(s, c, slot);
         if (gn_cell_hides(colour, e, share)) return 0;
         const int32_t left = gn_cell_share(e, share);
-        GN_UNROLL
         for (int i = 0; i < 3; i++) sum_q24[i] = gn_min32(sum_q24[i] + gn_corner_times(colour[i], left), 1 << 30);
     }
     return !(dims && (sum_q24[0] | sum_q24[1] | sum_q24[2]) >> 30);
@@ -96,7 +95,7 @@ GN_HOT static inline int is_coarse(const gn_shading *s, const gn_corner *c)
 }
 
 /* Times the colours of vertices and textures, Q20. */
-GN_HOT static void modulate_corner(gn_shading *s, const gn_corner *c, uint32_t q20[3])
+GN_HOT static GN_NOINLINE void modulate_corner(gn_shading *s, const gn_corner *c, uint32_t q20[3])
 {
     int32_t *value = s->sample.value;
     uint64_t sum[3] = {q20[0], q20[1], q20[2]};

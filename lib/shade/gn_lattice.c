@@ -67,7 +67,7 @@ enum { FEW_OF_A_FACET = 3, FEW_OF_ONE_COLOUR = 8, FEW = 20, FEW_OF_A_CELL = 5 };
 
 /* ---- Cells ------------------------------------------------------------------------------------------------------- */
 
-GN_HOT static void shade_cell_by_pixels(gn_shading *s, int32_t x, int32_t y, int32_t size_log2)
+GN_HOT static GN_NOINLINE void shade_cell_by_pixels(gn_shading *s, int32_t x, int32_t y, int32_t size_log2)
 {
     for (int32_t j = y; j < y + (1 << size_log2); j++) {
         uint32_t bits = gn_lattice_bits(&s->lattice, x, j, size_log2);
@@ -77,7 +77,7 @@ GN_HOT static void shade_cell_by_pixels(gn_shading *s, int32_t x, int32_t y, int
 }
 
 /* If they are few. Returns 0 if the cell is worth it. */
-GN_HOT static int shade_few(gn_shading *s, int32_t x, int32_t y, int32_t size_log2)
+GN_HOT static GN_NOINLINE int shade_few(gn_shading *s, int32_t x, int32_t y, int32_t size_log2)
 {
     const int32_t n = count_some(&s->lattice, x, y, size_log2, FEW_OF_A_CELL);
     if (n > FEW_OF_A_CELL) return 0;
@@ -225,12 +225,15 @@ GN_HOT void gn_lattice_begin_tile(gn_shading *s)
 #endif
 }
 
-/* Each for itself; `pixel`: how. */
-GN_HOT static void shade_pixels(gn_shading *s, void (*pixel)(gn_shading *, int32_t, int32_t))
+/* Each for itself, as corners or exactly. */
+GN_HOT static GN_NOINLINE void shade_pixels(gn_shading *s, int exactly)
 {
     const gn_lattice *l = &s->lattice;
     for (int32_t i = 0; i < l->n_spans; i++)
-        for (int32_t k = 0; k < l->span[i].n_px; k++) pixel(s, l->span[i].x + k, l->span[i].y);
+        for (int32_t k = 0; k < l->span[i].n_px; k++) {
+            if (exactly) gn_exact_pixel(s, l->span[i].x + k, l->span[i].y);
+            else gn_corner_pixel(s, l->span[i].x + k, l->span[i].y);
+        }
 }
 
 /* Whether pixels are fewer than a part pays for. */
@@ -256,13 +259,13 @@ GN_HOT void gn_lattice_shade(gn_shading *s)
     l->size_log2 = few ? 0 : cell_log2(s->frame, &s->surface, &box);
     const int32_t beyond = 1 << (l->uniform && !few ? 4 : l->size_log2); /* rows of parts look ahead */
     if (!reached || alone || !gn_corner_begin(l, s->frame, &s->surface, &box, beyond)) {
-        shade_pixels(s, gn_exact_pixel);
+        shade_pixels(s, 1);
         return;
     }
     l->has_face = 0;
     if (few) {
         l->cascade = l->surface_cascade;
-        shade_pixels(s, gn_corner_pixel);
+        shade_pixels(s, 0);
         return;
     }
     l->n_rows = gn_min32(2 << l->size_log2, GN_PART_ROWS);

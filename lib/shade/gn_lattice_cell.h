@@ -24,20 +24,10 @@ GN_HOT static inline uint32_t gn_cell_strongest(const uint32_t colour_uq16[3])
 }
 
 /* Whether light of a colour is limited, which hides how bright what texture or vertex colours dim is. */
-GN_HOT static inline int gn_cell_is_limited(const gn_surface *s, const uint32_t colour_uq16[3], int32_t most_q24)
-{
-    if (!s->textured && !GN_COLOURED(s)) return 0;
-    return most_q24 >= 1 << 27 || (uint64_t)gn_cell_strongest(colour_uq16) * (uint32_t)gn_max32(most_q24, 0) >> 43;
-}
+int gn_cell_is_limited(const gn_surface *s, const uint32_t colour_uq16[3], int32_t most_q24);
 
 /* The same of irradiance, of which colour, shadow and mask leave less than 1. */
-GN_HOT static inline int gn_cell_hides(const uint32_t colour_uq16[3], int32_t most_q24, uint32_t share_uq16)
-{
-    if (most_q24 < 1 << 27 || !share_uq16) return 0;
-    for (int c = 0; c < 3; c++)
-        if (colour_uq16[c] && (uint64_t)colour_uq16[c] * share_uq16 >> 29 == 0) return 1;
-    return 0;
-}
+int gn_cell_hides(const uint32_t colour_uq16[3], int32_t most_q24, uint32_t share_uq16);
 
 /* ---- Tolerances -------------------------------------------------------------------------------------------------- */
 

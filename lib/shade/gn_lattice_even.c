@@ -7,6 +7,22 @@
 
 #if GN_INTERPOLATES
 
+/* ---- Limits ------------------------------------------------------------------------------------------------------ */
+
+GN_HOT GN_NOINLINE int gn_cell_is_limited(const gn_surface *s, const uint32_t colour_uq16[3], int32_t most_q24)
+{
+    if (!s->textured && !GN_COLOURED(s)) return 0;
+    return most_q24 >= 1 << 27 || (uint64_t)gn_cell_strongest(colour_uq16) * (uint32_t)gn_max32(most_q24, 0) >> 43;
+}
+
+GN_HOT GN_NOINLINE int gn_cell_hides(const uint32_t colour_uq16[3], int32_t most_q24, uint32_t share_uq16)
+{
+    if (most_q24 < 1 << 27 || !share_uq16) return 0;
+    for (int c = 0; c < 3; c++)
+        if (colour_uq16[c] && (uint64_t)colour_uq16[c] * share_uq16 >> 29 == 0) return 1;
+    return 0;
+}
+
 /* ---- Geometry ---------------------------------------------------------------------------------------------------- */
 
 /* Returns 0 if the cell is seen so steeply that nothing is close to bilinear. */

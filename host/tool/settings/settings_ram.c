@@ -124,7 +124,7 @@ static long lattice_bytes(const settings *s)
     const long corners = 12 * corner_bytes(s), facet = facet_bytes(s);
     put(&all, 1, corners > facet ? corners : facet, 4); /* from */
     put(&all, 1, corner_bytes(s), 4);
-    put(&all, 1, 192, 4);                                                                     /* corner_key to split */
+    put(&all, 1, 180, 4);                                                                     /* corner_key to split */
     if (s->feature.shadows) put(&all, n_views(s) >= 4 ? 4 : n_views(s) >= 2 ? 2 : 1, 344, 4); /* windows */
     put(&all, 1, 572, 4);                                                                     /* look */
     if (has_levels(s)) put(&all, 1, 4, 4); /* of that: level and level_ends */
