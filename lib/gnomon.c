@@ -91,6 +91,7 @@
 #include "shadow/gn_tiles.c"
 #if GN_AUTO_BIAS
 #include "light/gn_auto_bias.c"
+#include "light/gn_auto_bias_view.c"
 #endif
 #if GN_PUNCTUAL_LIGHTS
 #include "shadow/gn_persp.c"

@@ -2,6 +2,7 @@
 #ifndef GN_BIAS_H
 #define GN_BIAS_H
 
+#include "base/gn_hint.h"
 #include "gnomon.h"
 
 #define GN_DISK_INDEX_MAX 8 /* largest filter index of the disk */
@@ -20,7 +21,20 @@ void gn_bias_directional(const gn_frame *frame, const gn_light_view *view, const
 void gn_bias_punctual(const gn_frame *frame, const gn_light_state *light, const int32_t n_q30[3], int32_t depth_q16,
                       const int32_t from_q16[3], int32_t out_q16[3]);
 
-/* ---- Automatic bias (MODEL 7): gn_auto_bias.c ---------------------------------------------------------------- */
+/* ---- Automatic bias (MODEL 7): gn_auto_bias.c, and of views gn_auto_bias_view.c ---------------------------------- */
+
+/* Position error: half a step of caster coordinates, half a step of filter weights, two roundings; texels, Q16. */
+GN_HOT static inline int32_t gn_bias_auto_delta_q16(const gn_frame *frame)
+{
+    (void)frame;
+    return (1 << (15 - GN_K(frame, shadow_subpixel_bits))) + (1 << (15 - GN_K(frame, weight_bits))) + 2;
+}
+
+/* The hard filter reads at most half a texel away, but a curved surface also bends within the texel. */
+GN_HOT static inline int32_t gn_bias_auto_more_q16(const gn_light_view *view)
+{
+    return view->filter == GN_FILTER_HARD ? 32768 : 0;
+}
 
 /* Once per view, after its fit and filter. */
 void gn_bias_auto_view(const gn_frame *frame, gn_light_view *view);
