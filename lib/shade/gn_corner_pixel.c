@@ -83,12 +83,14 @@ GN_HOT static int light_corner(gn_shading *s, gn_corner *c, int32_t sum_q24[3])
         const uint32_t share = share_of(s, c, slot);
         if (gn_cell_hides(colour, e, share)) return 0;
         const int32_t left = gn_cell_share(e, share);
-        for (int i = 0; i < 3; i++) sum_q24[i] = gn_min32(sum_q24[i] + gn_corner_times(colour[i], left), 1 << 30);
+        for (int i = 0; i < 3; i++) /* 2^30 + 2^27 */
+            sum_q24[i] = gn_min32(sum_q24[i] + gn_corner_times(colour[i], left), 1 << 30);
     }
     return !(dims && (sum_q24[0] | sum_q24[1] | sum_q24[2]) >> 30);
 }
 
-/* Whether the plane is that of a deep triangle, far behind its nearest depth: little is left of its forms. */
+/* Whether the plane is that of a deep triangle, far behind its nearest depth: there n . ray, up to 2^27, is below 2^19,
+ * and forms are off by half a unit per pixel. */
 GN_HOT static inline int is_coarse(const gn_shading *s, const gn_corner *c)
 {
     return c->z_q16 >> 8 > s->surface.z_min_q16 && !GN_FLAT_Q16(s->frame);

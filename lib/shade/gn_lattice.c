@@ -52,18 +52,18 @@ GN_HOT static int mark(gn_lattice *l)
     return any;
 }
 
-/* Pixels of a cell, counted up to one more than `most`. */
-GN_HOT static int32_t count_some(const gn_lattice *l, int32_t x, int32_t y, int32_t size_log2, int32_t most)
-{
-    int32_t n = 0;
-    for (int32_t j = y; j < y + (1 << size_log2) && n <= most; j++)
-        for (uint32_t bits = gn_lattice_bits(l, x, j, size_log2); bits && n <= most; bits &= bits - 1) n++;
-    return n;
-}
-
 /* A small triangle, a part, or a cell costs as much as these pixels do by themselves; a part, more where its box is
  * long. */
 enum { FEW_OF_A_FACET = 3, FEW_OF_ONE_COLOUR = 8, FEW = 20, FEW_OF_A_CELL = 5 };
+
+/* Pixels of a cell, counted up to one more than are few. */
+GN_HOT static int32_t count_some(const gn_lattice *l, int32_t x, int32_t y, int32_t size_log2)
+{
+    int32_t n = 0;
+    for (int32_t j = y; j < y + (1 << size_log2) && n <= FEW_OF_A_CELL; j++)
+        for (uint32_t bits = gn_lattice_bits(l, x, j, size_log2); bits && n <= FEW_OF_A_CELL; bits &= bits - 1) n++;
+    return n;
+}
 
 /* ---- Cells ------------------------------------------------------------------------------------------------------- */
 
@@ -79,7 +79,7 @@ GN_HOT static GN_NOINLINE void shade_cell_by_pixels(gn_shading *s, int32_t x, in
 /* If they are few. Returns 0 if the cell is worth it. */
 GN_HOT static GN_NOINLINE int shade_few(gn_shading *s, int32_t x, int32_t y, int32_t size_log2)
 {
-    const int32_t n = count_some(&s->lattice, x, y, size_log2, FEW_OF_A_CELL);
+    const int32_t n = count_some(&s->lattice, x, y, size_log2);
     if (n > FEW_OF_A_CELL) return 0;
     if (n) shade_cell_by_pixels(s, x, y, size_log2);
     return 1;
