@@ -173,6 +173,10 @@ GN_HOT static inline void gn_corner_from(const gn_corner *c, const gn_light_stat
     for (int i = 0; i < 3; i++) from_q16[i] = c->ray_q16[i] + (int32_t)light->from_light[i].d_q16;
 }
 
+/* Slopes of depth over a texel of the view, 0 without B5: those of the surface, a point of which is the corner. */
+void gn_corner_slopes(gn_lattice *lattice, const gn_frame *frame, const gn_surface *surface, const gn_corner *corner,
+                      const gn_light_view *view, int32_t slope_q28[2]);
+
 /* The square of the distance, of components below 2^31. */
 GN_HOT static inline uint64_t gn_corner_distance2_q32(const int32_t from_q16[3])
 {

@@ -28,15 +28,11 @@ GN_HOT static uint32_t looked_up(gn_shading *s, gn_corner *c, uint32_t slot)
     const gn_light_state *light = s->surface.light[slot].state;
     const gn_corner_light *at = &c->light[slot];
     const gn_light_view *view = &s->frame->view[light->view_idx + (int32_t)at->view];
-    int32_t from[3] = {0, 0, 0};
     if (at->view == GN_VIEW_NONE || !gn_corner_place(&s->lattice, s->frame, &s->surface, c, slot, at->view))
         return 65536;
     int32_t depth_q30 = gn_max32(0, gn_min32(at->depth_q30, (1 << 30) - 1));
     gn_receiver r = {at->u_q16, at->v_q16, (uint32_t)depth_q30 << 2, {0, 0}, c->x, c->y};
-#if GN_PUNCTUAL_LIGHTS
-    if (GN_RECEIVER_PLANE && view->perspective) gn_corner_from(c, light, from);
-#endif
-    gn_shadow_slopes(s->frame, &s->surface, view, from, r.slope_q28);
+    gn_corner_slopes(&s->lattice, s->frame, &s->surface, c, view, r.slope_q28);
     GN_COUNT(edge_lookups, 1);
     return gn_filter_attenuation(s->frame, view, &r);
 }

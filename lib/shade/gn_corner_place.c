@@ -6,6 +6,7 @@
 #include "light/gn_bias.h"
 #include "shade/gn_arrival.h"
 #include "shade/gn_corner.h"
+#include "shade/gn_shadow.h"
 
 #if GN_INTERPOLATES && GN_SHADOWS
 
@@ -168,6 +169,26 @@ GN_HOT static GN_NOINLINE int place_punctual(const gn_frame *frame, const gn_sur
     return 1;
 }
 #endif
+
+GN_HOT void gn_corner_slopes(gn_lattice *l, const gn_frame *frame, const gn_surface *s, const gn_corner *c,
+                             const gn_light_view *view, int32_t slope_q28[2])
+{
+    slope_q28[0] = slope_q28[1] = 0;
+#if GN_RECEIVER_PLANE
+    int32_t from[3] = {0, 0, 0};
+    if (!frame->scene->lights[view->light_idx].receiver_plane) return;
+    if (l->slope_view != view) {
+#if GN_PUNCTUAL_LIGHTS
+        if (view->perspective) gn_corner_from(c, &frame->light[view->light_idx], from);
+#endif
+        gn_shadow_slopes(frame, s, view, from, l->slope_q28);
+        l->slope_view = view->perspective && c->z_q16 >= s->z_max_q16 ? NULL : view; /* that may lie off the plane */
+    }
+    slope_q28[0] = l->slope_q28[0];
+    slope_q28[1] = l->slope_q28[1];
+#endif
+    (void)l, (void)frame, (void)s, (void)c, (void)view;
+}
 
 GN_HOT int gn_corner_place_any(gn_lattice *l, const gn_frame *frame, const gn_surface *s, gn_corner *c, uint32_t slot,
                                const gn_light_view *view)

@@ -115,7 +115,7 @@ GN_HOT static GN_NOINLINE void look_up_alone(const drawing *d, const gn_lattice_
         if (!gn_corner_place(l, s->frame, &s->surface, c, edge->slot, face)) continue;
         const gn_light_view *view = edge->view + (int32_t)face - edge->view_idx;
         int32_t slope[2];
-        gn_shadow_slopes(s->frame, &s->surface, view, from, slope);
+        gn_corner_slopes(l, s->frame, &s->surface, c, view, slope);
         gn_receiver_step place = {at->u_q16, at->v_q16, at->depth_q30};
         GN_COUNT(edge_lookups, 1);
         out[i] = lookup(d, view, slope, &place, x, y);

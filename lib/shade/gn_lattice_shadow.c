@@ -364,7 +364,7 @@ GN_HOT static int has_forms(const gn_lattice_cell *cell, uint32_t slot, const gn
 /* Adds an edge in the shadow of a light, two faces or cascades of which see the cell. Returns 0 if there is no room, or
  * it is to be split. */
 GN_HOT static GN_NOINLINE int add_two(const gn_lattice_cell *cell, uint32_t slot, const gn_contribution *light,
-                                      uint32_t views, const int32_t from_q16[3], places *p)
+                                      uint32_t views, places *p)
 {
     gn_lattice_look *out = cell->out;
     const int32_t n_edges = out->n_edges, one = first_bit(views), other = first_bit(views & (views - 1));
@@ -373,7 +373,7 @@ GN_HOT static GN_NOINLINE int add_two(const gn_lattice_cell *cell, uint32_t slot
         uint32_t view_idx = (uint32_t)first_bit(views);
         int32_t slope[2];
         if (find_places(cell, slot, view_idx, p) != PLACED) break;
-        gn_shadow_slopes(cell->frame, cell->s, p->view, from_q16, slope);
+        gn_corner_slopes(cell->lattice, cell->frame, cell->s, cell->corner[0], p->view, slope);
         if (verdict(cell, slot, view_idx, p, slope) == GN_CELL_SPLIT) break;
         int holds = places_hold(cell, p);
         if (holds == BEND || (holds == BEND_DOWN && !has_forms(cell, slot, p->view))) break;
@@ -414,7 +414,7 @@ GN_HOT static GN_NOINLINE int add_blend(const gn_lattice_cell *cell, uint32_t sl
         int32_t slope[2];
         uint32_t view_idx = k ? second : first;
         if (find_places(cell, slot, view_idx, p) != PLACED) return 0;
-        gn_shadow_slopes(cell->frame, cell->s, p->view, NULL, slope);
+        gn_corner_slopes(cell->lattice, cell->frame, cell->s, cell->corner[0], p->view, slope);
         if (verdict(cell, slot, view_idx, p, slope) == GN_CELL_SPLIT) return 0;
         if (places_hold(cell, p) == BEND) return 0;
         uint32_t part[4];
@@ -426,19 +426,19 @@ GN_HOT static GN_NOINLINE int add_blend(const gn_lattice_cell *cell, uint32_t sl
 
 /* Adds an edge of a light that several views see. Returns 0 if the cell is to be split. */
 GN_HOT static int add_of_several(const gn_lattice_cell *cell, uint32_t slot, const gn_contribution *light,
-                                 uint32_t views, const int32_t from_q16[3], const int32_t slope_q28[2], places *p)
+                                 uint32_t views, const int32_t slope_q28[2], places *p)
 {
     int cascaded = !p->view->perspective;
     gn_blend blend = GN_BLENDED_CASCADES && cascaded ? cell->frame->scene->shadow.blend : GN_BLEND_HARD;
     if (blend == GN_BLEND_SOFT) return add_blend(cell, slot, light, views, p);
     if (blend != GN_BLEND_HARD) return 0; /* each pixel has its own */
 #if GN_PUNCTUAL_LIGHTS || GN_MANY_CASCADES
-    if (add_two(cell, slot, light, views, from_q16, p)) return 1;
+    if (add_two(cell, slot, light, views, p)) return 1;
     if (cascaded || cell->size_log2 > 2 || cell->ask->slot >= 0) return 0;
     p->bent = GN_PLACES_LONE;
     return add_edge(cell, slot, p, slope_q28, light, light->more_uq16);
 #else
-    (void)slope_q28, (void)from_q16;
+    (void)slope_q28;
     return 0;
 #endif
 }
@@ -448,26 +448,23 @@ GN_HOT int gn_cell_shadow(const gn_lattice_cell *cell, uint32_t slot, const gn_c
     uint32_t views = views_of(cell, slot), left;
     int all = -1, added;
     int32_t slope[2];
-    int32_t from[3] = {0, 0, 0};
     places p;
     if (!views) return GN_CELL_LIT;
 #if GN_PUNCTUAL_LIGHTS
-    if (cell->s->light[slot].state->kind != GN_LIGHT_DIRECTIONAL)
-        gn_corner_from(cell->corner[0], cell->s->light[slot].state, from);
     if (views & (views - 1) && cell->s->light[slot].state->kind == GN_LIGHT_POINT)
         views |= hidden_faces(cell, slot, views);
 #endif
     for (left = views; left; left &= left - 1) {
         int placed = find_places(cell, slot, (uint32_t)first_bit(left), &p);
         if (placed == PLACED_PARTLY) return GN_CELL_SPLIT;
-        gn_shadow_slopes(cell->frame, cell->s, p.view, from, slope);
+        gn_corner_slopes(cell->lattice, cell->frame, cell->s, cell->corner[0], p.view, slope);
         int one = placed == PLACED_NOWHERE ? GN_CELL_LIT : verdict(cell, slot, (uint32_t)first_bit(left), &p, slope);
         if (one == GN_CELL_SPLIT) return GN_CELL_SPLIT;
         if (one == GN_CELL_EDGE || (all >= 0 && all != one)) break;
         all = one;
     }
     if (!left) return all;
-    if (views & (views - 1)) added = add_of_several(cell, slot, light, views, from, slope, &p);
+    if (views & (views - 1)) added = add_of_several(cell, slot, light, views, slope, &p);
     else if (places_hold(cell, &p) == BEND) return GN_CELL_SPLIT;
     else added = add_edge(cell, slot, &p, slope, light, light->more_uq16);
     return added ? GN_CELL_EDGE : GN_CELL_SPLIT;

@@ -215,7 +215,7 @@ GN_HOT static GN_NOINLINE int look_up_pixels(gn_shading *s, const part_look *loo
         step.depth_q31 = gn_step_of(at.depth_q31, last.depth_q31, n - 1);
     }
     GN_COUNT(edge_lookups, n);
-    gn_shadow_slopes(s->frame, &s->surface, view, NULL, r.slope_q28);
+    gn_corner_slopes(&s->lattice, s->frame, &s->surface, &s->lattice.corner, view, r.slope_q28);
     for (const uint32_t *end = out + n; out < end; x++) {
         r.u_q16 = at.u_q16;
         r.v_q16 = at.v_q16;

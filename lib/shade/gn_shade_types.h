@@ -379,15 +379,19 @@ typedef struct gn_lattice {
     int32_t has_face, face_q30[3];    /* the face's normal, once something has asked for it */
     const gn_light_view *offset_view; /* flat surfaces: a directional view, NULL: none, */
     int32_t offset_q16[3];            /* and the receiver's offset in it */
-    int32_t uniform;                  /* nothing but shadows varies over the surface */
-    int16_t cascade;                  /* of all of the part, none of which fades; -1: of each point for itself */
-    uint16_t views;                   /* views of cascades that the part, or the small triangle, may look into, a bit
-                                         each, and GN_VIEWS_FADE */
-    int16_t surface_cascade;          /* the same of the surface */
-    int32_t size_log2;                /* of the largest cells, in pixels */
-    int32_t x, y, x_end, y_end;       /* of the part, and where the surface ends */
-    int32_t n_rows;                   /* of the part */
-    int32_t part_end;                 /* columns before it */
+#if GN_RECEIVER_PLANE && GN_SHADOWS
+    const gn_light_view *slope_view; /* a view, NULL: none, */
+    int32_t slope_q28[2];            /* and the slopes of the surface in it */
+#endif
+    int32_t uniform;            /* nothing but shadows varies over the surface */
+    int16_t cascade;            /* of all of the part, none of which fades; -1: of each point for itself */
+    uint16_t views;             /* views of cascades that the part, or the small triangle, may look into, a bit
+                                   each, and GN_VIEWS_FADE */
+    int16_t surface_cascade;    /* the same of the surface */
+    int32_t size_log2;          /* of the largest cells, in pixels */
+    int32_t x, y, x_end, y_end; /* of the part, and where the surface ends */
+    int32_t n_rows;             /* of the part */
+    int32_t part_end;           /* columns before it */
     uint32_t bits[GN_PART_WIDTH / 32][GN_PART_ROWS]; /* its pixels */
     union {
         gn_corner corners[GN_CORNERS]; /* those of the part that were asked for last */

@@ -3,6 +3,7 @@
 
 #include "base/gn_q.h"
 #include "shadow/gn_lookup.h"
+#include "shadow/gn_texel_rows.h"
 
 /* Taps are limited to the tile [P8]. */
 GN_HOT static int is_dark(const gn_light_view *view, gn_texels row, int32_t u, uint32_t least)
@@ -35,4 +36,40 @@ GN_HOT uint32_t gn_lookup_dark(const gn_lookup *l, int32_t u, int32_t v, int32_t
     if (GN_RECEIVER_PLANE && l->sloped) return dark_on_plane(l, row, u, in_v, n);
     for (int32_t i = 0; i < n; i++) dark |= (uint32_t)is_dark(view, row, u + i, l->least) << i;
     return dark;
+}
+
+GN_HOT int gn_lookup_on_plane(const gn_lookup *l, int32_t u, int32_t v, int32_t n, uint8_t *dark, uint32_t *found)
+{
+    const gn_light_view *view = l->view;
+    const int32_t bits = GN_VIEW_BITS(view);
+    const uint32_t across = (uint32_t)l->slope_q28[0] * 4, down = (uint32_t)l->slope_q28[1] * 4;
+    int64_t lo, hi;
+    if (u < 0 || v < 0 || u > view->tile_texels - n || v > GN_TILE_ROWS(view) - n) return 0;
+    gn_plane_range(l, u, v, n - 1, n - 1, &lo, &hi);
+    if (lo < 0 || hi > (int64_t)gn_texel_far(bits)) return 0;
+#if GN_DEPTH_BLOCKS
+    uint32_t lit;
+    if (gn_blocks_decide(view, u, v, n, (uint32_t)lo, (uint32_t)hi, &lit)) {
+        *found = lit ? 0 : 0x00FF00FFU >> (8 - n);
+        return 1;
+    }
+#endif
+    GN_COUNT(undecided, 1);
+    GN_COUNT(taps_tent, n * n);
+    uint32_t least = (uint32_t)gn_least_on_plane(l, u, v), any = 0, all = 255; /* steps are whole quarters */
+    gn_texels row = gn_view_texels(view, u, v);
+    for (uint8_t *end = dark + n; dark < end; dark++, least += 4 * down) {
+        uint32_t near = 0;
+        if (bits == 16)
+            near = gn_texels_before(row.d16, n, (int32_t)((least >> 2) + ((least & 3U) != 0)), (int32_t)across);
+        else
+            for (int32_t i = n - 1; i >= 0; i--)
+                near = near << 1 | (gn_texel_load(row, bits, (uint32_t)i) < least + (uint32_t)i * (4 * across));
+        *dark = (uint8_t)near;
+        any |= near;
+        all &= near;
+        row = gn_texels_at(row, bits, (size_t)view->tile_texels);
+    }
+    *found = any | all << 16;
+    return 1;
 }

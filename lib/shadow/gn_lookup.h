@@ -40,6 +40,16 @@ GN_HOT static inline int64_t gn_least_on_plane(const gn_lookup *l, int32_t u, in
     return l->least_q32 + (int64_t)l->slope_q28[0] * (16 * du) + (int64_t)l->slope_q28[1] * (16 * dv);
 }
 
+/* The least and the most of it between a texel and one w and h texels after it. */
+GN_HOT static inline void gn_plane_range(const gn_lookup *l, int32_t u, int32_t v, int32_t w, int32_t h, int64_t *lo,
+                                         int64_t *hi)
+{
+    int64_t across = (int64_t)l->slope_q28[0] * (16 * w), down = (int64_t)l->slope_q28[1] * (16 * h);
+    int64_t first = gn_least_on_plane(l, u, v);
+    *lo = first + (across < 0 ? across : 0) + (down < 0 ? down : 0);
+    *hi = first + (across > 0 ? across : 0) + (down > 0 ? down : 0);
+}
+
 GN_HOT static inline uint32_t gn_limited_depth(const gn_light_view *view, int64_t least_q32)
 {
     uint32_t far = gn_texel_far(GN_VIEW_BITS(view));
@@ -61,6 +71,10 @@ GN_HOT static inline int gn_lookup_is_plain(const gn_lookup *l, int32_t u, int32
 
 /* Texels of row v, n from u on, wherever they lie: bit i is set where texel i keeps the receiver dark. */
 uint32_t gn_lookup_dark(const gn_lookup *l, int32_t u, int32_t v, int32_t n);
+
+/* The same of n x n texels on the receiver's plane: a byte per row; *found: the OR of all rows, and in the upper half
+ * their AND. Returns 0 if a texel lies outside the tile, or the plane outside what texels hold. */
+int gn_lookup_on_plane(const gn_lookup *l, int32_t u, int32_t v, int32_t n, uint8_t *dark, uint32_t *found);
 
 /* A tap of the hard filter, the disk or 2x2 at the border: 1 if it is lit. */
 GN_HOT static inline uint32_t gn_lookup_tap(const gn_lookup *l, int32_t u, int32_t v)

@@ -11,11 +11,12 @@ GN_HOT static void least_over(const gn_lookup *l, int32_t u, int32_t v, int32_t 
     *smallest = *largest = l->least;
     if (!GN_RECEIVER_PLANE || !l->sloped) return;
     int32_t last = l->view->tile_texels - 1, last_row = GN_TILE_ROWS(l->view) - 1;
-    int32_t u0 = gn_max32(0, gn_min32(u, last)), u1 = gn_max32(0, gn_min32(u + n - 1, last));
-    int32_t v0 = gn_max32(0, gn_min32(v, last_row)), v1 = gn_max32(0, gn_min32(v + n - 1, last_row));
-    int rises_u = l->slope_q28[0] > 0, rises_v = l->slope_q28[1] > 0;
-    *smallest = gn_limited_depth(l->view, gn_least_on_plane(l, rises_u ? u0 : u1, rises_v ? v0 : v1));
-    *largest = gn_limited_depth(l->view, gn_least_on_plane(l, rises_u ? u1 : u0, rises_v ? v1 : v0));
+    int32_t u0 = gn_max32(0, gn_min32(u, last)), v0 = gn_max32(0, gn_min32(v, last_row));
+    int64_t lo, hi;
+    gn_plane_range(l, u0, v0, gn_max32(0, gn_min32(u + n - 1, last)) - u0,
+                   gn_max32(0, gn_min32(v + n - 1, last_row)) - v0, &lo, &hi);
+    *smallest = gn_limited_depth(l->view, lo);
+    *largest = gn_limited_depth(l->view, hi);
 }
 
 GN_HOT int gn_lookup_decided(const gn_lookup *l, int32_t u, int32_t v, int32_t n, uint32_t *answer)

@@ -10,6 +10,9 @@
 
 #define GN_TENT_TAPS_MAX 8
 
+/* Whether taps are compared with the receiver's plane, in a way of their own. */
+#define GN_TENT_ON_PLANE(l) (GN_RECEIVER_PLANE && !GN_SIZE_FIRST && (l)->sloped)
+
 /* Weights of the 2 (k + 1) texels of a tent along one axis, k = 1, 2, 3: exact rationals over (2k + 1)^2 F^2, which
  * they sum to. u = F * frac(centre + 1/2), 0 <= u <= F, F = 2^weight_bits <= 4096: everything stays below 2^30. */
 void gn_tent_weights(uint32_t *w, int32_t k, uint32_t u, int32_t weight_bits);
@@ -164,9 +167,13 @@ GN_HOT static GN_SHARED uint32_t gn_tent_by_texels(const gn_frame *frame, const 
     int32_t cu = l->u_q16 + 32768, cv = l->v_q16 + 32768, n = 2 * (k + 1);
     int32_t u0 = (cu >> 16) - (k + 1), v0 = (cv >> 16) - (k + 1);
     uint8_t dark[GN_TENT_TAPS_MAX];
-    GN_COUNT(undecided, 1);
-    GN_COUNT(taps_tent, n * n);
-    uint32_t found = gn_tent_dark(l, u0, v0, n, dark);
+    uint32_t found, answer;
+    if (!GN_TENT_ON_PLANE(l) || !gn_lookup_on_plane(l, u0, v0, n, dark, &found)) {
+        if (GN_TENT_ON_PLANE(l) && GN_DEPTH_BLOCKS && gn_lookup_decided(l, u0, v0, n, &answer)) return answer;
+        GN_COUNT(undecided, 1);
+        GN_COUNT(taps_tent, n * n);
+        found = gn_tent_dark(l, u0, v0, n, dark);
+    }
     if (!(found & 0xFFFFU)) return 65536;
     if (found >> 16 == (1U << n) - 1) return 0;
     return gn_tent_of_dark(frame, dark, k, cu, cv, bits);
@@ -178,7 +185,7 @@ GN_HOT static inline uint32_t gn_tent_attenuation(const gn_frame *frame, const g
 {
     int32_t u0 = ((l->u_q16 + 32768) >> 16) - (k + 1), v0 = ((l->v_q16 + 32768) >> 16) - (k + 1);
     uint32_t answer;
-    if (GN_DEPTH_BLOCKS && gn_lookup_decided(l, u0, v0, 2 * (k + 1), &answer)) return answer;
+    if (GN_DEPTH_BLOCKS && !GN_TENT_ON_PLANE(l) && gn_lookup_decided(l, u0, v0, 2 * (k + 1), &answer)) return answer;
     return gn_tent_by_texels(frame, l, k, bits);
 }
 

@@ -385,6 +385,18 @@ static int32_t random_position(void)
     }
 }
 
+/* A depth that is rounded to that of a texel, or just not, at that texel on the receiver's plane. */
+static uint32_t depth_on_plane(const gn_receiver *r, int64_t i, int64_t j)
+{
+    int64_t last = view.tile_texels - 1,
+            step = view.depth_bits == 32 ? 1 : 1LL << (32 - view.depth_bits - GN_K(&frame, shadow_depth_frac));
+    i128 two = 2 << 28, u = i128_clamp(i, 0, last), v = i128_clamp(j, 0, last);
+    i128 rise_q44 = i128_clamp(r->slope_q28[0], -two, two) * (65536 * u + 32768 - r->u_q16) +
+                    i128_clamp(r->slope_q28[1], -two, two) * (65536 * v + 32768 - r->v_q16);
+    i128 depth = stored(i, j) + step / 2 - i128_floor_div(rise_q44, 4096) + rng_range(&random_state, -6, 6);
+    return (uint32_t)i128_clamp(depth, 0, UINT32_MAX);
+}
+
 /* A depth at, just before and just behind a stored one near the receiver; sometimes anything. */
 static gn_receiver random_receiver(void)
 {
@@ -404,6 +416,8 @@ static gn_receiver random_receiver(void)
         r.slope_q28[1] = rng_below(&random_state, 4) ? rng_wide_i32(&random_state, 29) : 0;
         if (!rng_below(&random_state, 64)) r.slope_q28[0] = rng_below(&random_state, 2) ? INT32_MIN : INT32_MAX;
         if (!rng_below(&random_state, 64)) r.slope_q28[1] = rng_below(&random_state, 2) ? INT32_MIN : INT32_MAX;
+        if (rng_below(&random_state, 2))
+            r.depth_q32 = depth_on_plane(&r, (r.u_q16 >> 16) + near_u, (r.v_q16 >> 16) + near_v);
     }
     return r;
 }
