@@ -31,7 +31,7 @@ host_golden() { # host_golden COMPILER OPTIMISATION WORD
 
 # Of cores that have the same port, one is optimised as it ships, the others less: compiling takes most of the time.
 board_golden() { # board_golden BOARD
-    case $1$THOROUGH in mps2-an505*) opt=-Os ;; mps2-an500 | xtensa-sim) opt=-O1 ;; *) opt=-O2 ;; esac # -Os: GN_SIZE_FIRST
+    case $1$THOROUGH in mps2-an505*) opt=-Os ;; mps2-an385 | mps2-an500 | nrf51-large | xtensa-sim) opt=-O1 ;; *) opt=-O2 ;; esac # -Os: GN_SIZE_FIRST
     if firmware firmware BOARD="$1" APP=golden FW_OPT=$opt >"$tmp/$1.log" 2>&1 && firmware emulate BOARD="$1" APP=golden FW_OPT=$opt >"$tmp/$1.txt" 2>&1; then
         same_frames "$1" "$tmp/$1.txt"
     else echo "$1: golden: $(grep -h -m 1 -i -E 'error|undefined|fault' "$tmp/$1.log" "$tmp/$1.txt")"; fi
