@@ -173,7 +173,8 @@ GN_HOT static inline void gn_corner_from(const gn_corner *c, const gn_light_stat
     for (int i = 0; i < 3; i++) from_q16[i] = c->ray_q16[i] + (int32_t)light->from_light[i].d_q16;
 }
 
-/* Slopes of depth over a texel of the view, 0 without B5: those of the surface, a point of which is the corner. */
+/* Slopes of depth over a texel of the view, 0 without B5. Corners at the same distance of the light from their plane,
+ * to 2^-15, share them. */
 void gn_corner_slopes(gn_lattice *lattice, const gn_frame *frame, const gn_surface *surface, const gn_corner *corner,
                       const gn_light_view *view, int32_t slope_q28[2]);
 

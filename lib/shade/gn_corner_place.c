@@ -175,14 +175,18 @@ GN_HOT void gn_corner_slopes(gn_lattice *l, const gn_frame *frame, const gn_surf
 {
     slope_q28[0] = slope_q28[1] = 0;
 #if GN_RECEIVER_PLANE
-    int32_t from[3] = {0, 0, 0};
+    int32_t from[3] = {0, 0, 0}, h_q14 = 0;
     if (!frame->scene->lights[view->light_idx].receiver_plane) return;
-    if (l->slope_view != view) {
 #if GN_PUNCTUAL_LIGHTS
-        if (view->perspective) gn_corner_from(c, &frame->light[view->light_idx], from);
+    if (view->perspective) {
+        gn_corner_from(c, &frame->light[view->light_idx], from);
+        h_q14 = (int32_t)(gn_dot_q30(s->face_q30, from) >> 2);
+    }
 #endif
+    if (l->slope_view != view || gn_abs32(h_q14 - l->slope_h_q14) > gn_abs32(h_q14) >> 15) {
         gn_shadow_slopes(frame, s, view, from, l->slope_q28);
-        l->slope_view = view->perspective && c->z_q16 >= s->z_max_q16 ? NULL : view; /* that may lie off the plane */
+        l->slope_view = view;
+        l->slope_h_q14 = h_q14;
     }
     slope_q28[0] = l->slope_q28[0];
     slope_q28[1] = l->slope_q28[1];

@@ -381,7 +381,8 @@ typedef struct gn_lattice {
     int32_t offset_q16[3];            /* and the receiver's offset in it */
 #if GN_RECEIVER_PLANE && GN_SHADOWS
     const gn_light_view *slope_view; /* a view, NULL: none, */
-    int32_t slope_q28[2];            /* and the slopes of the surface in it */
+    int32_t slope_q28[2];            /* and the slopes of the surface in it, */
+    int32_t slope_h_q14;             /* spots and points: found at this distance of the light from the plane */
 #endif
     int32_t uniform;            /* nothing but shadows varies over the surface */
     int16_t cascade;            /* of all of the part, none of which fades; -1: of each point for itself */
