@@ -149,6 +149,13 @@ GN_HOT static inline int gn_corner_place(gn_lattice *l, const gn_frame *frame, c
 }
 #endif
 
+#if GN_SHADOWS
+/* Slopes of depth over a texel of the view, 0 without B5. Corners at the same distance of the light from their plane,
+ * to 2^-15, share them. */
+void gn_corner_slopes(gn_lattice *lattice, const gn_frame *frame, const gn_surface *surface, const gn_corner *corner,
+                      const gn_light_view *view, int32_t slope_q28[2]);
+#endif
+
 /* Of another surface. */
 GN_HOT static inline void gn_corner_forget_forms(gn_lattice *l)
 {
@@ -172,11 +179,6 @@ GN_HOT static inline void gn_corner_from(const gn_corner *c, const gn_light_stat
     GN_UNROLL
     for (int i = 0; i < 3; i++) from_q16[i] = c->ray_q16[i] + (int32_t)light->from_light[i].d_q16;
 }
-
-/* Slopes of depth over a texel of the view, 0 without B5. Corners at the same distance of the light from their plane,
- * to 2^-15, share them. */
-void gn_corner_slopes(gn_lattice *lattice, const gn_frame *frame, const gn_surface *surface, const gn_corner *corner,
-                      const gn_light_view *view, int32_t slope_q28[2]);
 
 /* The square of the distance, of components below 2^31. */
 GN_HOT static inline uint64_t gn_corner_distance2_q32(const int32_t from_q16[3])

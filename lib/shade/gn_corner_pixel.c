@@ -85,13 +85,6 @@ GN_HOT static int light_corner(gn_shading *s, gn_corner *c, int32_t sum_q24[3])
     return !(dims && (sum_q24[0] | sum_q24[1] | sum_q24[2]) >> 30);
 }
 
-/* Whether the plane is that of a deep triangle, far behind its nearest depth: there n . ray, up to 2^27, is below 2^19,
- * and forms are off by half a unit per pixel. */
-GN_HOT static inline int is_coarse(const gn_shading *s, const gn_corner *c)
-{
-    return c->z_q16 >> 8 > s->surface.z_min_q16 && !GN_FLAT_Q16(s->frame);
-}
-
 /* Times the colours of vertices and textures, Q20. */
 GN_HOT static GN_NOINLINE void modulate_corner(gn_shading *s, const gn_corner *c, uint32_t q20[3])
 {
@@ -116,7 +109,7 @@ GN_HOT GN_NOINLINE void gn_corner_pixel(gn_shading *s, int32_t x, int32_t y)
     if (!(GN_SPECULAR && s->surface.specular && s->surface.n_lights)) /* those know more */
         gn_corner_find(&s->lattice, s->frame, &s->surface, x, y, &s->sample, c);
     else c->state = GN_CORNER_UNSEEN;
-    if (c->state != GN_CORNER_KNOWN || is_coarse(s, c) || !light_corner(s, c, sum_q24)) {
+    if (c->state != GN_CORNER_KNOWN || !light_corner(s, c, sum_q24)) {
         gn_exact_pixel(s, x, y);
         return;
     }

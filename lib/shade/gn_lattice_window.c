@@ -89,7 +89,7 @@ GN_HOT static int32_t seen_depth(const gn_lattice *l, const gn_frame *frame, con
     if (GN_FLAT_Q16(frame)) return gn_corner_flat_depth(p, s, x, y, b_q28);
 #endif
     int32_t w = p->w.at + p->w.dx * (x - p->x) + p->w.dy * (y - p->y);
-    if (w < 1 << 10 || w >= 1 << 30) return 0;
+    if (w < p->w_least || w >= 1 << 30) return 0;
     int32_t clz = gn_clz32((uint32_t)w), shift = p->z_shift - clz;
     if (shift < 1 || shift > 31) return 0;
     uint32_t z = gn_umul_high(s->depth_scale.mant, gn_recip_norm((uint32_t)w << clz, GN_K(frame, newton_steps)));

@@ -38,6 +38,7 @@ GN_HOT uint32_t gn_lookup_dark(const gn_lookup *l, int32_t u, int32_t v, int32_t
     return dark;
 }
 
+#if GN_RECEIVER_PLANE && !GN_SIZE_FIRST
 GN_HOT int gn_lookup_on_plane(const gn_lookup *l, int32_t u, int32_t v, int32_t n, uint8_t *dark, uint32_t *found)
 {
     const gn_light_view *view = l->view;
@@ -73,3 +74,4 @@ GN_HOT int gn_lookup_on_plane(const gn_lookup *l, int32_t u, int32_t v, int32_t 
     *found = any | all << 16;
     return 1;
 }
+#endif

@@ -34,7 +34,7 @@ GN_HOT static inline uint32_t gn_rounded_depth(uint32_t depth_q32, int32_t dropp
 }
 
 /* least_q32 at a texel of the tile, at most 64 + 1023 texels away in each axis: 2^50 and twice 2^44. */
-GN_HOT static inline int64_t gn_least_on_plane(const gn_lookup *l, int32_t u, int32_t v)
+GN_HOT static GN_SHARED int64_t gn_least_on_plane(const gn_lookup *l, int32_t u, int32_t v)
 {
     int32_t du = u - (l->u_q16 >> 16), dv = v - (l->v_q16 >> 16);
     return l->least_q32 + (int64_t)l->slope_q28[0] * (16 * du) + (int64_t)l->slope_q28[1] * (16 * dv);
@@ -45,9 +45,9 @@ GN_HOT static inline void gn_plane_range(const gn_lookup *l, int32_t u, int32_t 
                                          int64_t *hi)
 {
     int64_t across = (int64_t)l->slope_q28[0] * (16 * w), down = (int64_t)l->slope_q28[1] * (16 * h);
-    int64_t first = gn_least_on_plane(l, u, v);
-    *lo = first + (across < 0 ? across : 0) + (down < 0 ? down : 0);
-    *hi = first + (across > 0 ? across : 0) + (down > 0 ? down : 0);
+    *lo = *hi = gn_least_on_plane(l, u, v);
+    *(across < 0 ? lo : hi) += across;
+    *(down < 0 ? lo : hi) += down;
 }
 
 GN_HOT static inline uint32_t gn_limited_depth(const gn_light_view *view, int64_t least_q32)
@@ -72,9 +72,11 @@ GN_HOT static inline int gn_lookup_is_plain(const gn_lookup *l, int32_t u, int32
 /* Texels of row v, n from u on, wherever they lie: bit i is set where texel i keeps the receiver dark. */
 uint32_t gn_lookup_dark(const gn_lookup *l, int32_t u, int32_t v, int32_t n);
 
+#if GN_RECEIVER_PLANE && !GN_SIZE_FIRST
 /* The same of n x n texels on the receiver's plane: a byte per row; *found: the OR of all rows, and in the upper half
  * their AND. Returns 0 if a texel lies outside the tile, or the plane outside what texels hold. */
 int gn_lookup_on_plane(const gn_lookup *l, int32_t u, int32_t v, int32_t n, uint8_t *dark, uint32_t *found);
+#endif
 
 /* A tap of the hard filter, the disk or 2x2 at the border: 1 if it is lit. */
 GN_HOT static inline uint32_t gn_lookup_tap(const gn_lookup *l, int32_t u, int32_t v)

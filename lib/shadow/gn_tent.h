@@ -161,6 +161,17 @@ GN_HOT static GN_SHARED uint32_t gn_tent_of_dark(const gn_frame *frame, const ui
     return gn_tent_of_dark_inline(dark, k, cu, cv, bits);
 }
 
+/* The same on the receiver's plane, by gn_lookup_on_plane(). Returns 0 if that does not tell. */
+GN_HOT static inline int gn_tent_on_plane(const gn_lookup *l, int32_t u, int32_t v, int32_t n, uint8_t *dark,
+                                          uint32_t *found)
+{
+#if GN_RECEIVER_PLANE && !GN_SIZE_FIRST
+    if (l->sloped) return gn_lookup_on_plane(l, u, v, n, dark, found);
+#endif
+    (void)l, (void)u, (void)v, (void)n, (void)dark, (void)found;
+    return 0;
+}
+
 /* Texel by texel. With GN_SIZE_FIRST its arrays are not on the stack while bounds decide. */
 GN_HOT static GN_SHARED uint32_t gn_tent_by_texels(const gn_frame *frame, const gn_lookup *l, int32_t k, int32_t bits)
 {
@@ -168,8 +179,8 @@ GN_HOT static GN_SHARED uint32_t gn_tent_by_texels(const gn_frame *frame, const 
     int32_t u0 = (cu >> 16) - (k + 1), v0 = (cv >> 16) - (k + 1);
     uint8_t dark[GN_TENT_TAPS_MAX];
     uint32_t found, answer;
-    if (!GN_TENT_ON_PLANE(l) || !gn_lookup_on_plane(l, u0, v0, n, dark, &found)) {
-        if (GN_TENT_ON_PLANE(l) && GN_DEPTH_BLOCKS && gn_lookup_decided(l, u0, v0, n, &answer)) return answer;
+    if (!gn_tent_on_plane(l, u0, v0, n, dark, &found)) {
+        if (GN_DEPTH_BLOCKS && GN_TENT_ON_PLANE(l) && gn_lookup_decided(l, u0, v0, n, &answer)) return answer;
         GN_COUNT(undecided, 1);
         GN_COUNT(taps_tent, n * n);
         found = gn_tent_dark(l, u0, v0, n, dark);

@@ -919,6 +919,24 @@ static void check_corner(gn_lattice *l, const gn_surface *s, const plane *p, con
 }
 
 static long n_planes, n_no_plane;
+static tally finest;
+
+/* The most of a form where the plane is asked for. */
+static double most_of(const gn_screen_plane *p, const gn_slope *f)
+{
+    return fabs((double)f->at) + fabs((double)f->dx) * p->w_px + fabs((double)f->dy) * p->h_px;
+}
+
+/* Of a form with one bit more a part, too, would leave its 30 or 31 bits. */
+static void check_scale(const gn_screen_plane *p, const gn_surface *s)
+{
+    const double w = most_of(p, &p->w), bit = ldexp(1, 29) - 2 - p->w_px - p->h_px;
+    int fills = w >= bit;
+    for (int k = 0; GN_HAS_BARY(s) && k < 2; k++)
+        fills |= most_of(p, &p->b[k]) >= 2 * bit || fabs((double)p->b[k].at) >= bit;
+    HOLDS(&finest, fills, "n . ray has %.1f bits of 30", log2(w));
+    CHECK_EQ_INT(p->w_least, (p->w_px + p->h_px) << 16);
+}
 
 static void check_scene(const gn_knobs *knobs)
 {
@@ -941,6 +959,7 @@ static void check_scene(const gn_knobs *knobs)
         const int reached = gn_corner_begin_lights(&lattice, &renderer.frame, &surface);
         const int has_plane = reached && gn_corner_begin(&lattice, &renderer.frame, &surface, &r, 16);
         n_planes += has_plane;
+        if (has_plane && !orthographic) check_scale(&lattice.plane, &surface);
         n_no_plane += !has_plane;
         for (int y = r.y0 - 6; has_plane && y < r.y1 + 14; y += 5)
             for (int x = r.x0 - 6; x < r.x1 + 14; x += 7) check_corner(&lattice, &surface, &p, &r, x, y);
@@ -984,6 +1003,7 @@ int main(int argc, char **argv)
     printf("cells: shadows that begin or end to fade at %ld places\n", n_fades);
     CHECK(n_along > 1000 && n_fades > 200);
     CHECK(lit_by_bias.n > 1000);
+    CHECK_TALLY(finest, "planes at the finest scale");
     CHECK_TALLY(rim_dark, "corners beyond a rim");
     CHECK_TALLY(rim_lit, "corners in a rim");
     CHECK_TALLY(lit_by_bias, "planes that automatic bias leaves lit");

@@ -116,7 +116,7 @@ static int has_levels(const settings *s)
 static long lattice_bytes(const settings *s)
 {
     layout all = {0, 4};
-    put(&all, 1, 252, 4);                                                      /* span to plane */
+    put(&all, 1, 256, 4);                                                      /* span to plane */
     if (s->feature.shadows) put(&all, 10, 4, 4);                               /* matrix */
     if (s->feature.shadows && s->feature.punctual_lights) put(&all, 8, 68, 4); /* forms */
     put(&all, s->capacity.surface_lights, 12, 4);                              /* light */
