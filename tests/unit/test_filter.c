@@ -389,7 +389,7 @@ static int32_t random_position(void)
 static uint32_t depth_on_plane(const gn_receiver *r, int64_t i, int64_t j)
 {
     int64_t last = view.tile_texels - 1,
-            step = view.depth_bits == 32 ? 1 : 1LL << (32 - view.depth_bits - GN_K(&frame, shadow_depth_frac));
+            step = view.depth_bits == 32 ? 1 : (int64_t)1 << (32 - view.depth_bits - GN_K(&frame, shadow_depth_frac));
     i128 two = 2 << 28, u = i128_clamp(i, 0, last), v = i128_clamp(j, 0, last);
     i128 rise_q44 = i128_clamp(r->slope_q28[0], -two, two) * (65536 * u + 32768 - r->u_q16) +
                     i128_clamp(r->slope_q28[1], -two, two) * (65536 * v + 32768 - r->v_q16);
