@@ -92,7 +92,8 @@ GN_HOT int32_t gn_corner_flat_depth(const gn_screen_plane *p, const gn_surface *
 }
 #endif
 
-/* How far 64 bits of n . ray are to be shifted for it to stay below 2^30 where the plane is asked for. */
+/* How far 64 bits of n . ray, below 2^62, are to be shifted for it to stay below 2^30 where the plane is asked for.
+ * Steps: 2^31 times 2^11 pixels, both axes, times 2^17. */
 GN_HOT static inline int32_t shift_of(const gn_screen_plane *p, const int32_t form[3], int64_t at)
 {
     const uint64_t steps = (uint64_t)gn_abs32(form[0]) * (uint32_t)p->w_px +

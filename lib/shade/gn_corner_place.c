@@ -175,7 +175,7 @@ GN_HOT void gn_corner_slopes(gn_lattice *l, const gn_frame *frame, const gn_surf
 {
     slope_q28[0] = slope_q28[1] = 0;
 #if GN_RECEIVER_PLANE
-    int32_t from[3] = {0, 0, 0}, h_q14 = 0;
+    int32_t from[3] = {0, 0, 0}, h_q14 = 0; /* below 2^29.8, so differences below 2^31 */
     if (!frame->scene->lights[view->light_idx].receiver_plane) return;
 #if GN_PUNCTUAL_LIGHTS
     if (view->perspective) {

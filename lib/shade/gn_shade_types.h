@@ -319,7 +319,7 @@ typedef struct {
     int32_t x, y;       /* the pixel of w, b: the middle of */
     int32_t w_px, h_px; /* so many on each side of it, with what cells go beyond */
     gn_slope w, b[2];
-    int32_t w_least; /* below it w is off by more than 2^-17: half a unit per pixel */
+    int32_t w_least; /* below it w is off by more than 2^-17: half a unit per pixel; 2^28 at most */
     int32_t z_shift; /* view depth = depth_scale.mant * (2^63 / w normalised) / 2^32 >> z_shift - clz(w) */
 } gn_screen_plane;
 

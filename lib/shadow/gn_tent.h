@@ -161,7 +161,7 @@ GN_HOT static GN_SHARED uint32_t gn_tent_of_dark(const gn_frame *frame, const ui
     return gn_tent_of_dark_inline(dark, k, cu, cv, bits);
 }
 
-/* The same on the receiver's plane, by gn_lookup_on_plane(). Returns 0 if that does not tell. */
+/* gn_tent_dark() on the receiver's plane. Returns 0 if gn_lookup_on_plane() does not tell. */
 GN_HOT static inline int gn_tent_on_plane(const gn_lookup *l, int32_t u, int32_t v, int32_t n, uint8_t *dark,
                                           uint32_t *found)
 {
