@@ -66,7 +66,8 @@
     X(max_other_tiles, MAX_OTHER_TILES, 1, 16, "tiles of the local-light atlas: 1 per spot, 6 per point light",        \
       "232 bytes each, 16 less without incremental, 8 less without auto_bias")                                         \
     X(atlas_texels, ATLAS_TEXELS, 64, 1048576,                                                                         \
-      "texels reserved for the tiles of the directional atlas, a multiple of 64; by default the whole atlas",          \
+      "texels reserved for the tiles of the directional atlas, a multiple of 64; by default the whole atlas; tiles "   \
+      "by worth share them",                                                                                           \
       "depth_bits / 8 bytes each: tiles fill an atlas only if there are 1, 4 or 16 of them, or with sizes by "         \
       "importance")                                                                                                    \
     X(other_atlas_texels, OTHER_ATLAS_TEXELS, 64, 1048576, "the same of the local-light atlas",                        \

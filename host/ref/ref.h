@@ -15,13 +15,14 @@
 
 typedef struct {
     int width, height;
-    int atlas_size;       /* texels per side of the directional atlas */
-    bool srgb;            /* encode the output with the sRGB curve */
-    bool vertex_light;    /* n . L of directional lights is that of the vertices, interpolated */
-    int other_atlas_size; /* of the local-light atlas; 0: the same */
-    int max_tiles;        /* capacity of the directional atlas, 1..16; 0: 16 */
-    int max_other_tiles;  /* of the other */
-    bool unsnapped;       /* directional texels and origins are not rounded: a map that crawls, for comparison */
+    int atlas_size;                       /* texels per side of the directional atlas */
+    bool srgb;                            /* encode the output with the sRGB curve */
+    bool vertex_light;                    /* n . L of directional lights is that of the vertices, interpolated */
+    int other_atlas_size;                 /* of the local-light atlas; 0: the same */
+    int max_tiles;                        /* capacity of the directional atlas, 1..16; 0: 16 */
+    int max_other_tiles;                  /* of the other */
+    int atlas_texels, other_atlas_texels; /* that tiles by worth share; 0: all of the atlas */
+    bool unsnapped; /* directional texels and origins are not rounded: a map that crawls, for comparison */
     /* Of the engine whose automatic bias this is: what it rounds decides how much bias is enough. 0: it does not.
      */
     int shadow_subpixel_bits, weight_bits, depth_bits, other_depth_bits, shadow_depth_frac, newton_steps;

@@ -11,6 +11,7 @@ typedef struct {
     ref_atlas which;
     int size;     /* S */
     int capacity; /* tiles */
+    int texels;   /* that tiles by worth share; 0: all */
     int n_tiles;  /* taken */
     int n_lights; /* served */
 } budget;
@@ -139,7 +140,7 @@ static int log2_of(int size)
 /* [A7] */
 static bool size_by_worth(ref_frame *frame, const budget *b)
 {
-    const int64_t space = (int64_t)b->size * b->size;
+    const int64_t all = (int64_t)b->size * b->size, space = b->texels > 0 && b->texels < all ? b->texels : all;
     int highest = 0, scale = 16 * log2_of(b->size);
     for (size_t l = 0; l < frame->s->n_lights; l++)
         for (int i = 0; frame->picture->grant[l].atlas == b->which && i < frame->picture->grant[l].n_tiles; i++)
@@ -239,10 +240,14 @@ static int capacity(int option)
 const char *ref_assign_tiles(ref_frame *frame)
 {
     const ref_options *o = frame->options;
-    budget directional = {.which = REF_DIRECTIONAL_ATLAS, .size = o->atlas_size, .capacity = capacity(o->max_tiles)};
+    budget directional = {.which = REF_DIRECTIONAL_ATLAS,
+                          .size = o->atlas_size,
+                          .capacity = capacity(o->max_tiles),
+                          .texels = o->atlas_texels};
     budget other = {.which = REF_OTHER_ATLAS,
                     .size = o->other_atlas_size > 0 ? o->other_atlas_size : o->atlas_size,
-                    .capacity = capacity(o->max_other_tiles)};
+                    .capacity = capacity(o->max_other_tiles),
+                    .texels = o->other_atlas_texels};
     frame->main_light = find_main_light(frame);
     for (size_t l = 0; l < frame->s->n_lights; l++)
         if (ref_asks_for_tiles(frame, l)) serve(frame, l, has_cascades(frame, l) ? &directional : &other);

@@ -15,6 +15,7 @@
 typedef struct gn_frame {
 #if GN_RUNTIME_KNOBS
     gn_knobs knobs;
+    uint32_t texels[2]; /* of each atlas; 0: as built */
 #endif
     /* small fields come first: instructions address them by a short offset */
     const gn_scene *scene;

@@ -14,6 +14,14 @@
 #define GN_ATLAS_TILES_MAX     16U
 #define GN_CASCADED_LIGHTS_MAX 4U /* shadowed lights that have cascades [D1] */
 
+/* Texels of an atlas. The host tool builds more than the configuration that it shows has. */
+#define GN_TEXELS_BUILT(in_other) ((in_other) ? GN_OTHER_ATLAS_TEXELS : GN_ATLAS_TEXELS)
+#if GN_RUNTIME_KNOBS
+#define GN_TEXELS(frame, in_other) ((frame)->texels[in_other] ? (frame)->texels[in_other] : GN_TEXELS_BUILT(in_other))
+#else
+#define GN_TEXELS(frame, in_other) GN_TEXELS_BUILT(in_other)
+#endif
+
 /* Whether some caster and some receiver are within the light's range. */
 static int shadow_possible(const gn_frame *frame, uint32_t light_idx)
 {
@@ -211,12 +219,13 @@ static uint32_t set_sides(gn_frame *frame, const gn_tile_plan *plan, uint32_t in
     return used + empty;
 }
 
-/* Sides in the ratio of worth, on a ladder of quarter octaves, as large as fits; then eight texels more for those that
- * still can. [A7] */
-static void sides_by_worth(gn_frame *frame, const gn_tile_plan *plan, uint32_t in_other, int32_t atlas_log2)
+/* Sides in the ratio of worth, on a ladder of quarter octaves, as large as the atlas and its texels allow; then eight
+ * texels more for those that still can. Returns the texels of all, which may be too many if no side is above 8. [A7] */
+static uint32_t sides_by_worth(gn_frame *frame, const gn_tile_plan *plan, uint32_t in_other, int32_t atlas_log2)
 {
-    uint32_t room = 1U << (2 * atlas_log2), most = 1U << atlas_log2, used;
+    uint32_t room = GN_TEXELS(frame, in_other), most = 1U << atlas_log2, used;
     int32_t highest = 0, scale = 16 * atlas_log2;
+    if (room > most * most) room = most * most;
     for (uint32_t i = 0; (i = next_view(frame, plan, in_other, i)) < GN_VIEWS_MAX; i++)
         if (gn_seen_any(&frame->seen[i])) highest = gn_max32(highest, gn_seen_level(&frame->seen[i], in_other));
     while ((used = set_sides(frame, plan, in_other, highest, scale, most)) > room && scale > 48) scale--;
@@ -226,44 +235,39 @@ static void sides_by_worth(gn_frame *frame, const gn_tile_plan *plan, uint32_t i
         frame->seen[i].side = (uint16_t)(side + 8);
         used += more;
     }
+    return used;
 }
 #endif
 
-/* Refuses tiles that take more texels than the atlas has (GN_ATLAS_TEXELS may be smaller than atlas_size squared). With
- * the default capacities they always fit. */
-static gn_status texels_suffice(gn_frame *frame, const gn_tile_plan *plan, uint32_t in_other)
+/* Texels of tiles of one size per light. */
+static uint32_t texels_by_light(const gn_frame *frame, const gn_tile_plan *plan, uint32_t in_other)
 {
-    uint32_t needed = 0, available = in_other ? GN_OTHER_ATLAS_TEXELS : GN_ATLAS_TEXELS;
+    uint32_t sum = 0;
     for (uint32_t l = 0; l < frame->scene->n_lights; l++)
         if (plan[l].n_tiles && plan[l].in_other == in_other)
-            needed += (uint32_t)plan[l].n_drawn << (2 * plan[l].tile_log2);
-#if GN_TIGHT_FIT
-    uint32_t empty = 0;
-    if (GN_BY_WORTH(frame)) needed = 0;
-    for (uint32_t i = 0; GN_BY_WORTH(frame) && (i = next_view(frame, plan, in_other, i)) < GN_VIEWS_MAX; i++) {
-        needed += (uint32_t)frame->seen[i].side * frame->seen[i].side;
-        if (!frame->seen[i].side) empty = 64;
-    }
-    needed += empty;
-#endif
-    return needed <= available ? GN_OK : gn_fail_capacity(frame, GN_ERR_ATLAS_FULL, needed, available);
+            sum += (uint32_t)plan[l].n_drawn << (2 * plan[l].tile_log2);
+    return sum;
 }
 
-/* Each of the two atlases has its own budget and size. [A1] */
+/* Each of the two atlases has its own budget and size. Tiles that take more texels than it has are refused: their
+ * number (GN_ATLAS_TEXELS) may be less than that of a square. [A1] */
 static gn_status plan_atlas(gn_frame *frame, gn_tile_plan *plan, uint32_t in_other, uint32_t n_tiles,
                             int32_t atlas_size)
 {
     int32_t atlas_log2 = 31 - gn_clz32((uint32_t)atlas_size);
+    uint32_t needed, available = GN_TEXELS(frame, in_other);
     if (n_tiles > 4U << (2 * (atlas_log2 - 4)))
         return gn_fail(frame, GN_ERR_SHADOW_TILE, 0); /* more than size^2 / 64 */
     if (GN_TILE_IMPORTANCE && frame->scene->shadow.tile_sizes == GN_TILES_IMPORTANCE)
         sizes_by_importance(frame, plan, in_other, atlas_log2);
     else equal_sizes(frame, plan, in_other, n_tiles, atlas_log2);
 #if GN_TIGHT_FIT
-    if (GN_BY_WORTH(frame)) sides_by_worth(frame, plan, in_other, atlas_log2);
+    if (GN_BY_WORTH(frame)) needed = sides_by_worth(frame, plan, in_other, atlas_log2);
+    else
 #endif
+        needed = texels_by_light(frame, plan, in_other);
     frame->stats.n_shadow_tiles += n_tiles;
-    return texels_suffice(frame, plan, in_other);
+    return needed <= available ? GN_OK : gn_fail_capacity(frame, GN_ERR_ATLAS_FULL, needed, available);
 }
 
 #if GN_TIGHT_FIT

@@ -4,6 +4,7 @@
  * - Both engines choose the same views, texels, sizes and origins.
  * - Every shadow is that of tiles of the same texels that go on to all sides, whatever
  *   the bias. (m of MODEL 4 could be less: it saves work.)
+ * - So they do where the atlases have fewer texels than their squares.
  * - With the same atlas, shadows are nearer to those of a map with 16 times the texels than stable fits are.
  * - In boxes for two frames, all of that holds in both, and tiles of directional lights are the same, but for their
  *   sides by worth beside spots and points. A frame outside of its boxes is drawn as without them, and counted. */
@@ -247,6 +248,8 @@ static void check_choices(const fixture *f, const settings *set, const ref_pictu
     if (!CHECK_EQ_INT(quantise_scene(&fixed, &f->s, error, sizeof error), 0)) return;
     CHECK_EQ_INT(gn_init(&renderer, &picture), GN_OK);
     renderer.frame.knobs = set->quality;
+    renderer.frame.texels[0] = (uint32_t)set->capacity.atlas_texels;
+    renderer.frame.texels[1] = (uint32_t)set->capacity.other_atlas_texels;
     CHECK_EQ_INT(gn_begin(&renderer, &fixed.scene), GN_OK);
     for (size_t l = 0; l < p->n_lights; l++) {
         const gn_light_state *light = &renderer.frame.light[l];
@@ -262,6 +265,18 @@ static void check_choices(const fixture *f, const settings *set, const ref_pictu
         }
     }
     quantise_free(&fixed);
+}
+
+/* Tiles by worth share what texels there are: 1/16 to 7/16 of the squares. */
+static void check_fewer_texels(const fixture *f, const settings *set, long i)
+{
+    settings fewer = *set;
+    fewer.capacity.atlas_texels = (int)(64 * (16 + 37 * i % 96));
+    fewer.capacity.other_atlas_texels = (int)(64 * (16 + 59 * i % 96));
+    const ref_options options = engine_ref_options(&f->s, &fewer, WIDTH, HEIGHT);
+    ref_picture p = render_with(f, &options);
+    check_choices(f, &fewer, &p);
+    ref_free(&p);
 }
 
 /* ---- Boxes for two frames ---------------------------------------------------------------------------------------- */
@@ -367,7 +382,7 @@ static void count_off(const ref_picture *p, const ref_picture *fine, long *off)
             if (p->triangle[i] >= 0 && p->ndotl[l][i] > 0) *off += fabs(p->shadow[l][i] - fine->shadow[l][i]) > 0.5;
 }
 
-static void check_scene(fixture *f)
+static void check_scene(fixture *f, long i)
 {
     settings set;
     settings_init(&set);
@@ -376,6 +391,7 @@ static void check_scene(fixture *f)
     finer.atlas_size = finer.other_atlas_size = 512;
     ref_picture tight = render_with(f, &options);
     check_choices(f, &set, &tight);
+    if (f->s.shadow.tiles == SCENE_TILES_WORTH) check_fewer_texels(f, &set, i);
     check_coverage(f, &options);
     check_boxes(f, &set, &options);
     f->s.shadow.fit = SCENE_FIT_STABLE;
@@ -394,7 +410,7 @@ int main(void)
     const long n_scenes = option("SCENES", SLOW_LIBRARY ? 80 : 240);
     for (long i = 0; i < n_scenes; i++) {
         build(&f);
-        check_scene(&f);
+        check_scene(&f, i);
         end(&f);
     }
     printf(

@@ -1,4 +1,4 @@
-/* Shadow tiles (D1, D10, A1-A3, P5, P8): who gets which, by a plan made again here from MODEL 6; where they lie;
+/* Shadow tiles (D1, D10, A1-A3, A7, P5, P8): who gets which, by a plan made again here from MODEL 6; where they lie;
  * that no light ever reads another's. */
 #include <stdlib.h>
 #include <string.h>
@@ -388,6 +388,87 @@ static void test_too_small(void)
     }
 }
 
+/* ---- By worth (A7) ------------------------------------------------------------------------------------------------
+ */
+
+enum { WORTH_SIZE = 64 };
+
+/* Of each atlas: texels of all tiles by worth, with that which the unseen share; views; the largest side. */
+typedef struct {
+    uint32_t texels[2], n_views[2], most[2];
+} worth_taken;
+
+static worth_taken take_worth(void)
+{
+    worth_taken t = {{0, 0}, {0, 0}, {0, 0}};
+    uint32_t empty[2] = {0, 0};
+    for (uint32_t i = 0; i < one.frame.n_views; i++) {
+        const uint32_t atlas = one.frame.view[i].in_other, side = one.frame.seen[i].side;
+        CHECK(side % 8 == 0 && side <= WORTH_SIZE);
+        t.texels[atlas] += side * side;
+        if (!side) empty[atlas] = 64;
+        else t.n_views[atlas]++;
+        if (side > t.most[atlas]) t.most[atlas] = side;
+    }
+    for (int k = 0; k < 2; k++) t.texels[k] += empty[k];
+    return t;
+}
+
+static gn_status begin_worth(uint32_t texels, uint32_t other_texels)
+{
+    init(&one, 16, 16, GN_VIEW_COLOUR, 0);
+    SET_KNOB(&one.frame, atlas_size, WORTH_SIZE), SET_KNOB(&one.frame, other_atlas_size, WORTH_SIZE);
+    one.frame.texels[0] = texels;
+    one.frame.texels[1] = other_texels;
+    return gn_begin(&one, &ls.scene);
+}
+
+/* Two cascades, a spot and a point light, in view and to the side. */
+static void worth_scene(void)
+{
+    rng r = {7};
+    ls_begin(&ls);
+    ls_add_random_light(&ls, &r, GN_LIGHT_DIRECTIONAL);
+    ls_add_random_light(&ls, &r, GN_LIGHT_SPOT);
+    ls_add_random_light(&ls, &r, GN_LIGHT_POINT);
+    ls.scene.shadow.n_cascades = 2;
+    ls.scene.shadow.tile_sizes = GN_TILES_WORTH;
+}
+
+/* Tiles share what there is: all step down, until all have 8 x 8 texels. Less is refused, and told. */
+static void test_worth_shares(void)
+{
+    const uint32_t square = WORTH_SIZE * WORTH_SIZE;
+    worth_scene();
+    CHECK_EQ_INT(begin_worth(0, 0), GN_OK);
+    const worth_taken all = take_worth();
+    uint32_t least[2];
+    for (int k = 0; k < 2; k++) {
+        CHECK(10 * all.texels[k] >= 9 * square && all.texels[k] <= square);
+        least[k] = all.n_views[k] * 64;
+    }
+    if (one.frame.n_views > all.n_views[0] + all.n_views[1]) least[1] += 64; /* faces */
+    for (uint32_t n = 2 * square; n >= least[1]; n -= 64) {
+        const uint32_t directional = n < least[0] ? least[0] : n;
+        CHECK_EQ_INT(begin_worth(directional, n), GN_OK);
+        const worth_taken t = take_worth();
+        CHECK(t.texels[0] <= directional && t.texels[1] <= n);
+        for (int k = 0; k < 2; k++) {
+            CHECK(t.n_views[k] == all.n_views[k] && t.most[k] <= all.most[k] + 8);
+            if (n >= square) CHECK_EQ_INT(t.texels[k], all.texels[k]);
+            if (n == 2048) CHECK(10 * t.texels[k] >= 8 * n); /* half of the square is hardly left over */
+        }
+        if (n == least[1]) CHECK_EQ_INT(t.most[1], 8);
+    }
+    CHECK_EQ_INT(begin_worth(least[0], 0), GN_OK);
+    CHECK_EQ_INT(take_worth().most[0], 8);
+    for (int k = 0; k < 2; k++) {
+        CHECK_EQ_INT(begin_worth(k ? 0 : least[0] - 64, k ? least[1] - 64 : 0), GN_ERR_ATLAS_FULL);
+        CHECK_EQ_INT(gn_get_detail(&one)->needed, least[k]);
+        CHECK_EQ_INT(gn_get_detail(&one)->available, least[k] - 64);
+    }
+}
+
 /* ---- Two atlases (A1) -------------------------------------------------------------------------------------------- */
 
 /* Two directional lights, two spots and a point light. */
@@ -595,6 +676,7 @@ int main(void)
     test_random_plans();
     test_budget_by_hand();
     test_too_small();
+    test_worth_shares();
     test_independence();
     test_poison();
     test_poison_shows();

@@ -72,7 +72,7 @@ static gn_status begin(compile_stage *st, const compiled *c, gn_format format, g
 {
     const gn_picture picture = {(uint16_t)c->options->width, (uint16_t)c->options->height, format, view, 0};
     st->format = format;
-    return st->lib->begin(st->renderer, &picture, &c->set.quality);
+    return st->lib->begin(st->renderer, &picture, &c->set);
 }
 
 /* The format that tells most of a picture. */

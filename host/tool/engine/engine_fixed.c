@@ -106,7 +106,7 @@ static int explain(const job *j, gn_status status)
 /* One pass of the library over the whole picture. */
 static int pass(const job *j, const gn_picture *picture, gn_flush_fn to, void *user)
 {
-    gn_status status = j->lib->begin(j->renderer, picture, &j->set->quality);
+    gn_status status = j->lib->begin(j->renderer, picture, j->set);
     if (!status) status = j->lib->render(j->renderer, &j->fixed->scene, to, user);
     return status ? explain(j, status) : 0;
 }

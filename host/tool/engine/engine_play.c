@@ -54,7 +54,7 @@ static int begin(player *p, const settings *set, int width, int height, char *er
     p->renderer = malloc(p->lib->renderer_bytes);
     p->rgb8 = malloc(3 * (size_t)width * (size_t)height);
     if (!p->renderer || !p->rgb8) return no_memory(error, error_bytes);
-    gn_status status = p->lib->begin(p->renderer, &p->picture, &set->quality);
+    gn_status status = p->lib->begin(p->renderer, &p->picture, set);
     if (status) snprintf(error, error_bytes, "%s", gn_status_text(status));
     return status ? -1 : 0;
 }

@@ -67,6 +67,8 @@ ref_options engine_ref_options(const scene *s, const settings *set, int width, i
                          .other_atlas_size = set->quality.other_atlas_size,
                          .max_tiles = capacity(set->capacity.max_shadow_tiles, GN_MAX_SHADOW_TILES),
                          .max_other_tiles = capacity(set->capacity.max_other_tiles, GN_MAX_OTHER_TILES),
+                         .atlas_texels = set->capacity.atlas_texels,
+                         .other_atlas_texels = set->capacity.other_atlas_texels,
                          .srgb = set->quality.srgb != 0,
                          .vertex_light = set->quality.vertex_light != 0,
                          .shadow_subpixel_bits = set->quality.shadow_subpixel_bits,

@@ -8,7 +8,8 @@
 /* A renderer is memory of renderer_bytes. Each but begin is the call of gnomon.h that has this name. */
 typedef struct {
     size_t renderer_bytes;
-    gn_status (*begin)(void *renderer, const gn_picture *picture, const gn_knobs *knobs); /* gn_init, and the knobs */
+    gn_status (*begin)(void *renderer, const gn_picture *picture,
+                       const settings *set); /* gn_init, the knobs, and the atlases' texels */
     gn_status (*render)(void *renderer, const gn_scene *now, gn_flush_fn flush, void *user);
     gn_status (*prepare)(void *renderer, const gn_scene *now); /* all stages before the screen tiles */
     gn_status (*screen_tiles)(void *renderer, gn_format format, gn_flush_fn flush, void *user);

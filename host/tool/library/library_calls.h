@@ -4,11 +4,16 @@
 
 #include "library.h"
 
-static gn_status begin(void *renderer, const gn_picture *picture, const gn_knobs *knobs)
+static gn_status begin(void *renderer, const gn_picture *picture, const settings *set)
 {
     gn_renderer *r = renderer;
     gn_status status = gn_init(r, picture);
-    if (status != GN_ERR_CONFIG) r->frame.knobs = *knobs;
+    if (status == GN_ERR_CONFIG) return status;
+    r->frame.knobs = set->quality;
+#if !GN_COMPACT
+    r->frame.texels[0] = (uint32_t)set->capacity.atlas_texels;
+    r->frame.texels[1] = (uint32_t)set->capacity.other_atlas_texels;
+#endif
     return status;
 }
 
