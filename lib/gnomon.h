@@ -271,18 +271,30 @@ gn_status gn_screen_tile(const gn_frame *frame, gn_scratch *scratch, uint32_t ti
 const gn_stats *gn_get_stats(const gn_renderer *r);
 const gn_detail *gn_get_detail(const gn_renderer *r);
 
-/* Whether a light got a shadow map in the frame that was begun last. NO_ROOM: requested, but the atlas is full.
- * tile_texels: the longest side of its tiles; gn_get_shadow_tile tells each. */
-typedef enum { GN_SHADOW_NOT_WANTED, GN_SHADOW_REALTIME, GN_SHADOW_NO_ROOM } gn_shadow_state;
+/* Whether a light got a shadow map in the frame that was begun last, and why it has none. NOT_WANTED: it is baked, or
+ * its shadow_strength is 0. NO_CASTER: requested, but within its range nothing casts, or nothing receives. NO_ROOM:
+ * requested, but its atlas has too few tiles left. tile_texels: the longest side of its tiles; gn_get_shadow_tile tells
+ * each, and why. */
+typedef enum { GN_SHADOW_NOT_WANTED, GN_SHADOW_REALTIME, GN_SHADOW_NO_ROOM, GN_SHADOW_NO_CASTER } gn_shadow_state;
 gn_shadow_state gn_get_light_shadow(const gn_renderer *r, uint32_t light_idx, uint32_t *n_tiles, uint32_t *tile_texels);
 
-/* The shadow tile of a light's cascade or face: texels (0: none, or nothing visible needs it), depths row by row, all
- * ones = empty. */
+/* Whether a view, a light's cascade or face, has a tile, and why it has none. */
+typedef enum {
+    GN_TILE_GRANTED,
+    GN_TILE_NO_SHADOW, /* the light has no shadow map or no such view: see gn_get_light_shadow */
+    GN_TILE_NO_SLICE,  /* the cascade covers no view depths */
+    GN_TILE_UNSEEN     /* tiles by worth: no visible receiver looks into it */
+} gn_tile_state;
+
+/* The shadow tile of a view: texels, 0 if it has none, and depths row by row, all ones = empty. */
 typedef struct {
     uint32_t texels;     /* per row */
     uint32_t depth_bits; /* 8, 16 or 32: uint8_t, uint16_t or uint32_t per texel */
     const void *depth;
     uint32_t rows;
+    gn_tile_state state;
+    uint64_t worth_q16; /* tiles by worth: pixels of its receivers on the screen, Q48.16, which decide its share of the
+                           atlas; else 0 */
 } gn_tile_info;
 uint32_t gn_get_shadow_tile(const gn_renderer *r, uint32_t light_idx, uint32_t view_idx, gn_tile_info *info);
 

@@ -342,6 +342,9 @@ gn_shadow_state gn_get_light_shadow(const gn_renderer *r, uint32_t light_idx, ui
         if (view->tile_texels > *tile_texels) *tile_texels = view->tile_texels;
         if (GN_TILE_ROWS(view) > *tile_texels) *tile_texels = GN_TILE_ROWS(view);
     }
+#if !GN_COMPACT
+    if (light->shadow_state == GN_SHADOW_NOT_WANTED && !light->off && light->strength_uq16) return GN_SHADOW_NO_CASTER;
+#endif
     return (gn_shadow_state)light->shadow_state;
 #else
     (void)r, (void)light_idx;
@@ -349,15 +352,23 @@ gn_shadow_state gn_get_light_shadow(const gn_renderer *r, uint32_t light_idx, ui
 #endif
 }
 
-/* A light's tile, for callers that display the atlas. [A6] */
+/* A light's tile, for callers that display the atlas, or ask who got what. [A6] [A7] */
 uint32_t gn_get_shadow_tile(const gn_renderer *r, uint32_t light_idx, uint32_t view_idx, gn_tile_info *info)
 {
+    const gn_tile_info none = {.state = GN_TILE_NO_SHADOW};
+    if (!info) return 0;
+    *info = none;
 #if GN_SHADOWS
-    if (!r || !info || r->frame.stage < GN_STAGE_BEGUN || light_idx >= r->frame.n_lights) return 0;
+    if (!r || r->frame.stage < GN_STAGE_BEGUN || light_idx >= r->frame.n_lights) return 0;
     const gn_light_state *light = &r->frame.light[light_idx];
     if (view_idx >= light->n_views) return 0;
-    const gn_light_view *view = &r->frame.view[(uint32_t)light->view_idx + view_idx];
-    if (view->empty || GN_UNSEEN(view)) return 0;
+    const uint32_t at = (uint32_t)light->view_idx + view_idx;
+    const gn_light_view *view = &r->frame.view[at];
+    info->state = view->empty ? GN_TILE_NO_SLICE : GN_UNSEEN(view) ? GN_TILE_UNSEEN : GN_TILE_GRANTED;
+#if GN_TIGHT_FIT
+    info->worth_q16 = r->frame.seen[at].worth_q16;
+#endif
+    if (info->state != GN_TILE_GRANTED) return 0;
     info->texels = view->tile_texels;
     info->rows = GN_TILE_ROWS(view);
     info->depth_bits = (uint32_t)GN_VIEW_BITS(view);
@@ -366,7 +377,7 @@ uint32_t gn_get_shadow_tile(const gn_renderer *r, uint32_t light_idx, uint32_t v
                                            : (const void *)view->depth.d32;
     return info->texels;
 #else
-    (void)r, (void)light_idx, (void)view_idx, (void)info;
+    (void)r, (void)light_idx, (void)view_idx;
     return 0;
 #endif
 }

@@ -271,13 +271,16 @@ static gn_status plan_atlas(gn_frame *frame, gn_tile_plan *plan, uint32_t in_oth
 }
 
 #if GN_TIGHT_FIT
-/* Remembers the side of the square of each view: a rectangle of a tight fit takes the texels of that square. */
+/* Remembers the side of the square of each view: a rectangle of a tight fit takes the texels of that square. Worth did
+ * not decide it. */
 static void keep_sides(gn_frame *frame, const gn_tile_plan *plan)
 {
     uint32_t view_idx = 0;
     for (uint32_t l = 0; l < frame->scene->n_lights; l++)
-        for (uint32_t i = 0; i < plan[l].n_tiles; i++)
-            frame->seen[view_idx++].side = (uint16_t)(1U << plan[l].tile_log2);
+        for (uint32_t i = 0; i < plan[l].n_tiles; i++, view_idx++) {
+            frame->seen[view_idx].side = (uint16_t)(1U << plan[l].tile_log2);
+            frame->seen[view_idx].worth_q16 = 0;
+        }
 }
 #endif
 

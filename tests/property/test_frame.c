@@ -398,7 +398,8 @@ static void test_tile_order(void)
     CHECK(demo_crc32(0, &one.frame, sizeof one.frame) == frame_crc);
 }
 
-/* A light takes no shadow tile where nothing casts (kind 1), nothing receives (2), or its strength is 0 (3). [D1] */
+/* A light takes no shadow tile, and says why, where nothing casts (kind 1), nothing receives (2), or its strength is 0
+ * (3). [D1] */
 static void test_no_needless_tiles(void)
 {
     gn_picture p = picture_of(32, 24, GN_FORMAT_RGB565);
@@ -412,6 +413,9 @@ static void test_no_needless_tiles(void)
         gn_init(&one, &p);
         CHECK_EQ_INT(gn_begin(&one, &demo.scene), GN_OK);
         CHECK_EQ_INT(gn_shadow_tile_count(&one), kind == 0);
+        CHECK_EQ_INT(gn_get_light_shadow(&one, 0, NULL, NULL), kind == 0   ? GN_SHADOW_REALTIME
+                                                               : kind == 3 ? GN_SHADOW_NOT_WANTED
+                                                                           : GN_SHADOW_NO_CASTER);
     }
 }
 

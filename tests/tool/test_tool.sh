@@ -689,6 +689,18 @@ grep -q "3 'point': point, no room for its shadow" "$tmp/out" && grep -q "0 'spo
 grep -q 'needs:.* punctual_lights' "$tmp/out" && pass || fail "info does not name punctual_lights"
 good info host/scenes/mixed.gltf --set preset=balanced
 grep -q "'moon': directional, mixed, shadow tiles of [0-9]*x[0-9]* (worth [0-9]* pixels; turned by [1-7]/32 about the light)" "$tmp/out" && pass || fail "info does not say why a tile is as large and turned"
+good info host/scenes/mixed.gltf --size 64x48 --orbit 0,0,4 --set cascade_ratios=1 --set range@1=0.01
+grep -q "'moon': .* none (its cascade covers no depths)$" "$tmp/out" && grep -q "1 'yard lamp': .*, no shadow: within its range nothing casts, or nothing receives$" "$tmp/out" &&
+    grep -q "2 'lantern': .*shadow tiles of +X [0-9]*x[0-9]* (worth [0-9.]* pixels), -X " "$tmp/out" && grep -q "3 'window glow': point, no shadow: none is requested$" "$tmp/out" && pass ||
+    fail "info does not say who got what, and why: $(grep "': " "$tmp/out")"
+good info host/scenes/room.gltf --size 64x48 --orbit 0,0,20
+grep -q "'lamp': point, shadow tiles of +X none (nothing visible needs it), .* -Z [1-9][0-9]*x" "$tmp/out" && pass || fail "info does not say which faces nobody sees"
+good info host/scenes/room.gltf --size 64x48 --orbit 0,0,20 --json
+light 'a face that nobody sees' '"tile_list": \[{"texels": 0, "rows": 0, "worth_px": 0, "turn": 0, "none": "unseen"}'
+# texels are shared; even the smallest tiles may be too many
+good info host/scenes/room.gltf --size 64x48 --set other_atlas_texels=384 --json
+light 'tiles of 8 x 8' '"tile_texels": 8, "tile_list": \[{"texels": 8, "rows": 8, '
+bad 1 'shadow tiles take more texels than .*: 384 needed, 320 available' info host/scenes/room.gltf --size 64x48 --set other_atlas_texels=320
 good info host/scenes/mixed.gltf --set preset=balanced --set tiles=equal --json
 light 'a fitted tile' '"tile_list": \[{"texels": [0-9]*, "rows": [0-9]*, "worth_px": [0-9]*, "turn": [1-7]}'
 good info "$cube" --size 16x12

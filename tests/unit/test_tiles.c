@@ -233,9 +233,11 @@ static void check_granted(const plan *p)
     for (int l = 0; l < p->n_lights; l++) {
         const plan_tile *t = &p->tile[l];
         uint32_t n, texels;
-        gn_shadow_state expected = !t->wanted  ? GN_SHADOW_NOT_WANTED
-                                   : t->served ? GN_SHADOW_REALTIME
-                                               : GN_SHADOW_NO_ROOM;
+        const int strong = !p->light[l].baked && p->light[l].strength;
+        gn_shadow_state expected = t->served   ? GN_SHADOW_REALTIME
+                                   : t->wanted ? GN_SHADOW_NO_ROOM
+                                   : strong    ? GN_SHADOW_NO_CASTER
+                                               : GN_SHADOW_NOT_WANTED;
         n_bad += gn_get_light_shadow(&one, (uint32_t)l, &n, &texels) != expected;
         n_bad += n != (t->served ? (uint32_t)t->n : 0) || texels != (t->served ? (uint32_t)t->t : 0);
         n_tiles += t->served ? t->n : 0;
@@ -469,6 +471,56 @@ static void test_worth_shares(void)
     }
 }
 
+/* Each view's tile, or why it has none, and its worth; by sizes that are equal it has none. */
+static void check_told(int by_worth)
+{
+    int n_unseen = 0;
+    for (uint32_t i = 0; i < one.frame.n_views; i++) {
+        const gn_light_view *view = &one.frame.view[i];
+        const uint32_t side = one.frame.seen[i].side, l = view->light_idx;
+        gn_tile_info info;
+        uint32_t texels = gn_get_shadow_tile(&one, l, view->cascade_idx, &info);
+        const gn_tile_state state = view->empty ? GN_TILE_NO_SLICE : side ? GN_TILE_GRANTED : GN_TILE_UNSEEN;
+        CHECK_EQ_INT(info.state, state);
+        CHECK(texels == info.texels && (state == GN_TILE_GRANTED ? texels == side : !texels && !info.depth));
+        CHECK(by_worth ? (info.worth_q16 > 0) == (state == GN_TILE_GRANTED) : info.worth_q16 == 0);
+        n_unseen += state == GN_TILE_UNSEEN;
+        for (uint32_t k = 0; k < i; k++) { /* what is worth less is no larger, but for what was left over */
+            const uint32_t before = one.frame.seen[k].side;
+            if (one.frame.view[k].in_other != view->in_other || !side || !before) continue;
+            if (info.worth_q16 >= one.frame.seen[k].worth_q16) CHECK(side + 8 >= before);
+            if (info.worth_q16 <= one.frame.seen[k].worth_q16) CHECK(side <= before + 8);
+        }
+    }
+    CHECK_EQ_INT(n_unseen > 0, by_worth);
+}
+
+/* Who got what, and why. */
+static void test_told(void)
+{
+    gn_tile_info info;
+    worth_scene();
+    ls.scene.camera.near_q16 = GN_Q16(0.5);
+    ls.scene.shadow.cascade_ratio_uq16[0] = 65536;                   /* the second cascade has no slice */
+    ls_add_light(&ls, GN_LIGHT_SPOT)->position_q16[1] = GN_Q16(200); /* out of its range */
+    ls_add_light(&ls, GN_LIGHT_DIRECTIONAL)->mode = GN_LIGHT_BAKED;
+    ls_look(&ls, GN_Q16(1.5), GN_Q16(1), GN_Q16(1.5)); /* so near that some faces are not needed */
+    CHECK_EQ_INT(begin_worth(0, 0), GN_OK);
+    check_told(1);
+    CHECK_EQ_INT(gn_get_shadow_tile(&one, 0, 1, &info), 0);
+    CHECK_EQ_INT(info.state, GN_TILE_NO_SLICE);
+    for (uint32_t l = 0; l < 5; l++) {
+        static const gn_shadow_state states[] = {GN_SHADOW_REALTIME, GN_SHADOW_REALTIME, GN_SHADOW_REALTIME,
+                                                 GN_SHADOW_NO_CASTER, GN_SHADOW_NOT_WANTED};
+        CHECK_EQ_INT(gn_get_light_shadow(&one, l, NULL, NULL), states[l]);
+        CHECK_EQ_INT(gn_get_shadow_tile(&one, l, 6, &info), 0);
+        CHECK_EQ_INT(info.state, GN_TILE_NO_SHADOW);
+    }
+    ls.scene.shadow.tile_sizes = GN_TILES_EQUAL;
+    CHECK_EQ_INT(begin_worth(0, 0), GN_OK);
+    check_told(0);
+}
+
 /* ---- Two atlases (A1) -------------------------------------------------------------------------------------------- */
 
 /* Two directional lights, two spots and a point light. */
@@ -677,6 +729,7 @@ int main(void)
     test_budget_by_hand();
     test_too_small();
     test_worth_shares();
+    test_told();
     test_independence();
     test_poison();
     test_poison_shows();

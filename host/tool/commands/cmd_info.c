@@ -29,7 +29,7 @@ typedef struct {
 
 static const char *const kind_names[] = {"directional", "spot", "point"};
 static const char *const mode_names[] = {"realtime", "mixed", "baked"};
-static const char *const shadow_names[] = {"not_wanted", "realtime", "no_room"};
+static const char *const shadow_names[] = {"not_wanted", "realtime", "no_room", "no_caster"};
 
 static void count(const scene *s, counts *c)
 {
@@ -96,22 +96,28 @@ static int preset_ram(const settings *set, const settings_demand *demand, const 
 
 /* ---- JSON -------------------------------------------------------------------------------------------------------- */
 
-/* Whether the light's tiles are not all squares of one size. */
+/* Whether the light's tiles are not all squares of one size, or their worth decided it. */
 static bool differ(const engine_picture *p, size_t light)
 {
-    for (int i = 0; i < p->n_tiles[light]; i++)
+    for (int i = 0; i < p->n_tiles[light]; i++) {
+        if (p->tile_worth[light][i] > 0) return true;
         for (int k = 0; k < 2; k++)
             if (p->tile_size[light][i][k] != p->atlas_texels[light]) return true;
+    }
     return false;
 }
 
 /* By worth, or fitted: each, and why. */
 static void json_tiles(const engine_picture *p, size_t light)
 {
+    static const char *const none[] = {[GN_TILE_NO_SLICE] = "no_slice", [GN_TILE_UNSEEN] = "unseen"};
     printf(", \"tile_list\": [");
-    for (int i = 0; i < p->n_tiles[light]; i++)
-        printf("%s{\"texels\": %d, \"rows\": %d, \"worth_px\": %.0f, \"turn\": %d}", i ? ", " : "",
-               p->tile_size[light][i][0], p->tile_size[light][i][1], p->tile_pixels[light][i], p->tile_turn[light][i]);
+    for (int i = 0; i < p->n_tiles[light]; i++) {
+        printf("%s{\"texels\": %d, \"rows\": %d, \"worth_px\": %.0f, \"turn\": %d", i ? ", " : "",
+               p->tile_size[light][i][0], p->tile_size[light][i][1], p->tile_worth[light][i], p->tile_turn[light][i]);
+        if (!p->tile_size[light][i][0]) printf(", \"none\": \"%s\"", none[p->tile_state[light][i]]);
+        printf("}");
+    }
     printf("]");
 }
 
@@ -191,23 +197,35 @@ static void print_json(const report *r)
 
 /* ---- Text -------------------------------------------------------------------------------------------------------- */
 
-/* By worth, or fitted: columns x rows of each, and why. */
-static void text_tiles(const engine_picture *p, size_t light)
+/* By worth, or fitted: columns x rows of each cascade or face, and why. */
+static void text_tiles(const engine_picture *p, size_t light, scene_light_kind kind)
 {
+    static const char *const none[] = {[GN_TILE_NO_SLICE] = "none (its cascade covers no depths)",
+                                       [GN_TILE_UNSEEN] = "none (nothing visible needs it)"};
     printf("shadow tiles of ");
     for (int i = 0; i < p->n_tiles[light]; i++) {
         const int *size = p->tile_size[light][i], turn = p->tile_turn[light][i];
+        const double worth = p->tile_worth[light][i];
         if (i) printf(", ");
+        if (kind == SCENE_LIGHT_POINT) printf("%c%c ", "+-"[i & 1], "XYZ"[i >> 1]);
         if (!size[0]) {
-            printf("none (nothing visible needs it)");
+            printf("%s", none[p->tile_state[light][i]]);
             continue;
         }
         printf("%dx%d", size[0], size[1]);
-        if (p->tile_pixels[light][i] > 0) printf(" (worth %.0f pixels", p->tile_pixels[light][i]);
-        if (turn) printf("; turned by %d/32 about the light", turn);
-        if (p->tile_pixels[light][i] > 0) printf(")");
+        if (worth > 0) printf(" (worth %.*f pixels", worth < 10 ? 2 : 0, worth);
+        if (turn) printf("%sturned by %d/32 about the light", worth > 0 ? "; " : " (", turn);
+        if (worth > 0 || turn) printf(")");
     }
     printf("\n");
+}
+
+/* Why a light has no shadow map. */
+static const char *refusal(const scene_light *l, gn_shadow_state state)
+{
+    if (state == GN_SHADOW_NO_ROOM) return "no room for its shadow: its atlas has too few tiles left";
+    if (state == GN_SHADOW_NO_CASTER) return "no shadow: within its range nothing casts, or nothing receives";
+    return l->mode == SCENE_BAKED ? "no shadow: it is baked" : "no shadow: none is requested";
 }
 
 static void text_own_bias(const scene_light *l)
@@ -244,11 +262,10 @@ static void text_light(const report *r, size_t i)
     int n = r->picture->n_tiles[i], t = r->picture->atlas_texels[i];
     printf("    %zu '%s': %s, ", i, l->name, kind_names[l->kind]);
     if (l->mode != SCENE_REALTIME) printf("%s, ", mode_names[l->mode]);
-    if (r->picture->shadow_state[i] == GN_SHADOW_REALTIME && differ(r->picture, i)) text_tiles(r->picture, i);
+    if (r->picture->shadow_state[i] == GN_SHADOW_REALTIME && differ(r->picture, i)) text_tiles(r->picture, i, l->kind);
     else if (r->picture->shadow_state[i] == GN_SHADOW_REALTIME)
         printf("%d shadow tile%s of %dx%d\n", n, n == 1 ? "" : "s", t, t);
-    else if (r->picture->shadow_state[i] == GN_SHADOW_NO_ROOM) printf("no room for its shadow\n");
-    else printf("no shadow\n");
+    else printf("%s\n", refusal(l, r->picture->shadow_state[i]));
     if (r->picture->shadow_state[i] == GN_SHADOW_REALTIME) text_bias(l, i);
 }
 

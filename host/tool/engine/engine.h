@@ -30,9 +30,9 @@ typedef struct {
                  [ENGINE_TILES_MAX]; /* light depth 0..1 of each tile, 1 = empty; NULL: no tile, or an empty slice */
     /* of the library only */
     gn_shadow_state shadow_state[ENGINE_LIGHTS_MAX];
-    /* of each tile, where fits are tight or tiles by worth */
-    double tile_pixels[ENGINE_LIGHTS_MAX][ENGINE_TILES_MAX]; /* what it is worth */
-    int tile_turn[ENGINE_LIGHTS_MAX][ENGINE_TILES_MAX];      /* about the light, 32nds of a turn */
+    gn_tile_state tile_state[ENGINE_LIGHTS_MAX][ENGINE_TILES_MAX];
+    double tile_worth[ENGINE_LIGHTS_MAX][ENGINE_TILES_MAX]; /* pixels, which decide its size; 0: they do not */
+    int tile_turn[ENGINE_LIGHTS_MAX][ENGINE_TILES_MAX];     /* of a tight fit about the light, 32nds of a turn */
     gn_stats stats;
     count_all counts; /* of drawing rgb8 */
     settings_demand demand;

@@ -167,12 +167,14 @@ static double depth_of(const gn_tile_info *tile, size_t i)
 static int copy_tile(const job *j, engine_picture *out, size_t light, size_t idx, int what)
 {
     gn_tile_info info;
-    if (!j->lib->get_shadow_tile(j->renderer, (uint32_t)light, (uint32_t)idx, &info)) return 0;
+    const uint32_t texels = j->lib->get_shadow_tile(j->renderer, (uint32_t)light, (uint32_t)idx, &info);
+    out->tile_state[light][idx] = info.state;
+    out->tile_worth[light][idx] = (double)info.worth_q16 / 65536;
+    if (!texels) return 0;
     const size_t n = (size_t)info.texels * info.rows;
     out->tile_size[light][idx][0] = (int)info.texels;
     out->tile_size[light][idx][1] = (int)info.rows;
-    j->lib->judge_tile(j->renderer, (uint32_t)light, (uint32_t)idx, &out->tile_pixels[light][idx],
-                       &out->tile_turn[light][idx]);
+    out->tile_turn[light][idx] = j->lib->get_turn(j->renderer, (uint32_t)light, (uint32_t)idx);
     if (what != ENGINE_ALL) return 0;
     double *tile = malloc(n * sizeof *tile);
     out->atlas[light][idx] = tile;

@@ -66,11 +66,11 @@ static uint32_t get_shadow_tile(const void *renderer, uint32_t light_idx, uint32
     return gn_get_shadow_tile(renderer, light_idx, view_idx, info);
 }
 
-/* The initialiser of a library; the including file has judge_tile and get_demand of its own. */
+/* The initialiser of a library; the including file has get_turn and get_demand of its own. */
 #define LIBRARY_CALLS                                                                                                  \
     {                                                                                                                  \
         sizeof(gn_renderer), begin, render, prepare, screen_tiles, forget_shadows, get_stats, get_detail,              \
-            get_light_shadow, get_shadow_tile, judge_tile, get_demand                                                  \
+            get_light_shadow, get_shadow_tile, get_turn, get_demand                                                    \
     }
 
 #endif

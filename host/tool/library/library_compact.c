@@ -14,11 +14,10 @@
 #include "gnomon.c"
 #include "library_calls.h"
 
-static void judge_tile(const void *renderer, uint32_t light_idx, uint32_t view_idx, double *worth_px, int *turn)
+static int get_turn(const void *renderer, uint32_t light_idx, uint32_t view_idx)
 {
     (void)renderer, (void)light_idx, (void)view_idx;
-    *worth_px = 0;
-    *turn = 0;
+    return 0;
 }
 
 /* Screen tiles have no references to triangles, and the one shadow tile is the whole atlas. */

@@ -2,15 +2,10 @@
 #include "library_calls.h"
 #include "shadow/gn_tiles.h"
 
-static void judge_tile(const void *renderer, uint32_t light_idx, uint32_t view_idx, double *worth_px, int *turn)
+static int get_turn(const void *renderer, uint32_t light_idx, uint32_t view_idx)
 {
     const gn_frame *frame = &((const gn_renderer *)renderer)->frame;
-    const size_t view = (size_t)frame->light[light_idx].view_idx + view_idx;
-    const gn_shadow_settings *shadow = &frame->scene->shadow;
-    *worth_px = 0;
-    if (shadow->fit == GN_FIT_TIGHT || shadow->tile_sizes == GN_TILES_WORTH)
-        *worth_px = (double)frame->seen[view].worth_q16 / 65536.0;
-    *turn = frame->view[view].turn;
+    return frame->view[(uint32_t)frame->light[light_idx].view_idx + view_idx].turn;
 }
 
 /* The most lights that some object's surfaces take: all directional ones, and those of its list. */
