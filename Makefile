@@ -100,7 +100,7 @@ dist: ## the packages that docs/FIRMWARE.md lists: build/dist/gnomon-VERSION.tar
 test-packages: ## of make test: what make dist packs, built with the tools of each ecosystem: CMake, Arduino
 	@sh tests/tool/test_packages.sh
 
-docs: $(BUILD)/gnomon $(addprefix $(BUILD)/test_,stages casters radiance punctual accuracy bias contact census rows seams crawl flicker kept culling lists changes extremes extremes_light extremes_many) ## regenerate the generated parts of docs/
+docs: $(BUILD)/gnomon $(addprefix $(BUILD)/test_,stages casters radiance punctual accuracy bias contact census rows seams crawl circle flicker kept culling lists changes extremes extremes_light extremes_many) ## regenerate the generated parts of docs/
 	@sh docs/generate.sh $(BUILD)/gnomon
 
 matrix: $(BUILD)/gnomon ## measure what each feature costs on two cores, in some minutes: docs/data/MATRIX.md

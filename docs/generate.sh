@@ -53,7 +53,7 @@ sh docs/boards.sh "$out"
 sh docs/bake.sh "$tool" "$out"
 for part in extremes extremes_light extremes_many; do "$build/test_$part" --table; done >"$work/extremes"
 replace data/EXTREMES.md extremes "$work/extremes"
-for name in rows seams crawl flicker; do
+for name in rows seams crawl circle flicker; do
     "$build/test_$name" --table >"$work/$name"
     replace data/ACCURACY.md $name "$work/$name"
 done
