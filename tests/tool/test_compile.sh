@@ -63,6 +63,9 @@ same compact-avenue host/scenes/avenue.gltf 0 "--simplify none" --size 96x64 --s
 # [D12] boxes for the whole animation; what is open has none
 same cube-fits host/scenes/cube.gltf "9 0 48" "" --size 96x64 --set fit=compiled
 same mixed-fits host/scenes/mixed.gltf "24 0" "--simplify none" --size 96x64 --set preset=tiny --set fit=compiled
+# [A7] tiles by worth share fewer texels than the squares have
+same mixed-texels host/scenes/mixed.gltf "1 0" "--frames 0-1 --simplify none" --size 96x64 --set preset=tiny --set atlas_texels=2048 --set other_atlas_texels=1472
+grep -q '^#define GN_OTHER_ATLAS_TEXELS *1472 ' "$tmp/mixed-texels/gn_scene_config.h" && pass || fail "mixed-texels: $(grep TEXELS "$tmp/mixed-texels/gn_scene_config.h")"
 "$tool" compile host/scenes/cube.gltf --open -o "$tmp/open-fits" --size 96x64 --set fit=compiled >/dev/null 2>&1
 for name in cube:1 mixed:2; do
     grep -q "gn_fixed_fit fixed_fits\[${name#*:}\]" "$tmp/${name%:*}-fits/scene.c" && pass || fail "${name%:*}: there are not ${name#*:} boxes"
