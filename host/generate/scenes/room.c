@@ -9,7 +9,7 @@
 static const double left = -2.3, right = 2.3, back = -2.4, front = 2.6, height = 2.5;
 static const mesh_point bulb_at = {0.15, 1.5, -0.35};
 /* The light stands aside of the bulb's middle: from there a seam of the cube would run down the middle of the coat
- * stand's pole, whose halves are thinner than texels, and edges would lie on centres of texels. */
+ * stand's pole, whose halves are thinner than texels. */
 static const mesh_point light_from_bulb = {0.036, -0.012, 0.002};
 
 static void make_wall(mesh_builder *m, mesh_point a, mesh_point b, mesh_point c, mesh_point d)
