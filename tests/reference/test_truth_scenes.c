@@ -18,22 +18,40 @@ static double transmittance_at(const suspect *s, vec3 p)
                                s->light);
 }
 
-/* The world point at the depth of `moved`, in ref_to_light's coordinates, and the middle of a texel. */
-static vec3 texel_point(const ref_light_view *view, vec3 moved, double i, double j)
+/* The world point at distance z in ref_to_light's coordinates and the middle of a texel. */
+static vec3 texel_point(const ref_light_view *view, double z, double i, double j)
 {
     const vec3 u = as_vec3(view->axis[0]), v = as_vec3(view->axis[1]), w = as_vec3(view->axis[2]);
     if (!view->perspective) {
         const double f[3] = {(i + 0.5 + view->origin[0]) * view->texel, (j + 0.5 + view->origin[1]) * view->texel,
-                             (moved.z + view->origin[2]) * view->texel};
+                             (z + view->origin[2]) * view->texel};
         return vec3_mix(f, u, v, w);
     }
-    const double t = view->tile_texels, f[3] = {(2 * (i + 0.5) / t - 1) * view->t * moved.z,
-                                                (2 * (j + 0.5) / t - 1) * view->t * moved.z, moved.z};
+    const double t = view->tile_texels,
+                 f[3] = {(2 * (i + 0.5) / t - 1) * view->t * z, (2 * (j + 0.5) / t - 1) * view->t * z, z};
     return vec3_add(as_vec3(view->position), vec3_mix(f, u, v, w));
 }
 
+/* Per texel, by which a tap is compared deeper: B5's, or 0. B5 limits it for planes seen edge-on. */
+static vec2 tap_gradient(const suspect *s, const ref_light_view *view, vec3 unmoved)
+{
+    const vec3 f = s->at.face;
+    if (!s->light->receiver_plane) return (vec2){0, 0};
+    return ref_depth_gradient(view,
+                              (vec3){vec3_dot(f, as_vec3(view->axis[0])), vec3_dot(f, as_vec3(view->axis[1])),
+                                     vec3_dot(f, as_vec3(view->axis[2]))},
+                              unmoved);
+}
+
+/* Where the tap of a texel looks, in ref_to_light's z. Beyond infinity, the farthest. */
+static double tap_z(const ref_light_view *view, vec3 in_map, vec2 gradient, double i, double j)
+{
+    const double d = in_map.z + gradient.x * (i + 0.5 - in_map.x) + gradient.y * (j + 0.5 - in_map.y);
+    return view->perspective ? view->near / fmax(1 - d, 1e-6) : d;
+}
+
 /* With no bias in depth, what the map stores in a texel is where the true shadow begins on the ray through its middle,
- * and a tap says whether the point at the moved point's depth on that ray is in true shadow. All of these points lie as
+ * and a tap says whether the point at the tap's depth on that ray is in true shadow. All of these points lie as
  * near as the filter reaches and the receiver bias moves. If the light arrives at none of them otherwise than at the
  * visible point, the map has no right to say something else: there is no edge of the true shadow near. */
 static bool is_near_edge(const suspect *s, const ref_light_view *view)
@@ -43,9 +61,12 @@ static bool is_near_edge(const suspect *s, const ref_light_view *view)
     const double lift = ref_texel_at(view, unmoved) * (k + 1) * steep;
     const vec3 moved = ref_to_light(view, vec3_add(s->at.world, vec3_scale(s->at.interpolated, lift)));
     const vec3 in_map = ref_project(view, moved);
+    const vec2 gradient = tap_gradient(s, view, unmoved);
     for (double i = floor(in_map.x) - k - 1; i <= floor(in_map.x) + k + 1; i++)
-        for (double j = floor(in_map.y) - k - 1; j <= floor(in_map.y) + k + 1; j++)
-            if (fabs(transmittance_at(s, texel_point(view, moved, i, j)) - s->truth) > 1.0 / 64) return true;
+        for (double j = floor(in_map.y) - k - 1; j <= floor(in_map.y) + k + 1; j++) {
+            const vec3 p = texel_point(view, tap_z(view, in_map, gradient, i, j), i, j);
+            if (fabs(transmittance_at(s, p) - s->truth) > 1.0 / 64) return true;
+        }
     return false;
 }
 
