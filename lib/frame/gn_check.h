@@ -38,6 +38,7 @@ GN_STATIC_ASSERT(triangle_groups_have_tiles_from_16_pixels, /* gn_setup.c has a 
                  !(GN_TRIANGLE_GROUPS) || (GN_TILE_WIDTH) * (GN_TILE_HEIGHT) >= 16);
 GN_STATIC_ASSERT(transparent_layers_need_visible_alpha, !(GN_TRANSPARENT_LAYERS) || (GN_VISIBLE_ALPHA));
 
+
 /* Compact arithmetic: its features are shadows, optionally automatic bias and validation. Clipping is always built. */
 #define GN_COMPACT_IS_(condition) (!GN_COMPACT || (condition))
 GN_STATIC_ASSERT(compact_has_pictures_up_to_256, GN_COMPACT_IS_(GN_MAX_WIDTH <= 256 && GN_MAX_HEIGHT <= 256));

@@ -197,10 +197,10 @@ GN_HOT static inline int32_t deepest_q30(const receiver_plane *r, int axis, int3
 
 /* Whether no texel that receivers read is nearer to the light than any of them: (k + 1) texels around each. Depths are
  * below 2^30 with the margin: below 2^31 in all. */
-GN_HOT static int texels_behind(const gn_light_view *view, const receiver_plane *r, const int32_t first[2],
+GN_HOT static int texels_behind(const gn_light_view *view, const receiver_plane *r, int32_t k, const int32_t first[2],
                                 const int32_t last[2])
 {
-    const int32_t reach_q16 = (view->filter_idx + 1) << 16, bits = GN_VIEW_BITS(view), n = last[0] - first[0] + 1;
+    const int32_t reach_q16 = (k + 1) << 16, bits = GN_VIEW_BITS(view), n = last[0] - first[0] + 1;
     const int32_t most_q30 = r->hi[2] + r->margin_q30, from_q30 = r->p->at[2][0] + r->margin_q30;
     if (most_q30 <= 0) return 1;
     const uint32_t most = (uint32_t)most_q30 << 2;
@@ -234,7 +234,7 @@ GN_HOT static inline int hides_vertex(const gn_light_view *view, const vertex_pl
 GN_HOT static GN_NOINLINE int plane_is_lit(const gn_frame *frame, const gn_light_view *view, receiver_plane *r,
                                            int64_t slope_q30)
 {
-    const int32_t k = view->filter_idx, end[2] = {view->tile_texels - 1, GN_TILE_ROWS(view) - 1},
+    const int32_t k = GN_VIEW_REACH(frame, view), end[2] = {view->tile_texels - 1, GN_TILE_ROWS(view) - 1},
                   dropped = gn_dropped_bits(frame, view);
     int32_t first[2], last[2];
     for (int i = 0; i < 2; i++) {
@@ -250,7 +250,7 @@ GN_HOT static GN_NOINLINE int plane_is_lit(const gn_frame *frame, const gn_light
     r->hi[2] += (int32_t)(steep >> 3);
     if (margin >> 29 || r->lo[2] < -(1 << 28) || r->hi[2] >> 29) return 0;
     r->margin_q30 = (int32_t)margin;
-    return texels_behind(view, r, first, last);
+    return texels_behind(view, r, k, first, last);
 }
 
 /* What depth bounds of the texels say of all pixels between the vertices: GN_CELL_SPLIT if that does not fit. */
@@ -268,7 +268,8 @@ GN_HOT static int judge(const gn_frame *frame, const gn_light_view *view, const 
     if (lo[2] <= limit && hi[2] > limit) return GN_CELL_SPLIT;
     if ((gn_abs32(lo[0]) | gn_abs32(hi[0]) | gn_abs32(lo[1]) | gn_abs32(hi[1])) >> 27) return GN_CELL_SPLIT;
     if (view->filter == GN_FILTER_DISK) return GN_CELL_EDGE;
-    int64_t slope = 4 * (int64_t)(view->filter_idx + 2) * ((int64_t)gn_abs32(slope_q28[0]) + gn_abs32(slope_q28[1]));
+    int64_t slope =
+        4 * (int64_t)(GN_VIEW_REACH(frame, view) + 2) * ((int64_t)gn_abs32(slope_q28[0]) + gn_abs32(slope_q28[1]));
     const gn_receiver_step a = {lo[0], lo[1], 2 * (int32_t)gn_clamp64(lo[2] - slope, -(1 << 29), (1 << 30) - 16384)},
                            b = {hi[0], hi[1], 2 * (int32_t)gn_clamp64(hi[2] + slope, -(1 << 29), (1 << 30) - 16384)};
     uint32_t attenuation;

@@ -85,12 +85,12 @@ GN_HOT static gn_window_place middle_of(const gn_window *window, const places *p
 enum { FEW_TEXELS = 20 };
 
 /* What a window says of all texels that are read between places. */
-GN_HOT static int verdict_of_window(gn_window *window, const places *p, const gn_receiver_step *lo,
-                                    const gn_receiver_step *hi, int may_compare)
+GN_HOT static int verdict_of_window(const gn_frame *frame, gn_window *window, const places *p,
+                                    const gn_receiver_step *lo, const gn_receiver_step *hi, int may_compare)
 {
     int32_t u0, v0, w, h;
-    gn_window_reads(p->view, lo->u_q16 - 16, hi->u_q16 + 1040, &u0, &w);
-    gn_window_reads(p->view, lo->v_q16 - 16, hi->v_q16 + 1040, &v0, &h);
+    gn_window_reads(frame, p->view, lo->u_q16 - 16, hi->u_q16 + 1040, &u0, &w);
+    gn_window_reads(frame, p->view, lo->v_q16 - 16, hi->v_q16 + 1040, &v0, &h);
     if (!gn_window_covers(window, u0, v0, w, h)) {
         const gn_window_place place = middle_of(window, p);
         if (!may_compare || (window->w && w + h <= FEW_TEXELS) || w > GN_WINDOW_TEXELS || h > GN_WINDOW_TEXELS)
@@ -131,19 +131,19 @@ GN_HOT static int verdict(const gn_lattice_cell *cell, uint32_t slot, uint32_t v
         }
         window = NULL;
     }
-    int said = window && window->planar > 0 ? verdict_of_window(window, p, &lo, &hi, 0) : GN_CELL_SPLIT;
+    int said = window && window->planar > 0 ? verdict_of_window(cell->frame, window, p, &lo, &hi, 0) : GN_CELL_SPLIT;
     if (said != GN_CELL_SPLIT) {
         p->window = window;
         return said;
     }
     int64_t slope = (int64_t)gn_abs32(slope_q28[0]) + gn_abs32(slope_q28[1]);
-    slope *= 4 * (p->view->filter_idx + 2);
+    slope *= 4 * (GN_VIEW_REACH(cell->frame, p->view) + 2);
     lo.depth_q31 = 2 * (int32_t)gn_clamp64(depth_lo - slope, -(1 << 29), (1 << 30) - 16384);
     hi.depth_q31 = 2 * (int32_t)gn_clamp64(depth_hi + slope, -(1 << 29), (1 << 30) - 16384);
     said = verdict_of_bounds(cell, p, &lo, &hi);
     if (said != GN_CELL_EDGE || !window) return said;
     if (window->planar < 0) window->w = 0;
-    said = verdict_of_window(window, p, &lo, &hi, 1);
+    said = verdict_of_window(cell->frame, window, p, &lo, &hi, 1);
     if (said == GN_CELL_SPLIT) return GN_CELL_EDGE;
     p->window = window;
     return said;
@@ -181,16 +181,16 @@ GN_HOT static int places_hold(const gn_lattice_cell *cell, places *p)
 
 /* Whether a texel that the cell reads is in doubt: it may be before the receiver here and behind it there, which is not
  * smooth. A window of the cell, where there is one, has all of these texels: verdict(). */
-GN_HOT static int touches(const places *p)
+GN_HOT static int touches(const gn_frame *frame, const places *p)
 {
     const gn_window *window = p->window;
     int32_t lo, hi, u0, v0, w, h;
     uint32_t some = 0;
     if (!window) return 1; /* not known */
     range_of(p->u, &lo, &hi);
-    gn_window_reads(p->view, lo - 16, hi + 1040, &u0, &w);
+    gn_window_reads(frame, p->view, lo - 16, hi + 1040, &u0, &w);
     range_of(p->v, &lo, &hi);
-    gn_window_reads(p->view, lo - 16, hi + 1040, &v0, &h);
+    gn_window_reads(frame, p->view, lo - 16, hi + 1040, &v0, &h);
     for (int32_t i = 0; i < h; i++) some |= window->doubt[v0 - window->v0 + i];
     return (some >> (u0 - window->u0) & UINT32_MAX >> (32 - w)) != 0;
 }
@@ -203,7 +203,7 @@ GN_HOT static int32_t lookup_spacing(const gn_lattice_cell *cell, const places *
     uint32_t across = u > v ? u : v, most = gn_cell_lookup_texels_q16(cell->frame, p->view);
     int32_t log2 = cell->size_log2;
     while (log2 > 0 && across > (uint64_t)most << (cell->size_log2 - log2)) log2--;
-    return log2 > 1 && touches(p) ? 0 : log2;
+    return log2 > 1 && touches(cell->frame, p) ? 0 : log2;
 }
 
 /* Adds a light whose shadow has an edge here, with a share of what it adds without shadow. Returns 0 if there is no

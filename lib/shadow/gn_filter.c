@@ -5,6 +5,7 @@
 #include "base/gn_hint.h"
 #include "base/gn_q.h"
 #include "shadow/gn_disk.h"
+#include "shadow/gn_edge.h"
 #include "shadow/gn_filter.h"
 #include "shadow/gn_lookup.h"
 #include "shadow/gn_tent.h"
@@ -75,10 +76,35 @@ GN_HOT static int32_t near_tile(int32_t c_q16)
     return (c_q16 < 0 ? -64 : 1088) * 65536 + (c_q16 & 0xFFFF);
 }
 
+#if GN_EDGE_BUILT
+/* The hard filter or 2x2 with edges finer than texels. Beyond the tile of a tight fit all is lit. [F7] */
+GN_HOT static GN_NOINLINE uint32_t edge_attenuation(const gn_frame *frame, const gn_lookup *l)
+{
+    const int32_t u = l->u_q16 >> 16, v = l->v_q16 >> 16, n = GN_K(frame, edge);
+    if (gn_border_lit(l->view) &&
+        ((uint32_t)u >= (uint32_t)l->view->tile_texels || (uint32_t)v >= (uint32_t)GN_TILE_ROWS(l->view)))
+        return 65536;
+    const uint32_t row = gn_lookup_dark(l, u - 1, v, 3);
+    const int reads = gn_edge_reads(gn_lookup_dark(l, u, v - 1, 1), row, gn_lookup_dark(l, u, v + 1, 1));
+    gn_edge_texels texels = {{0, 0, 0}, {0, 0, 0}};
+    if (!reads) return row & 2U ? 0 : 65536;
+    for (int32_t i = 0; reads & GN_EDGE_ROWS && i < 3; i++)
+        texels.row[i] = gn_lookup_dark(l, u - n, v - 1 + i, 2 * n + 1);
+    for (int32_t k = 0; reads & GN_EDGE_COLUMNS && k <= 2 * n; k++) {
+        const uint32_t three = gn_lookup_dark(l, u - 1, v - n + k, 3);
+        for (int32_t i = 0; i < 3; i++) texels.column[i] |= (three >> i & 1U) << k;
+    }
+    return gn_edge_attenuation(&texels, reads, n, l->u_q16, l->v_q16, l->view->filter == GN_FILTER_HARD);
+}
+#endif
+
 /* One texel, hard, unless another filter is set. [F1] */
 GN_HOT static uint32_t filtered(const gn_frame *frame, const gn_lookup *l, const gn_receiver *receiver)
 {
     const int32_t filter = l->view->filter;
+#if GN_EDGE_BUILT
+    if (GN_VIEW_EDGE(frame, l->view)) return edge_attenuation(frame, l);
+#endif
     if (GN_FILTER_MAX >= 1 && filter == GN_FILTER_2X2) return bilinear(l, GN_K(frame, weight_bits));
     if (GN_DISK_FILTER && filter == GN_FILTER_DISK) return gn_disk_attenuation(frame, l, receiver);
     if (GN_FILTER_MAX >= 2 && filter > GN_FILTER_2X2)
@@ -94,7 +120,7 @@ GN_HOT uint32_t gn_filter_attenuation(const gn_frame *frame, const gn_light_view
     l.u_q16 = near_tile(receiver->u_q16);
     l.v_q16 = near_tile(receiver->v_q16);
     l.least = gn_rounded_depth(receiver->depth_q32, dropped, gn_texel_far(GN_VIEW_BITS(view)));
-    if (GN_RECEIVER_PLANE) start_plane(&l, receiver, dropped);
+    if (GN_PLANES) start_plane(&l, receiver, dropped);
     uint32_t attenuation = filtered(frame, &l, receiver);
     return GN_K(frame, atten_bits) == 8 ? (attenuation + 128) & ~255U : attenuation;
 }

@@ -33,12 +33,12 @@ GN_HOT uint32_t gn_lookup_dark(const gn_lookup *l, int32_t u, int32_t v, int32_t
     GN_COUNT(taps_edge, 1);
     if (gn_border_lit(view) && in_v != v) return 0;
     gn_texels row = gn_view_texels(view, 0, in_v);
-    if (GN_RECEIVER_PLANE && l->sloped) return dark_on_plane(l, row, u, in_v, n);
+    if (GN_PLANES && l->sloped) return dark_on_plane(l, row, u, in_v, n);
     for (int32_t i = 0; i < n; i++) dark |= (uint32_t)is_dark(view, row, u + i, l->least) << i;
     return dark;
 }
 
-#if GN_RECEIVER_PLANE && !GN_SIZE_FIRST
+#if GN_PLANES && !GN_SIZE_FIRST
 GN_HOT int gn_lookup_on_plane(const gn_lookup *l, int32_t u, int32_t v, int32_t n, uint8_t *dark, uint32_t *found)
 {
     const gn_light_view *view = l->view;

@@ -54,6 +54,7 @@ void settings_compact_quality(settings *s)
     s->quality.persp_step = s->quality.newton_steps = 1;
     s->quality.shadow_depth_frac = 4;
     s->quality.weight_bits = 12;
+    s->quality.edge = 0;
     s->quality.vertex_light = 0;
 }
 
