@@ -24,12 +24,12 @@ GN_HOT static int64_t plane_rise_q44(int32_t slope_q28, int32_t tap_q16, int32_t
 }
 
 /* The depth that the first tap is compared with lies on the receiver's plane. [B5] */
-GN_HOT static GN_NOINLINE void start_plane(gn_lookup *l, const gn_receiver *receiver, int32_t dropped)
+GN_HOT static GN_NOINLINE void start_plane(gn_lookup *l, const gn_receiver *receiver, int32_t dropped, int always)
 {
     int32_t most = 2 << 28;
     l->slope_q28[0] = gn_max32(-most, gn_min32(receiver->slope_q28[0], most));
     l->slope_q28[1] = gn_max32(-most, gn_min32(receiver->slope_q28[1], most));
-    l->sloped = (l->slope_q28[0] | l->slope_q28[1]) != 0;
+    l->sloped = always || (l->slope_q28[0] | l->slope_q28[1]) != 0;
     l->least_q32 = 0;
     if (!l->sloped) return;
     int64_t x_q44 = (int64_t)receiver->depth_q32 * 4096 + plane_rise_q44(l->slope_q28[0], l->u_q16, receiver->u_q16) +
@@ -77,22 +77,51 @@ GN_HOT static int32_t near_tile(int32_t c_q16)
 }
 
 #if GN_EDGE_BUILT
+enum { EDGE_ROWS = 17 }; /* 2 * 8 + 1 */
+
+/* Rows of texels, a bit each that keeps the receiver dark. */
+GN_HOT static void read_rows(const gn_lookup *l, int32_t u, int32_t v, int32_t w, int32_t h, uint32_t *rows)
+{
+#if !GN_SIZE_FIRST
+    if (gn_lookup_rows_on_plane(l, u, v, w, h, rows)) return;
+#endif
+    for (int32_t j = 0; j < h; j++) rows[j] = gn_lookup_dark(l, u, v + j, w);
+}
+
+/* The texel of the receiver and its neighbours: rows of three. Returns 0 if all are alike: *attenuation. */
+GN_HOT static int read_neighbours(const gn_lookup *l, int32_t u, int32_t v, uint32_t three[3], uint32_t *attenuation)
+{
+#if !GN_SIZE_FIRST
+    uint8_t dark[3];
+    uint32_t found;
+    if (gn_lookup_on_plane(l, u - 1, v - 1, 3, dark, &found)) {
+        *attenuation = found & 7U ? 0 : 65536;
+        if (!(found & 7U) || found >> 16 == 7U) return 0;
+        for (int i = 0; i < 3; i++) three[i] = dark[i];
+        return 1;
+    }
+#endif
+    for (int32_t i = 0; i < 3; i++) three[i] = gn_lookup_dark(l, u - 1, v - 1 + i, 3);
+    return 1;
+}
+
 /* The hard filter or 2x2 with edges finer than texels. Beyond the tile of a tight fit all is lit. [F7] */
 GN_HOT static GN_NOINLINE uint32_t edge_attenuation(const gn_frame *frame, const gn_lookup *l)
 {
     const int32_t u = l->u_q16 >> 16, v = l->v_q16 >> 16, n = GN_K(frame, edge);
+    uint32_t rows[EDGE_ROWS], attenuation;
     if (gn_border_lit(l->view) &&
         ((uint32_t)u >= (uint32_t)l->view->tile_texels || (uint32_t)v >= (uint32_t)GN_TILE_ROWS(l->view)))
         return 65536;
-    const uint32_t row = gn_lookup_dark(l, u - 1, v, 3);
-    const int reads = gn_edge_reads(gn_lookup_dark(l, u, v - 1, 1), row, gn_lookup_dark(l, u, v + 1, 1));
+    if (!read_neighbours(l, u, v, rows, &attenuation)) return attenuation;
+    const int reads = gn_edge_reads(rows[0] >> 1, rows[1], rows[2] >> 1);
     gn_edge_texels texels = {{0, 0, 0}, {0, 0, 0}};
-    if (!reads) return row & 2U ? 0 : 65536;
-    for (int32_t i = 0; reads & GN_EDGE_ROWS && i < 3; i++)
-        texels.row[i] = gn_lookup_dark(l, u - n, v - 1 + i, 2 * n + 1);
-    for (int32_t k = 0; reads & GN_EDGE_COLUMNS && k <= 2 * n; k++) {
-        const uint32_t three = gn_lookup_dark(l, u - 1, v - n + k, 3);
-        for (int32_t i = 0; i < 3; i++) texels.column[i] |= (three >> i & 1U) << k;
+    if (!reads) return rows[1] & 2U ? 0 : 65536;
+    if (reads & GN_EDGE_ROWS) read_rows(l, u - n, v - 1, 2 * n + 1, 3, texels.row);
+    if (reads & GN_EDGE_COLUMNS) {
+        read_rows(l, u - 1, v - n, 3, 2 * n + 1, rows);
+        for (int32_t k = 0; k <= 2 * n; k++)
+            for (int32_t i = 0; i < 3; i++) texels.column[i] |= (rows[k] >> i & 1U) << k;
     }
     return gn_edge_attenuation(&texels, reads, n, l->u_q16, l->v_q16, l->view->filter == GN_FILTER_HARD);
 }
@@ -120,7 +149,7 @@ GN_HOT uint32_t gn_filter_attenuation(const gn_frame *frame, const gn_light_view
     l.u_q16 = near_tile(receiver->u_q16);
     l.v_q16 = near_tile(receiver->v_q16);
     l.least = gn_rounded_depth(receiver->depth_q32, dropped, gn_texel_far(GN_VIEW_BITS(view)));
-    if (GN_PLANES) start_plane(&l, receiver, dropped);
+    if (GN_PLANES) start_plane(&l, receiver, dropped, GN_VIEW_EDGE(frame, view));
     uint32_t attenuation = filtered(frame, &l, receiver);
     return GN_K(frame, atten_bits) == 8 ? (attenuation + 128) & ~255U : attenuation;
 }

@@ -76,6 +76,9 @@ uint32_t gn_lookup_dark(const gn_lookup *l, int32_t u, int32_t v, int32_t n);
 /* The same of n x n texels on the receiver's plane: a byte per row; *found: the OR of all rows, and in the upper half
  * their AND. Returns 0 if a texel lies outside the tile, or the plane outside what texels hold. */
 int gn_lookup_on_plane(const gn_lookup *l, int32_t u, int32_t v, int32_t n, uint8_t *dark, uint32_t *found);
+
+/* The same of w x h texels, up to 32 in a row. */
+int gn_lookup_rows_on_plane(const gn_lookup *l, int32_t u, int32_t v, int32_t w, int32_t h, uint32_t *rows);
 #endif
 
 /* A tap of the hard filter, the disk or 2x2 at the border: 1 if it is lit. */
