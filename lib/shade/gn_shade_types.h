@@ -244,7 +244,8 @@ typedef struct {
 /* A light whose shadow has an edge in the cell. */
 typedef struct {
     const gn_light_view *view;
-    const gn_window *window; /* NULL: none */
+    gn_window *window; /* NULL: none */
+    int follows;
     uint8_t slot, view_idx;
     uint8_t bent; /* rows are placed each for itself */
     gn_patch u_q16, v_q16, depth_q30;

@@ -79,51 +79,45 @@ GN_HOT static int32_t near_tile(int32_t c_q16)
 #if GN_EDGE_BUILT
 enum { EDGE_ROWS = 17 }; /* 2 * 8 + 1 */
 
-/* Rows of texels, a bit each that keeps the receiver dark. */
-GN_HOT static void read_rows(const gn_lookup *l, int32_t u, int32_t v, int32_t w, int32_t h, uint32_t *rows)
+/* Rows of texels, a bit each that keeps the receiver dark, from bit `at` on. */
+GN_HOT static void read_rows(const gn_lookup *l, int32_t u, int32_t v, int32_t w, int32_t h, int32_t at, uint32_t *rows)
 {
 #if !GN_SIZE_FIRST
-    if (gn_lookup_rows_on_plane(l, u, v, w, h, rows)) return;
+    if (gn_lookup_rows_on_plane(l, u, v, w, h, at, rows)) return;
 #endif
-    for (int32_t j = 0; j < h; j++) rows[j] = gn_lookup_dark(l, u, v + j, w);
+    for (int32_t j = 0; j < h; j++) rows[j] = gn_lookup_dark(l, u, v + j, w) << at;
 }
 
-/* The texel of the receiver and its neighbours: rows of three. Returns 0 if all are alike: *attenuation. */
-GN_HOT static int read_neighbours(const gn_lookup *l, int32_t u, int32_t v, uint32_t three[3], uint32_t *attenuation)
+/* The texel and its neighbours: gn_lookup_cross_on_plane(). */
+GN_HOT static uint32_t read_cross(const gn_lookup *l, int32_t u, int32_t v)
 {
+    uint32_t dark, rows[3];
 #if !GN_SIZE_FIRST
-    uint8_t dark[3];
-    uint32_t found;
-    if (gn_lookup_on_plane(l, u - 1, v - 1, 3, dark, &found)) {
-        *attenuation = found & 7U ? 0 : 65536;
-        if (!(found & 7U) || found >> 16 == 7U) return 0;
-        for (int i = 0; i < 3; i++) three[i] = dark[i];
-        return 1;
-    }
+    if (gn_lookup_cross_on_plane(l, u, v, &dark)) return dark;
 #endif
-    for (int32_t i = 0; i < 3; i++) three[i] = gn_lookup_dark(l, u - 1, v - 1 + i, 3);
-    return 1;
+    for (int32_t i = 0; i < 3; i++) rows[i] = gn_lookup_dark(l, u - 1, v - 1 + i, 3);
+    dark = (rows[1] >> 1 & 1U) | (rows[0] & 2U) | (rows[2] & 2U) << 1 | (rows[1] & 1U) << 3 | (rows[1] & 4U) << 2;
+    return dark;
 }
 
 /* The hard filter or 2x2 with edges finer than texels. Beyond the tile of a tight fit all is lit. [F7] */
 GN_HOT static GN_NOINLINE uint32_t edge_attenuation(const gn_frame *frame, const gn_lookup *l)
 {
     const int32_t u = l->u_q16 >> 16, v = l->v_q16 >> 16, n = GN_K(frame, edge);
-    uint32_t rows[EDGE_ROWS], attenuation;
+    uint32_t rows[EDGE_ROWS], *row = &rows[n];
     if (gn_border_lit(l->view) &&
         ((uint32_t)u >= (uint32_t)l->view->tile_texels || (uint32_t)v >= (uint32_t)GN_TILE_ROWS(l->view)))
         return 65536;
-    if (!read_neighbours(l, u, v, rows, &attenuation)) return attenuation;
-    const int reads = gn_edge_reads(rows[0] >> 1, rows[1], rows[2] >> 1);
-    gn_edge_texels texels = {{0, 0, 0}, {0, 0, 0}};
-    if (!reads) return rows[1] & 2U ? 0 : 65536;
-    if (reads & GN_EDGE_ROWS) read_rows(l, u - n, v - 1, 2 * n + 1, 3, texels.row);
-    if (reads & GN_EDGE_COLUMNS) {
-        read_rows(l, u - 1, v - n, 3, 2 * n + 1, rows);
-        for (int32_t k = 0; k <= 2 * n; k++)
-            for (int32_t i = 0; i < 3; i++) texels.column[i] |= (rows[k] >> i & 1U) << k;
+    const uint32_t cross = read_cross(l, u, v), own = 0U - (cross & 1U), differ = (cross ^ own) & 30U;
+    const int by_row = (differ & 6U) != 0, by_column = (differ & 24U) != 0;
+    if (!differ) return own ? 0 : 65536;
+    if (!by_row) read_rows(l, u - 1, v - 1, 3, 3, n - 1, row - 1);
+    if (by_row) read_rows(l, u - n, v - 1, 2 * n + 1, 3, 0, row - 1);
+    if (by_column && n > 1) {
+        read_rows(l, u - 1, v - n, 3, n - 1, n - 1, rows);
+        read_rows(l, u - 1, v + 2, 3, n - 1, n - 1, row + 2);
     }
-    return gn_edge_attenuation(&texels, reads, n, l->u_q16, l->v_q16, l->view->filter == GN_FILTER_HARD);
+    return gn_edge_attenuation(row, n, n, l->u_q16, l->v_q16, l->view->filter == GN_FILTER_HARD);
 }
 #endif
 

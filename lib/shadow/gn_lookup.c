@@ -90,7 +90,29 @@ GN_HOT int gn_lookup_on_plane(const gn_lookup *l, int32_t u, int32_t v, int32_t 
 }
 
 #if GN_EDGE_BUILT
-GN_HOT int gn_lookup_rows_on_plane(const gn_lookup *l, int32_t u, int32_t v, int32_t w, int32_t h, uint32_t *rows)
+GN_HOT int gn_lookup_cross_on_plane(const gn_lookup *l, int32_t u, int32_t v, uint32_t *dark)
+{
+    const gn_light_view *view = l->view;
+    const int32_t bits = GN_VIEW_BITS(view), pitch = view->tile_texels;
+    if (u < 1 || v < 1 || u > pitch - 2 || v > GN_TILE_ROWS(view) - 2) return 0;
+    const uint32_t steep = gn_abs32(l->slope_q28[0]) | gn_abs32(l->slope_q28[1]), most = 32 * steep;
+    if (steep >> 25 || l->least_q32 >> 32) return 0;
+    const uint32_t least = (uint32_t)l->least_q32;
+    if (least < most || least > gn_texel_far(bits) - most) return 0;
+    const uint32_t across = (uint32_t)l->slope_q28[0] * 16, down = (uint32_t)l->slope_q28[1] * 16;
+    const gn_texels above = gn_view_texels(view, u, v - 1), row = gn_texels_at(above, bits, (size_t)pitch - 1),
+                    below = gn_texels_at(row, bits, (size_t)pitch + 1);
+    GN_COUNT(taps_lone, 5);
+    *dark = (uint32_t)(gn_texel_load(row, bits, 1) < least) |
+            (uint32_t)(gn_texel_load(above, bits, 0) < least - down) << 1 |
+            (uint32_t)(gn_texel_load(below, bits, 0) < least + down) << 2 |
+            (uint32_t)(gn_texel_load(row, bits, 0) < least - across) << 3 |
+            (uint32_t)(gn_texel_load(row, bits, 2) < least + across) << 4;
+    return 1;
+}
+
+GN_HOT int gn_lookup_rows_on_plane(const gn_lookup *l, int32_t u, int32_t v, int32_t w, int32_t h, int32_t at,
+                                   uint32_t *rows)
 {
     const int32_t bits = GN_VIEW_BITS(l->view);
     int64_t lo, hi;
@@ -98,7 +120,7 @@ GN_HOT int gn_lookup_rows_on_plane(const gn_lookup *l, int32_t u, int32_t v, int
     uint32_t least = (uint32_t)gn_least_on_plane(l, u, v);
     gn_texels row = gn_view_texels(l->view, u, v);
     for (uint32_t *end = rows + h; rows < end; rows++, least += (uint32_t)l->slope_q28[1] * 16) {
-        *rows = before_plane(row, bits, w, least, (uint32_t)l->slope_q28[0] * 4);
+        *rows = before_plane(row, bits, w, least, (uint32_t)l->slope_q28[0] * 4) << at;
         row = gn_texels_at(row, bits, (size_t)l->view->tile_texels);
     }
     return 1;

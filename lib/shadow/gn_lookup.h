@@ -77,8 +77,11 @@ uint32_t gn_lookup_dark(const gn_lookup *l, int32_t u, int32_t v, int32_t n);
  * their AND. Returns 0 if a texel lies outside the tile, or the plane outside what texels hold. */
 int gn_lookup_on_plane(const gn_lookup *l, int32_t u, int32_t v, int32_t n, uint8_t *dark, uint32_t *found);
 
-/* The same of w x h texels, up to 32 in a row. */
-int gn_lookup_rows_on_plane(const gn_lookup *l, int32_t u, int32_t v, int32_t w, int32_t h, uint32_t *rows);
+/* The same of the texel that the lookup lies in, bit 0, and those before and after it: in its column, in its row. */
+int gn_lookup_cross_on_plane(const gn_lookup *l, int32_t u, int32_t v, uint32_t *dark);
+
+/* The same of w x h texels, bits of a row from bit `at` on. */
+int gn_lookup_rows_on_plane(const gn_lookup *l, int32_t u, int32_t v, int32_t w, int32_t h, int32_t at, uint32_t *rows);
 #endif
 
 /* A tap of the hard filter, the disk or 2x2 at the border: 1 if it is lit. */

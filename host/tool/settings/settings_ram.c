@@ -121,7 +121,8 @@ static long lattice_bytes(const settings *s)
     if (s->feature.shadows && s->feature.punctual_lights) put(&all, 8, 68, 4); /* forms */
     put(&all, s->capacity.surface_lights, 12, 4);                              /* light */
     put(&all, 1, 200, 4);                                                      /* face_q30 to bits */
-    if (s->feature.shadows && (s->feature.receiver_plane || s->quality.edge)) put(&all, 4, 4, 4); /* slope_view to slope_h_q14 */
+    if (s->feature.shadows && (s->feature.receiver_plane || s->quality.edge))
+        put(&all, 4, 4, 4); /* slope_view to slope_h_q14 */
     const long corners = 12 * corner_bytes(s), facet = facet_bytes(s);
     put(&all, 1, corners > facet ? corners : facet, 4); /* from */
     put(&all, 1, corner_bytes(s), 4);
