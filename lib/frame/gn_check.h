@@ -38,7 +38,6 @@ GN_STATIC_ASSERT(triangle_groups_have_tiles_from_16_pixels, /* gn_setup.c has a 
                  !(GN_TRIANGLE_GROUPS) || (GN_TILE_WIDTH) * (GN_TILE_HEIGHT) >= 16);
 GN_STATIC_ASSERT(transparent_layers_need_visible_alpha, !(GN_TRANSPARENT_LAYERS) || (GN_VISIBLE_ALPHA));
 
-
 /* Compact arithmetic: its features are shadows, optionally automatic bias and validation. Clipping is always built. */
 #define GN_COMPACT_IS_(condition) (!GN_COMPACT || (condition))
 GN_STATIC_ASSERT(compact_has_pictures_up_to_256, GN_COMPACT_IS_(GN_MAX_WIDTH <= 256 && GN_MAX_HEIGHT <= 256));
@@ -48,8 +47,8 @@ GN_STATIC_ASSERT(compact_has_an_atlas_up_to_256, GN_COMPACT_IS_(GN_ATLAS_SIZE <=
 GN_STATIC_ASSERT(compact_has_no_lights_but_directional_ones,
                  GN_COMPACT_IS_(!GN_PUNCTUAL_LIGHTS && !GN_MAIN_LIGHT && !GN_TILE_LIGHTS && !GN_MASKS &&
                                 !GN_BAKED_LIGHT));
-GN_STATIC_ASSERT(compact_has_the_hard_filter,
-                 GN_COMPACT_IS_(!GN_FILTER_MAX && !GN_DISK_FILTER && !GN_LINEAR_KERNELS && !GN_DEPTH_BLOCKS));
+GN_STATIC_ASSERT(compact_has_the_hard_filter, GN_COMPACT_IS_(!(GN_EDGE) && !GN_FILTER_MAX && !GN_DISK_FILTER &&
+                                                             !GN_LINEAR_KERNELS && !GN_DEPTH_BLOCKS));
 GN_STATIC_ASSERT(compact_has_one_cascade, GN_COMPACT_IS_(!GN_MANY_CASCADES && !GN_BLENDED_CASCADES &&
                                                          !GN_CASTER_CULLING && !GN_TILE_IMPORTANCE && !GN_TIGHT_FIT));
 GN_STATIC_ASSERT(compact_has_flat_colours,
