@@ -38,6 +38,7 @@
 #define GN_PRESETS_SHADOW_SUBPIXEL_BITS 8, 10, 10, 12
 #define GN_PRESETS_SHADOW_DEPTH_FRAC    0, 4, 4, 4
 #define GN_PRESETS_WEIGHT_BITS          6, 8, 8, 12
+#define GN_PRESETS_EDGE                 0, 0, 0, 0
 #define GN_PRESETS_ATTEN_BITS           8, 16, 16, 16
 #define GN_PRESETS_ATLAS_SIZE           64, 128, 128, 256
 #define GN_PRESETS_OTHER_ATLAS_SIZE     64, 128, 128, 256
@@ -69,6 +70,9 @@
 #endif
 #ifndef GN_WEIGHT_BITS
 #define GN_WEIGHT_BITS GN_PICK(GN_PRESETS_WEIGHT_BITS)
+#endif
+#ifndef GN_EDGE
+#define GN_EDGE GN_PICK(GN_PRESETS_EDGE)
 #endif
 #ifndef GN_ATTEN_BITS
 #define GN_ATTEN_BITS GN_PICK(GN_PRESETS_ATTEN_BITS)
@@ -313,6 +317,12 @@
 #else
 #define GN_LAYERS_MAX (GN_TRANSPARENT_LAYERS)
 #endif
+
+/* Whether edges may be finer than texels. */
+#define GN_EDGE_BUILT (GN_SHADOWS && !GN_COMPACT && (GN_RUNTIME_KNOBS || GN_EDGE))
+
+/* Whether taps may be compared with the receiver's plane. */
+#define GN_PLANES (GN_RECEIVER_PLANE || GN_EDGE_BUILT)
 
 /* Whether textures may say where it is emitted. */
 #define GN_GLOW_TEXTURES (GN_EMISSIVE && GN_TEXTURES && GN_EMISSIVE_TEXTURES)

@@ -23,6 +23,10 @@
     X(shadow_depth_frac, SHADOW_DEPTH_FRAC, 0, 4, "fraction bits of the receiver's depth below one depth step",        \
       "none")                                                                                                          \
     X(weight_bits, WEIGHT_BITS, 4, 12, "fraction bits of filter positions", "none")                                    \
+    X(edge, EDGE, 0, 8,                                                                                                \
+      "edges finer than a texel, of the hard filter and 2x2: texels along which outlines are followed each way; 0: "   \
+      "edges are those of texels",                                                                                     \
+      "flash; instructions at edges; taps compare with the receiver's plane")                                          \
     X(atten_bits, ATTEN_BITS, 8, 16, "bits of attenuation (8 or 16)", "none")                                          \
     X(atlas_size, ATLAS_SIZE, 16, 1024, "texels per side of the directional atlas, a power of two",                    \
       "depth_bits / 8 bytes per texel of RAM, and the time to fill them")                                              \

@@ -83,6 +83,7 @@
 #include "shadow/gn_atlas.c"
 #include "shadow/gn_caster.c"
 #include "shadow/gn_cull.c"
+#include "shadow/gn_edge.c"
 #include "shadow/gn_filter.c"
 #include "shadow/gn_light_views.c"
 #include "shadow/gn_lookup.c"

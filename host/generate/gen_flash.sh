@@ -69,6 +69,7 @@ for feature in $features; do
     case " $typical FILTER_MAX " in *" $feature "*) continue ;; esac
     row $(echo $feature | tr A-Z a-z) "with" $(flags $typical $feature)
 done
+row edge "edge 4" $(flags $typical) -DGN_EDGE=4
 row preset_accurate "quality of preset accurate" $(flags $typical) -DGN_PRESET=GN_PRESET_ACCURATE
 row accurate_unshadowed "the same without shadows" $(flags VERTEX_NORMALS) -DGN_PRESET=GN_PRESET_ACCURATE
 row linear "srgb 0" $(flags $typical) -DGN_SRGB=0

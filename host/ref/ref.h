@@ -27,6 +27,7 @@ typedef struct {
      */
     int shadow_subpixel_bits, weight_bits, depth_bits, other_depth_bits, shadow_depth_frac, newton_steps;
     double unit;            /* its smallest step of length */
+    int edge;               /* texels along which outlines are followed [F7]; 0: not */
     int transparent_layers; /* surfaces of alpha mode blend that are mixed; 0: they are dithered */
 } ref_options;
 
@@ -140,6 +141,7 @@ typedef struct {
     scene_kernel kernel;
     int disk_samples;   /* n */
     int x, y;           /* of the pixel: the disk's rotation */
+    int edge;           /* N of F7; 0: off */
     double gradient[2]; /* of the receiver's depth, per texel along U and V; 0: off */
 } ref_lookup;
 

@@ -83,6 +83,55 @@ static double separable(const ref_light_view *view, const ref_lookup *how, vec3 
     return fmin(sum, 1.0);
 }
 
+/* ---- edges finer than texels [F7] ---- */
+
+/* How far the outline lies inside of the side to (di, dj) of texel (i, j), f along it. */
+static double outline(const ref_light_view *view, const ref_lookup *how, vec3 p, const int texel[2], const int side[2],
+                      double f)
+{
+    const double s = compare(view, how, p, texel[0], texel[1]);
+    const int along[2] = {side[0] == 0, side[1] == 0};
+    int length[2];
+    double h[2];
+    for (int e = 0; e < 2; e++) {
+        double own = s, other = 1.0 - s;
+        int k = 0;
+        while (k < how->edge && own == s && other != s) {
+            k++;
+            const int way = e == 0 ? -k : k, i = texel[0] + way * along[0], j = texel[1] + way * along[1];
+            own = compare(view, how, p, i, j);
+            other = compare(view, how, p, i + side[0], j + side[1]);
+        }
+        const bool goes_on = own == s && other != s;
+        length[e] = goes_on ? k : k - 1;
+        h[e] = own != other ? 0.0 : own == s ? -0.5 : 0.5;
+    }
+    const double t = (length[0] + f) / (length[0] + length[1] + 1);
+    return t < 0.5 ? h[0] * (1.0 - 2.0 * t) : h[1] * (2.0 * t - 1.0);
+}
+
+/* Hard: the point's answer is its texel's, unless the outline of a side passes beyond it. 2x2: a box of a texel around
+ * it, cut by the outline. */
+static double finer(const ref_light_view *view, const ref_lookup *how, vec3 p)
+{
+    static const int sides[4][2] = {{0, -1}, {0, 1}, {-1, 0}, {1, 0}};
+    const int texel[2] = {(int)floor(p.x), (int)floor(p.y)};
+    const double f[2] = {frac(p.x), frac(p.y)};
+    if ((view->clear_border || view->tight) &&
+        (texel[0] < 0 || texel[1] < 0 || texel[0] >= view->tile_texels || texel[1] >= view->tile_rows))
+        return 1.0;
+    const double s = compare(view, how, p, texel[0], texel[1]);
+    double share = 1.0;
+    for (int side = 0; side < 4; side++) {
+        const int *d = sides[side], axis = d[0] == 0;
+        if (compare(view, how, p, texel[0] + d[0], texel[1] + d[1]) == s) continue;
+        const double line = outline(view, how, p, texel, d, f[1 - axis]), y = d[axis] < 0 ? f[axis] : 1.0 - f[axis];
+        if (how->filter == SCENE_FILTER_HARD) share = fmin(share, y < line ? 0.0 : 1.0);
+        else share = fmin(share, clamp(0.5 + y - line, 0.0, 1.0));
+    }
+    return s > 0.5 ? share : 1.0 - share;
+}
+
 /* ---- disk ---- */
 
 static uint32_t reversed_bits(uint32_t i)
@@ -139,6 +188,7 @@ double ref_filtered(const ref_light_view *view, const ref_lookup *how, double u,
     const double margin = 32.0;
     const double x = clamp(u, -margin, view->tile_texels + margin), y = clamp(v, -margin, view->tile_rows + margin);
     const vec3 p = {x, y, d + how->gradient[0] * (x - u) + how->gradient[1] * (y - v)};
+    if (how->edge) return finer(view, how, p);
     return how->filter == SCENE_FILTER_DISK ? disk(view, how, p) : separable(view, how, p);
 }
 

@@ -62,6 +62,7 @@ static double attenuation_in(const ref_frame *frame, const ref_surface *at, size
     ref_lookup how = {.filter = view->filter,
                       .kernel = shadow->kernel,
                       .disk_samples = shadow->disk_samples > 0 ? shadow->disk_samples : DEFAULT_SAMPLES,
+                      .edge = view->filter <= SCENE_FILTER_2X2 ? frame->options->edge : 0,
                       .x = at->x,
                       .y = at->y};
     const vec3 unmoved = ref_to_light(view, at->world);
@@ -70,7 +71,7 @@ static double attenuation_in(const ref_frame *frame, const ref_surface *at, size
                            ? vec3_add(unmoved, ref_auto_bias(frame, view, light->auto_bias, at, unmoved, &less))
                            : moved_point(view, light, at, unmoved, to_light);
     if (view->perspective && !(moved.z > view->near)) return 1.0;
-    if (light->receiver_plane) set_plane(&how, view, at, unmoved);
+    if (light->receiver_plane || how.edge) set_plane(&how, view, at, unmoved);
     vec3 p = ref_project(view, moved);
     const double end = view->tile_texels, end_row = view->tile_rows;
     if (view->perspective && light->auto_bias == SCENE_AUTO_BIAS_NORMAL && !at->curved &&

@@ -47,8 +47,8 @@ GN_STATIC_ASSERT(compact_has_an_atlas_up_to_256, GN_COMPACT_IS_(GN_ATLAS_SIZE <=
 GN_STATIC_ASSERT(compact_has_no_lights_but_directional_ones,
                  GN_COMPACT_IS_(!GN_PUNCTUAL_LIGHTS && !GN_MAIN_LIGHT && !GN_TILE_LIGHTS && !GN_MASKS &&
                                 !GN_BAKED_LIGHT));
-GN_STATIC_ASSERT(compact_has_the_hard_filter,
-                 GN_COMPACT_IS_(!GN_FILTER_MAX && !GN_DISK_FILTER && !GN_LINEAR_KERNELS && !GN_DEPTH_BLOCKS));
+GN_STATIC_ASSERT(compact_has_the_hard_filter, GN_COMPACT_IS_(!(GN_EDGE) && !GN_FILTER_MAX && !GN_DISK_FILTER &&
+                                                             !GN_LINEAR_KERNELS && !GN_DEPTH_BLOCKS));
 GN_STATIC_ASSERT(compact_has_one_cascade, GN_COMPACT_IS_(!GN_MANY_CASCADES && !GN_BLENDED_CASCADES &&
                                                          !GN_CASTER_CULLING && !GN_TILE_IMPORTANCE && !GN_TIGHT_FIT));
 GN_STATIC_ASSERT(compact_has_flat_colours,

@@ -167,7 +167,7 @@ GN_HOT static int in_reach(const gn_light_state *light)
 GN_HOT int gn_corner_begin_lights(gn_lattice *l, const gn_frame *frame, const gn_surface *s)
 {
     l->offset_view = NULL;
-#if GN_RECEIVER_PLANE && GN_SHADOWS
+#if GN_PLANES && GN_SHADOWS
     l->slope_view = NULL;
 #endif
     for (uint32_t i = 0; i < s->n_lights; i++) {

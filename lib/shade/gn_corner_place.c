@@ -174,9 +174,9 @@ GN_HOT void gn_corner_slopes(gn_lattice *l, const gn_frame *frame, const gn_surf
                              const gn_light_view *view, int32_t slope_q28[2])
 {
     slope_q28[0] = slope_q28[1] = 0;
-#if GN_RECEIVER_PLANE
+#if GN_PLANES
     int32_t from[3] = {0, 0, 0}, h_q14 = 0; /* below 2^29.8, so differences below 2^31 */
-    if (!frame->scene->lights[view->light_idx].receiver_plane) return;
+    if (!gn_shadow_has_plane(frame, view)) return;
 #if GN_PUNCTUAL_LIGHTS
     if (view->perspective) {
         gn_corner_from(c, &frame->light[view->light_idx], from);

@@ -158,6 +158,7 @@ typedef struct {
     int32_t lo[3], hi[3];
     int32_t gradient_q30[2]; /* of depth, per texel */
     int32_t margin_q30;      /* what depth, or what it is compared with, may be more */
+    int on_plane;            /* taps are compared with the face's plane: the gradient is its */
 } receiver_plane;
 
 enum { PLANE_TEXELS = 16 /* along an axis */, PLANE_EDGE_Q16 = 1 << 13 /* pixels beyond the vertices */ };
@@ -191,17 +192,27 @@ GN_HOT static inline int find_gradient(receiver_plane *r)
 GN_HOT static inline int32_t deepest_q30(const receiver_plane *r, int axis, int32_t texel, int32_t reach_q16)
 {
     const int32_t g = r->gradient_q30[axis], centre = texel * 65536 + 32768;
-    const int32_t at = g > 0 ? gn_min32(r->hi[axis], centre + reach_q16) : gn_max32(r->lo[axis], centre - reach_q16);
+    const int32_t at = r->on_plane ? centre
+                       : g > 0     ? gn_min32(r->hi[axis], centre + reach_q16)
+                                   : gn_max32(r->lo[axis], centre - reach_q16);
     return (int32_t)((int64_t)g * (at - r->p->at[axis][0]) >> 16);
 }
 
 /* Whether no texel that receivers read is nearer to the light than any of them: (k + 1) texels around each. Depths are
  * below 2^30 with the margin: below 2^31 in all. */
-GN_HOT static int texels_behind(const gn_light_view *view, const receiver_plane *r, const int32_t first[2],
+GN_HOT static int texels_behind(const gn_light_view *view, const receiver_plane *r, int32_t k, const int32_t first[2],
                                 const int32_t last[2])
 {
-    const int32_t reach_q16 = (view->filter_idx + 1) << 16, bits = GN_VIEW_BITS(view), n = last[0] - first[0] + 1;
-    const int32_t most_q30 = r->hi[2] + r->margin_q30, from_q30 = r->p->at[2][0] + r->margin_q30;
+    const int32_t reach_q16 = (k + 1) << 16, bits = GN_VIEW_BITS(view), n = last[0] - first[0] + 1;
+    const int32_t ends = !r->on_plane             ? 0
+                         : r->gradient_q30[0] > 0 ? deepest_q30(r, 0, last[0], reach_q16)
+                                                  : deepest_q30(r, 0, first[0], reach_q16);
+    const int32_t most_q30 = (r->on_plane ? r->p->at[2][0] + ends +
+                                                gn_max32(deepest_q30(r, 1, first[1], reach_q16),
+                                                         deepest_q30(r, 1, last[1], reach_q16))
+                                          : r->hi[2]) +
+                             r->margin_q30,
+                  from_q30 = r->p->at[2][0] + r->margin_q30;
     if (most_q30 <= 0) return 1;
     const uint32_t most = (uint32_t)most_q30 << 2;
     gn_texels row = gn_view_texels(view, first[0], first[1]);
@@ -232,9 +243,10 @@ GN_HOT static inline int hides_vertex(const gn_light_view *view, const vertex_pl
 /* Whether the plane of the receivers says that all of them are lit, where bounds say nothing. Places of pixels are off
  * by less than 2^-10 texels. `slope_q30`: what depth at taps may be more than the receiver's. */
 GN_HOT static GN_NOINLINE int plane_is_lit(const gn_frame *frame, const gn_light_view *view, receiver_plane *r,
-                                           int64_t slope_q30)
+                                           const int32_t slope_q28[2])
 {
-    const int32_t k = view->filter_idx, end[2] = {view->tile_texels - 1, GN_TILE_ROWS(view) - 1},
+    int64_t bend_q30 = 0;
+    const int32_t k = GN_VIEW_REACH(frame, view), end[2] = {view->tile_texels - 1, GN_TILE_ROWS(view) - 1},
                   dropped = gn_dropped_bits(frame, view);
     int32_t first[2], last[2];
     for (int i = 0; i < 2; i++) {
@@ -245,12 +257,19 @@ GN_HOT static GN_NOINLINE int plane_is_lit(const gn_frame *frame, const gn_light
         if (first[i] < 0 || last[i] > end[i] || last[i] - first[i] >= PLANE_TEXELS) return 0;
     }
     if (hides_vertex(view, r->p) || !find_gradient(r)) return 0;
+    r->on_plane = GN_PLANES && (slope_q28[0] | slope_q28[1]);
+    for (int i = 0; r->on_plane && i < 2; i++) {
+        if (gn_abs32(slope_q28[i]) >> 23) return 0;
+        const int32_t beyond = r->gradient_q30[i] - slope_q28[i] * 4;
+        bend_q30 += ((int64_t)gn_abs32(beyond) * (uint32_t)(r->hi[i] - r->lo[i]) >> 16) + 1;
+        r->gradient_q30[i] = slope_q28[i] * 4;
+    }
     const uint32_t steep = gn_abs32(r->gradient_q30[0]) + gn_abs32(r->gradient_q30[1]); /* 2^26 */
-    const int64_t margin = (int64_t)((dropped ? 1U << (dropped - 1) : 0) >> 2) + (steep >> 10) + slope_q30 + 64;
+    const int64_t margin = (int64_t)((dropped ? 1U << (dropped - 1) : 0) >> 2) + (steep >> 10) + bend_q30 + 64;
     r->hi[2] += (int32_t)(steep >> 3);
     if (margin >> 29 || r->lo[2] < -(1 << 28) || r->hi[2] >> 29) return 0;
     r->margin_q30 = (int32_t)margin;
-    return texels_behind(view, r, first, last);
+    return texels_behind(view, r, k, first, last);
 }
 
 /* What depth bounds of the texels say of all pixels between the vertices: GN_CELL_SPLIT if that does not fit. */
@@ -268,12 +287,13 @@ GN_HOT static int judge(const gn_frame *frame, const gn_light_view *view, const 
     if (lo[2] <= limit && hi[2] > limit) return GN_CELL_SPLIT;
     if ((gn_abs32(lo[0]) | gn_abs32(hi[0]) | gn_abs32(lo[1]) | gn_abs32(hi[1])) >> 27) return GN_CELL_SPLIT;
     if (view->filter == GN_FILTER_DISK) return GN_CELL_EDGE;
-    int64_t slope = 4 * (int64_t)(view->filter_idx + 2) * ((int64_t)gn_abs32(slope_q28[0]) + gn_abs32(slope_q28[1]));
+    int64_t slope =
+        4 * (int64_t)(GN_VIEW_REACH(frame, view) + 2) * ((int64_t)gn_abs32(slope_q28[0]) + gn_abs32(slope_q28[1]));
     const gn_receiver_step a = {lo[0], lo[1], 2 * (int32_t)gn_clamp64(lo[2] - slope, -(1 << 29), (1 << 30) - 16384)},
                            b = {hi[0], hi[1], 2 * (int32_t)gn_clamp64(hi[2] + slope, -(1 << 29), (1 << 30) - 16384)};
     uint32_t attenuation;
     if (gn_filter_decides(frame, view, &a, &b, &attenuation)) return attenuation ? GN_CELL_LIT : GN_CELL_DARK;
-    return plane_is_lit(frame, view, &r, slope) ? GN_CELL_LIT : GN_CELL_EDGE;
+    return plane_is_lit(frame, view, &r, slope_q28) ? GN_CELL_LIT : GN_CELL_EDGE;
 }
 
 /* Whether the perspectives of camera and light bend places by less than the tolerance. */

@@ -143,6 +143,54 @@ GN_HOT static void scale_step(gn_receiver_step *step, int32_t spacing_log2)
     step->depth_q31 *= 1 << spacing_log2;
 }
 
+/* Attenuations where all are alike. */
+GN_HOT static void set_alike(uint32_t *out, const uint32_t *end, int said)
+{
+    while (out < end) *out++ = said == GN_WINDOW_LIT ? 65536 : 0;
+}
+
+#if GN_EDGE_BUILT
+/* Makes the window anew from a row of nodes on, or from half of one where it reads too many texels. */
+GN_HOT static GN_NOINLINE int follow_row(const drawing *d, const gn_lattice_edge *edge, int32_t below,
+                                         const gn_receiver_step *row, const gn_receiver_step *step, int32_t n,
+                                         uint32_t *out)
+{
+    const gn_frame *frame = d->s->frame;
+    const int32_t rows = (1 << d->size_log2) - below, down[2] = {edge->u_q16.dy, edge->v_q16.dy};
+    gn_receiver_step at = *row;
+    gn_window_place place = {at.u_q16, at.v_q16, at.depth_q31, 0};
+    for (int32_t left = n, most = n; left; left -= most) {
+        int32_t first[2], size[2];
+        for (most = gn_min32(most, left);; most = (most + 1) >> 1) {
+            const int32_t u = at.u_q16 + (most - 1) * step->u_q16, v = at.v_q16 + (most - 1) * step->v_q16;
+            gn_window_reads(edge->view, GN_VIEW_EDGE(frame, edge->view), gn_min32(at.u_q16, u) - 64,
+                            gn_max32(at.u_q16, u) + 1088, &first[0], &size[0]);
+            gn_window_reads(edge->view, GN_VIEW_EDGE(frame, edge->view), gn_min32(at.v_q16, v) - 64,
+                            gn_max32(at.v_q16, v) + 1088, &first[1], &size[1]);
+            if (size[0] <= GN_WINDOW_TEXELS && size[1] <= GN_WINDOW_TEXELS) break;
+            if (most < 4) return GN_WINDOW_MISSED;
+        }
+        for (int i = 0; i < 2 && most == n; i++) {
+            const int32_t more =
+                gn_min32((int32_t)((int64_t)rows * gn_abs32(down[i]) >> 16) + 1, GN_WINDOW_TEXELS - size[i]);
+            if (down[i] < 0) first[i] -= more;
+            size[i] += more;
+        }
+        place.u_q16 = at.u_q16, place.v_q16 = at.v_q16, place.depth_q30 = at.depth_q31;
+        GN_COUNT(windows, 1);
+        if (!gn_window_compare(edge->window, &place, first[0], first[1], size[0], size[1])) return GN_WINDOW_MISSED;
+        const int said = gn_window_row(frame, edge->window, &at, step, most, 1, out);
+        if (said == GN_WINDOW_MISSED || most == n) return said;
+        if (said != GN_WINDOW_MIXED) set_alike(out, out + most, said);
+        out += most;
+        at.u_q16 += most * step->u_q16;
+        at.v_q16 += most * step->v_q16;
+        at.depth_q31 += most * step->depth_q31;
+    }
+    return GN_WINDOW_MIXED;
+}
+#endif
+
 /* Attenuations of nodes from .. end - 1 of such a row. Returns GN_WINDOW_LIT or _DARK if all of them are, and sets
  * none; else _MIXED. */
 GN_HOT static int look_up_row(const drawing *d, const gn_lattice_edge *edge, int32_t below, const gn_receiver_step *row,
@@ -154,6 +202,12 @@ GN_HOT static int look_up_row(const drawing *d, const gn_lattice_edge *edge, int
     if (edge->window && edge->window->view == edge->view) {
         int said = gn_window_row(d->s->frame, edge->window, &at, step, end - from, 1, out + from);
         if (said != GN_WINDOW_MISSED) return said;
+#if GN_EDGE_BUILT
+        if (edge->follows) {
+            said = follow_row(d, edge, below, &at, step, end - from, out + from);
+            if (said != GN_WINDOW_MISSED) return said;
+        }
+#endif
     }
     for (int32_t i = from; i < end; i++) {
         out[i] = lookup(d, edge->view, edge->slope_q28, &at,
@@ -163,12 +217,6 @@ GN_HOT static int look_up_row(const drawing *d, const gn_lattice_edge *edge, int
         at.depth_q31 = (int32_t)((uint32_t)at.depth_q31 + (uint32_t)step->depth_q31); /* not used beyond the cell */
     }
     return GN_WINDOW_MIXED;
-}
-
-/* Attenuations where all are alike. */
-GN_HOT static void set_alike(uint32_t *out, const uint32_t *end, int said)
-{
-    while (out < end) *out++ = said == GN_WINDOW_LIT ? 65536 : 0;
 }
 
 #if GN_PUNCTUAL_LIGHTS || GN_MANY_CASCADES

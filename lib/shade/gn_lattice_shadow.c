@@ -18,11 +18,14 @@
 /* Where one view sees the corners. */
 typedef struct {
     const gn_light_view *view;
-    const gn_window *window;
+    gn_window *window;
+    int follows;
     uint32_t view_idx;
     int bent;    /* GN_PLACES_... */
     int outside; /* of the tile, so that bias goes along rays: forms on the screen do not say where */
     int32_t u[4], v[4], depth[4];
+    int has_slopes;
+    int32_t slope_q28[2]; /* of the receiver's plane: find_slopes() */
 } places;
 
 enum { PLACED, PLACED_NOWHERE, PLACED_PARTLY }; /* partly: the places are not of one plane */
@@ -32,6 +35,7 @@ GN_HOT static int find_places(const gn_lattice_cell *cell, uint32_t slot, uint32
     uint32_t seen = 0; /* 0: not; else how bias moves the point */
     p->view = &cell->frame->view[cell->s->light[slot].state->view_idx + (int32_t)view_idx];
     p->window = NULL;
+    p->has_slopes = 0;
     p->view_idx = view_idx;
     p->bent = GN_PLACES_BILINEAR;
     GN_UNROLL
@@ -44,6 +48,19 @@ GN_HOT static int find_places(const gn_lattice_cell *cell, uint32_t slot, uint32
     }
     p->outside = seen == 1U << GN_SEEN_OUTSIDE;
     return seen & (seen - 1) ? PLACED_PARTLY : seen & 1U ? PLACED_NOWHERE : PLACED;
+}
+
+/* Sets p->slope_q28, of the window's plane if it has one. */
+GN_HOT static void find_slopes(const gn_lattice_cell *cell, places *p)
+{
+    if (p->has_slopes) return;
+    p->has_slopes = 1;
+#if GN_PLANES
+    if (p->window && p->window->planar > 0 && gn_shadow_has_plane(cell->frame, p->view))
+        for (int i = 0; i < 2; i++) p->slope_q28[i] = p->window->slope_q30[i] / 4;
+    else
+#endif
+        gn_corner_slopes(cell->lattice, cell->frame, cell->s, cell->corner[0], p->view, p->slope_q28);
 }
 
 GN_HOT static void range_of(const int32_t at[4], int32_t *lo, int32_t *hi)
@@ -85,12 +102,12 @@ GN_HOT static gn_window_place middle_of(const gn_window *window, const places *p
 enum { FEW_TEXELS = 20 };
 
 /* What a window says of all texels that are read between places. */
-GN_HOT static int verdict_of_window(gn_window *window, const places *p, const gn_receiver_step *lo,
-                                    const gn_receiver_step *hi, int may_compare)
+GN_HOT static int verdict_of_window(const gn_frame *frame, gn_window *window, const places *p,
+                                    const gn_receiver_step *lo, const gn_receiver_step *hi, int may_compare)
 {
     int32_t u0, v0, w, h;
-    gn_window_reads(p->view, lo->u_q16 - 16, hi->u_q16 + 1040, &u0, &w);
-    gn_window_reads(p->view, lo->v_q16 - 16, hi->v_q16 + 1040, &v0, &h);
+    gn_window_reads(p->view, GN_VIEW_EDGE(frame, p->view) > 0, lo->u_q16 - 16, hi->u_q16 + 1040, &u0, &w);
+    gn_window_reads(p->view, GN_VIEW_EDGE(frame, p->view) > 0, lo->v_q16 - 16, hi->v_q16 + 1040, &v0, &h);
     if (!gn_window_covers(window, u0, v0, w, h)) {
         const gn_window_place place = middle_of(window, p);
         if (!may_compare || (window->w && w + h <= FEW_TEXELS) || w > GN_WINDOW_TEXELS || h > GN_WINDOW_TEXELS)
@@ -104,12 +121,12 @@ GN_HOT static int verdict_of_window(gn_window *window, const places *p, const gn
 }
 
 /* The shadow of a view over the cell, all of which lies between its corners. */
-GN_HOT static int verdict(const gn_lattice_cell *cell, uint32_t slot, uint32_t view_idx, places *p,
-                          const int32_t slope_q28[2])
+GN_HOT static int verdict(const gn_lattice_cell *cell, uint32_t slot, uint32_t view_idx, places *p)
 {
     gn_receiver_step lo, hi;
     int32_t depth_lo, depth_hi;
     p->window = NULL;
+    p->follows = 0;
     range_of(p->u, &lo.u_q16, &hi.u_q16);
     range_of(p->v, &lo.v_q16, &hi.v_q16);
     range_of(p->depth, &depth_lo, &depth_hi);
@@ -131,20 +148,29 @@ GN_HOT static int verdict(const gn_lattice_cell *cell, uint32_t slot, uint32_t v
         }
         window = NULL;
     }
-    int said = window && window->planar > 0 ? verdict_of_window(window, p, &lo, &hi, 0) : GN_CELL_SPLIT;
+    int said = window && window->planar > 0 ? verdict_of_window(cell->frame, window, p, &lo, &hi, 0) : GN_CELL_SPLIT;
     if (said != GN_CELL_SPLIT) {
         p->window = window;
+        p->follows = GN_VIEW_EDGE(cell->frame, p->view);
         return said;
     }
-    int64_t slope = (int64_t)gn_abs32(slope_q28[0]) + gn_abs32(slope_q28[1]);
-    slope *= 4 * (p->view->filter_idx + 2);
+    find_slopes(cell, p);
+    int64_t slope = (int64_t)gn_abs32(p->slope_q28[0]) + gn_abs32(p->slope_q28[1]);
+    slope *= 4 * (GN_VIEW_REACH(cell->frame, p->view) + 2);
     lo.depth_q31 = 2 * (int32_t)gn_clamp64(depth_lo - slope, -(1 << 29), (1 << 30) - 16384);
     hi.depth_q31 = 2 * (int32_t)gn_clamp64(depth_hi + slope, -(1 << 29), (1 << 30) - 16384);
     said = verdict_of_bounds(cell, p, &lo, &hi);
     if (said != GN_CELL_EDGE || !window) return said;
     if (window->planar < 0) window->w = 0;
-    said = verdict_of_window(window, p, &lo, &hi, 1);
-    if (said == GN_CELL_SPLIT) return GN_CELL_EDGE;
+    const int on_plane = GN_PLANES && gn_shadow_has_plane(cell->frame, p->view);
+    if (window->planar < 0 && on_plane && p->view->perspective) return said;
+    said = verdict_of_window(cell->frame, window, p, &lo, &hi, 1);
+    if (window->planar < 0 && on_plane) return said == GN_CELL_SPLIT ? GN_CELL_EDGE : said;
+    p->follows = window->planar > 0 && GN_VIEW_EDGE(cell->frame, p->view);
+    if (said == GN_CELL_SPLIT) {
+        if (p->follows) p->window = window;
+        return GN_CELL_EDGE;
+    }
     p->window = window;
     return said;
 }
@@ -181,16 +207,17 @@ GN_HOT static int places_hold(const gn_lattice_cell *cell, places *p)
 
 /* Whether a texel that the cell reads is in doubt: it may be before the receiver here and behind it there, which is not
  * smooth. A window of the cell, where there is one, has all of these texels: verdict(). */
-GN_HOT static int touches(const places *p)
+GN_HOT static int touches(const gn_frame *frame, const places *p)
 {
     const gn_window *window = p->window;
     int32_t lo, hi, u0, v0, w, h;
     uint32_t some = 0;
     if (!window) return 1; /* not known */
     range_of(p->u, &lo, &hi);
-    gn_window_reads(p->view, lo - 16, hi + 1040, &u0, &w);
+    gn_window_reads(p->view, GN_VIEW_EDGE(frame, p->view) > 0, lo - 16, hi + 1040, &u0, &w);
     range_of(p->v, &lo, &hi);
-    gn_window_reads(p->view, lo - 16, hi + 1040, &v0, &h);
+    gn_window_reads(p->view, GN_VIEW_EDGE(frame, p->view) > 0, lo - 16, hi + 1040, &v0, &h);
+    if (!gn_window_covers(window, u0, v0, w, h)) return 1;
     for (int32_t i = 0; i < h; i++) some |= window->doubt[v0 - window->v0 + i];
     return (some >> (u0 - window->u0) & UINT32_MAX >> (32 - w)) != 0;
 }
@@ -203,24 +230,26 @@ GN_HOT static int32_t lookup_spacing(const gn_lattice_cell *cell, const places *
     uint32_t across = u > v ? u : v, most = gn_cell_lookup_texels_q16(cell->frame, p->view);
     int32_t log2 = cell->size_log2;
     while (log2 > 0 && across > (uint64_t)most << (cell->size_log2 - log2)) log2--;
-    return log2 > 1 && touches(p) ? 0 : log2;
+    return log2 > 1 && touches(cell->frame, p) ? 0 : log2;
 }
 
 /* Adds a light whose shadow has an edge here, with a share of what it adds without shadow. Returns 0 if there is no
  * room. */
-GN_HOT static int add_edge(const gn_lattice_cell *cell, uint32_t slot, const places *p, const int32_t slope_q28[2],
-                           const gn_contribution *light, const uint32_t share_uq16[4])
+GN_HOT static int add_edge(const gn_lattice_cell *cell, uint32_t slot, places *p, const gn_contribution *light,
+                           const uint32_t share_uq16[4])
 {
     gn_lattice_look *out = cell->out;
     if (out->n_edges == GN_LATTICE_EDGES) return 0;
     gn_lattice_edge *edge = &out->edge[out->n_edges++];
     edge->view = p->view;
     edge->window = p->window;
+    edge->follows = p->follows;
     edge->slot = (uint8_t)slot;
     edge->view_idx = (uint8_t)p->view_idx;
     edge->bent = (uint8_t)p->bent;
-    edge->slope_q28[0] = slope_q28[0];
-    edge->slope_q28[1] = slope_q28[1];
+    find_slopes(cell, p);
+    edge->slope_q28[0] = p->slope_q28[0];
+    edge->slope_q28[1] = p->slope_q28[1];
     if (p->bent != GN_PLACES_LONE) {
         gn_patch_make(&edge->u_q16, p->u, cell->size_log2);
         gn_patch_make(&edge->v_q16, p->v, cell->size_log2);
@@ -371,13 +400,11 @@ GN_HOT static GN_NOINLINE int add_two(const gn_lattice_cell *cell, uint32_t slot
     if (n_edges + 2 > GN_LATTICE_EDGES || views & ~(1U << one | 1U << other)) return 0;
     for (; views; views &= views - 1) {
         uint32_t view_idx = (uint32_t)first_bit(views);
-        int32_t slope[2];
         if (find_places(cell, slot, view_idx, p) != PLACED) break;
-        gn_corner_slopes(cell->lattice, cell->frame, cell->s, cell->corner[0], p->view, slope);
-        if (verdict(cell, slot, view_idx, p, slope) == GN_CELL_SPLIT) break;
+        if (verdict(cell, slot, view_idx, p) == GN_CELL_SPLIT) break;
         int holds = places_hold(cell, p);
         if (holds == BEND || (holds == BEND_DOWN && !has_forms(cell, slot, p->view))) break;
-        add_edge(cell, slot, p, slope, light, light->more_uq16);
+        add_edge(cell, slot, p, light, light->more_uq16);
     }
     if (views || !find_border(cell, slot, one, other, &out->edge[n_edges + 1].more_q24[0])) {
         out->n_edges = n_edges;
@@ -411,22 +438,20 @@ GN_HOT static GN_NOINLINE int add_blend(const gn_lattice_cell *cell, uint32_t sl
     if (cell->size_log2 > gn_cell_finest_log2(cell->frame) && (begins_or_ends(share) || gn_cell_ramp_bends(cell)))
         return 0;
     for (int k = 0; k < 2; k++) {
-        int32_t slope[2];
         uint32_t view_idx = k ? second : first;
         if (find_places(cell, slot, view_idx, p) != PLACED) return 0;
-        gn_corner_slopes(cell->lattice, cell->frame, cell->s, cell->corner[0], p->view, slope);
-        if (verdict(cell, slot, view_idx, p, slope) == GN_CELL_SPLIT) return 0;
+        if (verdict(cell, slot, view_idx, p) == GN_CELL_SPLIT) return 0;
         if (places_hold(cell, p) == BEND) return 0;
         uint32_t part[4];
         for (int i = 0; i < 4; i++) part[i] = gn_mul_uq16(light->more_uq16[i], k ? 65536 - share[i] : share[i]);
-        if (!add_edge(cell, slot, p, slope, light, part)) return 0;
+        if (!add_edge(cell, slot, p, light, part)) return 0;
     }
     return 1;
 }
 
 /* Adds an edge of a light that several views see. Returns 0 if the cell is to be split. */
 GN_HOT static int add_of_several(const gn_lattice_cell *cell, uint32_t slot, const gn_contribution *light,
-                                 uint32_t views, const int32_t slope_q28[2], places *p)
+                                 uint32_t views, places *p)
 {
     int cascaded = !p->view->perspective;
     gn_blend blend = GN_BLENDED_CASCADES && cascaded ? cell->frame->scene->shadow.blend : GN_BLEND_HARD;
@@ -436,9 +461,8 @@ GN_HOT static int add_of_several(const gn_lattice_cell *cell, uint32_t slot, con
     if (add_two(cell, slot, light, views, p)) return 1;
     if (cascaded || cell->size_log2 > 2 || cell->ask->slot >= 0) return 0;
     p->bent = GN_PLACES_LONE;
-    return add_edge(cell, slot, p, slope_q28, light, light->more_uq16);
+    return add_edge(cell, slot, p, light, light->more_uq16);
 #else
-    (void)slope_q28;
     return 0;
 #endif
 }
@@ -447,7 +471,6 @@ GN_HOT int gn_cell_shadow(const gn_lattice_cell *cell, uint32_t slot, const gn_c
 {
     uint32_t views = views_of(cell, slot), left;
     int all = -1, added;
-    int32_t slope[2];
     places p;
     if (!views) return GN_CELL_LIT;
 #if GN_PUNCTUAL_LIGHTS
@@ -457,16 +480,15 @@ GN_HOT int gn_cell_shadow(const gn_lattice_cell *cell, uint32_t slot, const gn_c
     for (left = views; left; left &= left - 1) {
         int placed = find_places(cell, slot, (uint32_t)first_bit(left), &p);
         if (placed == PLACED_PARTLY) return GN_CELL_SPLIT;
-        gn_corner_slopes(cell->lattice, cell->frame, cell->s, cell->corner[0], p.view, slope);
-        int one = placed == PLACED_NOWHERE ? GN_CELL_LIT : verdict(cell, slot, (uint32_t)first_bit(left), &p, slope);
+        int one = placed == PLACED_NOWHERE ? GN_CELL_LIT : verdict(cell, slot, (uint32_t)first_bit(left), &p);
         if (one == GN_CELL_SPLIT) return GN_CELL_SPLIT;
         if (one == GN_CELL_EDGE || (all >= 0 && all != one)) break;
         all = one;
     }
     if (!left) return all;
-    if (views & (views - 1)) added = add_of_several(cell, slot, light, views, slope, &p);
+    if (views & (views - 1)) added = add_of_several(cell, slot, light, views, &p);
     else if (places_hold(cell, &p) == BEND) return GN_CELL_SPLIT;
-    else added = add_edge(cell, slot, &p, slope, light, light->more_uq16);
+    else added = add_edge(cell, slot, &p, light, light->more_uq16);
     return added ? GN_CELL_EDGE : GN_CELL_SPLIT;
 }
 #else

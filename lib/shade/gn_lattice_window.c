@@ -58,12 +58,11 @@ GN_HOT static GN_NOINLINE void begin_window(gn_lattice *l, const gn_frame *frame
 {
     int32_t slope[2];
     int32_t from[3] = {0, 0, 0};
-    int on_plane = GN_RECEIVER_PLANE && frame->scene->lights[s->light[slot].idx].receiver_plane;
+    int on_plane = GN_PLANES && gn_shadow_has_plane(frame, view);
     window->view = view;
     window->planar = 0;
     window->w = 0;
     window->until_x = INT32_MIN;
-    if (!stays_planar(l, s, slot) && on_plane) return;
     if (!l->has_face) gn_surface_face(frame, s, l->face_q30);
     l->has_face = 1;
 #if GN_PUNCTUAL_LIGHTS
@@ -196,7 +195,8 @@ GN_HOT static int make_window(gn_lattice *l, const gn_frame *frame, const gn_sur
     }
     for (int i = 0; i < 2; i++) { /* and what steps over cells are off by */
         if ((gn_abs32(box.lo[i]) | gn_abs32(box.hi[i])) >> 27) return 0;
-        gn_window_reads(window->view, box.lo[i] - 64, box.hi[i] + 1088, &first[i], &n[i]);
+        gn_window_reads(window->view, GN_VIEW_EDGE(frame, window->view), box.lo[i] - 64, box.hi[i] + 1088, &first[i],
+                        &n[i]);
         if (n[i] > GN_WINDOW_TEXELS) return 0;
     }
     GN_COUNT(windows, 1);

@@ -72,7 +72,7 @@ typedef struct {
     uint64_t glow_depth2_q32; /* the same of it */
 #endif
 #endif
-#if GN_RECEIVER_PLANE || GN_AUTO_BIAS
+#if GN_PLANES || GN_AUTO_BIAS
     int32_t face_q30[3]; /* normal of the face in the world; only if some light of the list needs it */
 #define GN_FACE_Q30(surface) ((surface)->face_q30)
 #else
@@ -244,7 +244,8 @@ typedef struct {
 /* A light whose shadow has an edge in the cell. */
 typedef struct {
     const gn_light_view *view;
-    const gn_window *window; /* NULL: none */
+    gn_window *window; /* NULL: none */
+    int follows;
     uint8_t slot, view_idx;
     uint8_t bent; /* rows are placed each for itself */
     gn_patch u_q16, v_q16, depth_q30;
@@ -380,7 +381,7 @@ typedef struct gn_lattice {
     int32_t has_face, face_q30[3];    /* the face's normal, once something has asked for it */
     const gn_light_view *offset_view; /* flat surfaces: a directional view, NULL: none, */
     int32_t offset_q16[3];            /* and the receiver's offset in it */
-#if GN_RECEIVER_PLANE && GN_SHADOWS
+#if GN_PLANES && GN_SHADOWS
     const gn_light_view *slope_view; /* a view, NULL: none, */
     int32_t slope_q28[2];            /* and the slopes of the surface in it, */
     int32_t slope_h_q14;             /* spots and points: found at this distance of the light from the plane */

@@ -44,7 +44,7 @@ GN_HOT uint32_t gn_shadow_distance(const gn_frame *frame, const gn_surface *surf
 /* Normal of the face, where the receiver's plane is built. */
 GN_HOT static inline const int32_t *face_of(const gn_surface *surface)
 {
-#if GN_RECEIVER_PLANE
+#if GN_PLANES
     return surface->face_q30;
 #else
     (void)surface;
@@ -102,7 +102,7 @@ GN_HOT void gn_shadow_slopes(const gn_frame *frame, const gn_surface *surface, c
                              const int32_t from_q16[3], int32_t slope_q28[2])
 {
     slope_q28[0] = slope_q28[1] = 0;
-    if (GN_RECEIVER_PLANE && frame->scene->lights[view->light_idx].receiver_plane)
+    if (GN_PLANES && gn_shadow_has_plane(frame, view))
         gn_shadow_plane_slopes(view, face_of(surface), from_q16, slope_q28);
 }
 

@@ -3,6 +3,7 @@
 #define GN_SHADOW_H
 
 #include "shade/gn_sample.h"
+#include "shadow/gn_filter.h"
 
 /* g of MODEL 4: the strength of realtime shadows at this distance, 0..65536; the same for every light. */
 uint32_t gn_shadow_distance(const gn_frame *frame, const gn_surface *surface, const gn_sample *sample);
@@ -26,6 +27,12 @@ uint32_t gn_shadow_mixed_ends(const gn_frame *frame, const gn_light_state *light
 GN_HOT static inline int gn_shadow_is_realtime(const gn_light_state *light, uint32_t g_uq16)
 {
     return GN_SHADOWS && light->view_idx >= 0 && gn_mul_uq16(light->strength_uq16, g_uq16);
+}
+
+/* Whether taps in a view are compared with the receiver's plane. [B5] [F7] */
+GN_HOT static inline int gn_shadow_has_plane(const gn_frame *frame, const gn_light_view *view)
+{
+    return (GN_RECEIVER_PLANE && frame->scene->lights[view->light_idx].receiver_plane) || GN_VIEW_EDGE(frame, view);
 }
 
 /* Slopes of depth over a texel of the view, 0 without B5; `from` is a point of the face from the light, spots and

@@ -4,6 +4,7 @@
 #include "base/gn_q.h"
 #include "light/gn_bias.h"
 #include "shade/gn_surface.h"
+#include "shadow/gn_filter.h"
 
 GN_HOT static void list_light(const gn_frame *frame, gn_surface *s, uint32_t light_idx)
 {
@@ -136,9 +137,10 @@ GN_HOT static void bias(const gn_frame *frame, gn_surface *s, uint32_t slot)
     const gn_light_view *view = &frame->view[light->view_idx];
     if (light->kind == GN_LIGHT_DIRECTIONAL && !view->border_lit)
         view += GN_LAST_CASCADE(frame); /* the first may be empty */
-#if GN_RECEIVER_PLANE || GN_AUTO_BIAS
+#if GN_PLANES || GN_AUTO_BIAS
     const gn_light *scene_light = &frame->scene->lights[s->light[slot].idx];
-    if (scene_light->receiver_plane || light->auto_bias) gn_surface_face(frame, s, s->face_q30);
+    if (scene_light->receiver_plane || light->auto_bias || GN_VIEW_EDGE(frame, view))
+        gn_surface_face(frame, s, s->face_q30);
 #endif
 #if GN_AUTO_BIAS
     if (light->auto_bias) {

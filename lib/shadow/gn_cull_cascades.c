@@ -4,6 +4,7 @@
 #include "base/gn_math.h"
 #include "base/gn_q.h"
 #include "light/gn_bias.h"
+#include "shadow/gn_filter.h"
 #include "shadow/gn_cull.h"
 
 void gn_cull_begin(gn_frame *frame)
@@ -58,8 +59,9 @@ int gn_cull_shown_nearer(const gn_frame *frame, const gn_light_view *view, uint3
     const gn_object_state *object = &frame->object[object_idx];
     const gn_light *light = &frame->scene->lights[view->light_idx];
     int64_t share_uq16 = 52429 - (int64_t)frame->scene->shadow.cascade_fade_uq16; /* 0.8 - c */
-    if (share_uq16 <= 0 || light->receiver_plane) return 0; /* a tap may compare with a depth far from the receiver's */
-    for (uint32_t i = 0; i < GN_N_CASCADES(frame); i++)     /* a kept tile may lack the object */
+    if (share_uq16 <= 0 || light->receiver_plane || GN_VIEW_EDGE(frame, view))
+        return 0;                                       /* a tap may compare with a depth far from the receiver's */
+    for (uint32_t i = 0; i < GN_N_CASCADES(frame); i++) /* a kept tile may lack the object */
         if (frame->scene->shadow.refresh[i] > 1) return 0;
     const int64_t zero[3] = {0, 0, 0};
     int64_t c[3], end[3], half[3];

@@ -13,6 +13,16 @@ typedef struct {
     int32_t pixel_x, pixel_y; /* its screen pixel: rotates the disk */
 } gn_receiver;
 
+/* Texels along which outlines are followed each way in a view; 0: its edges are those of texels. [F7] */
+#if GN_EDGE_BUILT
+#define GN_VIEW_EDGE(frame, view) ((view)->filter <= GN_FILTER_2X2 ? GN_K(frame, edge) : 0)
+#else
+#define GN_VIEW_EDGE(frame, view) ((void)(frame), (void)(view), 0)
+#endif
+
+/* Index of the filter whose texels decide as much as all that the view's reads around a point. */
+#define GN_VIEW_REACH(frame, view) ((view)->filter_idx + (GN_VIEW_EDGE(frame, view) > 0))
+
 /* Attenuation 0 (shadowed) .. 65536 (lit). Texels outside the tile repeat its border, or are lit if the view says so.
  */
 uint32_t gn_filter_attenuation(const gn_frame *frame, const gn_light_view *view, const gn_receiver *receiver);

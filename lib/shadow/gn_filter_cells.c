@@ -6,9 +6,10 @@
 #include "shadow/gn_lookup.h"
 
 /* The texels that a row of receivers reads along an axis: first, and the last. */
-GN_HOT static void reads(const gn_light_view *view, int32_t a_q16, int32_t b_q16, int32_t *first, int32_t *last)
+GN_HOT static void reads(const gn_frame *frame, const gn_light_view *view, int32_t a_q16, int32_t b_q16, int32_t *first,
+                         int32_t *last)
 {
-    int32_t k = view->filter_idx;
+    int32_t k = GN_VIEW_REACH(frame, view);
     *first = ((gn_min32(a_q16, b_q16) + 32768) >> 16) - (k + 1);
     *last = ((gn_max32(a_q16, b_q16) + 32768) >> 16) + k;
 }
@@ -43,8 +44,8 @@ GN_HOT int gn_filter_decides(const gn_frame *frame, const gn_light_view *view, c
                              const gn_receiver_step *b, uint32_t *attenuation)
 {
     int32_t first[2], last[2];
-    reads(view, a->u_q16, b->u_q16, &first[0], &last[0]);
-    reads(view, a->v_q16, b->v_q16, &first[1], &last[1]);
+    reads(frame, view, a->u_q16, b->u_q16, &first[0], &last[0]);
+    reads(frame, view, a->v_q16, b->v_q16, &first[1], &last[1]);
     int32_t n = gn_max32(last[0] - first[0], last[1] - first[1]) + 1, beyond = 0;
     const int32_t end[2] = {view->tile_texels - 1, GN_TILE_ROWS(view) - 1};
     uint32_t least = min_passing_depth(frame, view, gn_min32(a->depth_q31, b->depth_q31));

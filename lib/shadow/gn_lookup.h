@@ -14,7 +14,7 @@ typedef struct {
     const gn_light_view *view;
     int32_t u_q16, v_q16;
     uint32_t least;
-    int32_t sloped; /* receiver's plane: this and the following fields are set only with GN_RECEIVER_PLANE */
+    int32_t sloped; /* receiver's plane: this and the following fields are set only with GN_PLANES */
     int32_t slope_q28[2];
     int64_t least_q32; /* on the plane, at the texel that (u, v) lies in, not limited */
 } gn_lookup;
@@ -65,17 +65,23 @@ GN_HOT static inline gn_texels gn_view_texels(const gn_light_view *view, int32_t
  * GN_SIZE_FIRST taps are always checked. */
 GN_HOT static inline int gn_lookup_is_plain(const gn_lookup *l, int32_t u, int32_t v, int32_t n)
 {
-    return !GN_SIZE_FIRST && !(GN_RECEIVER_PLANE && l->sloped) && (uint32_t)u <= (uint32_t)(l->view->tile_texels - n) &&
+    return !GN_SIZE_FIRST && !(GN_PLANES && l->sloped) && (uint32_t)u <= (uint32_t)(l->view->tile_texels - n) &&
            (uint32_t)v <= (uint32_t)(GN_TILE_ROWS(l->view) - n);
 }
 
 /* Texels of row v, n from u on, wherever they lie: bit i is set where texel i keeps the receiver dark. */
 uint32_t gn_lookup_dark(const gn_lookup *l, int32_t u, int32_t v, int32_t n);
 
-#if GN_RECEIVER_PLANE && !GN_SIZE_FIRST
+#if GN_PLANES && !GN_SIZE_FIRST
 /* The same of n x n texels on the receiver's plane: a byte per row; *found: the OR of all rows, and in the upper half
  * their AND. Returns 0 if a texel lies outside the tile, or the plane outside what texels hold. */
 int gn_lookup_on_plane(const gn_lookup *l, int32_t u, int32_t v, int32_t n, uint8_t *dark, uint32_t *found);
+
+/* The same of the texel that the lookup lies in, bit 0, and those before and after it: in its column, in its row. */
+int gn_lookup_cross_on_plane(const gn_lookup *l, int32_t u, int32_t v, uint32_t *dark);
+
+/* The same of w x h texels, bits of a row from bit `at` on. */
+int gn_lookup_rows_on_plane(const gn_lookup *l, int32_t u, int32_t v, int32_t w, int32_t h, int32_t at, uint32_t *rows);
 #endif
 
 /* A tap of the hard filter, the disk or 2x2 at the border: 1 if it is lit. */

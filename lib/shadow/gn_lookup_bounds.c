@@ -9,7 +9,7 @@ GN_HOT static void least_over(const gn_lookup *l, int32_t u, int32_t v, int32_t 
                               uint32_t *largest)
 {
     *smallest = *largest = l->least;
-    if (!GN_RECEIVER_PLANE || !l->sloped) return;
+    if (!GN_PLANES || !l->sloped) return;
     int32_t last = l->view->tile_texels - 1, last_row = GN_TILE_ROWS(l->view) - 1;
     int32_t u0 = gn_max32(0, gn_min32(u, last)), v0 = gn_max32(0, gn_min32(v, last_row));
     int64_t lo, hi;

@@ -11,7 +11,7 @@
 #define GN_TENT_TAPS_MAX 8
 
 /* Whether taps are compared with the receiver's plane, in a way of their own. */
-#define GN_TENT_ON_PLANE(l) (GN_RECEIVER_PLANE && !GN_SIZE_FIRST && (l)->sloped)
+#define GN_TENT_ON_PLANE(l) (GN_PLANES && !GN_SIZE_FIRST && (l)->sloped)
 
 /* Weights of the 2 (k + 1) texels of a tent along one axis, k = 1, 2, 3: exact rationals over (2k + 1)^2 F^2, which
  * they sum to. u = F * frac(centre + 1/2), 0 <= u <= F, F = 2^weight_bits <= 4096: everything stays below 2^30. */
@@ -165,7 +165,7 @@ GN_HOT static GN_SHARED uint32_t gn_tent_of_dark(const gn_frame *frame, const ui
 GN_HOT static inline int gn_tent_on_plane(const gn_lookup *l, int32_t u, int32_t v, int32_t n, uint8_t *dark,
                                           uint32_t *found)
 {
-#if GN_RECEIVER_PLANE && !GN_SIZE_FIRST
+#if GN_PLANES && !GN_SIZE_FIRST
     if (l->sloped) return gn_lookup_on_plane(l, u, v, n, dark, found);
 #endif
     (void)l, (void)u, (void)v, (void)n, (void)dark, (void)found;

@@ -5,6 +5,7 @@
 #include "base/gn_kernel.h"
 #include "base/gn_q.h"
 #include "base/gn_tables.h"
+#include "shadow/gn_edge.h"
 #include "shadow/gn_lookup.h"
 #include "shadow/gn_tent.h"
 #include "shadow/gn_texel_rows.h"
@@ -56,11 +57,12 @@ GN_HOT int gn_window_begin(gn_window *window, const gn_frame *frame, const gn_li
     return 1;
 }
 
-GN_HOT void gn_window_reads(const gn_light_view *view, int32_t lo_q16, int32_t hi_q16, int32_t *first, int32_t *n)
+GN_HOT void gn_window_reads(const gn_light_view *view, int32_t edge, int32_t lo_q16, int32_t hi_q16, int32_t *first,
+                            int32_t *n)
 {
-    if (view->filter == GN_FILTER_HARD) {
-        *first = lo_q16 >> 16;
-        *n = (hi_q16 >> 16) + 1 - *first;
+    if (edge || view->filter == GN_FILTER_HARD) {
+        *first = (lo_q16 >> 16) - edge;
+        *n = (hi_q16 >> 16) + 1 + edge - *first;
         return;
     }
     int32_t k = view->filter_idx;
@@ -114,7 +116,7 @@ GN_HOT static void compare_rows(const texel_rows *rows, int32_t n, uint32_t *dar
     for (int32_t j = 0; j < n; j++) {
         uint32_t surely = 0;
         if (!by_16) compare_row(rows, j, &dark[j], &surely);
-        else if (dark[j]) surely = surely_16(rows, j, dark[j]);
+        else if (dark[j]) surely = rows->reach_q30 ? surely_16(rows, j, dark[j]) : dark[j];
         doubt[j] = dark[j] & ~surely;
     }
 }
@@ -385,15 +387,59 @@ GN_HOT static GN_NOINLINE uint32_t by_weights(const gn_frame *frame, const windo
 }
 #endif
 
+#if GN_EDGE_BUILT
+/* The hard filter and 2x2 with edges finer than texels. Windows of such views are of the receiver's plane: no texel is
+ * in doubt. */
+GN_HOT static GN_NOINLINE void row_edges(const gn_frame *frame, const window_rows *rows, int32_t u, int32_t v,
+                                         const gn_receiver_step *step, int32_t n, uint32_t *out)
+{
+    const gn_light_view *view = rows->window->view;
+    const uint32_t *first = rows->dark - rows->v0;
+    const int32_t reach = GN_K(frame, edge), end_u = (view->tile_texels - rows->window->u0) * 65536,
+                  end_v = (GN_TILE_ROWS(view) - rows->window->v0) * 65536, first_u = -rows->window->u0 * 65536,
+                  first_v = -rows->window->v0 * 65536;
+    const int beyond = gn_border_lit(view), hard = view->filter == GN_FILTER_HARD;
+    int32_t known = INT32_MIN;
+    const uint32_t *row = first;
+    uint32_t edges = 0;
+    for (uint32_t *end = out + n; out < end; out++, u += step->u_q16, v += step->v_q16) {
+        const int32_t s = u >> 16;
+        if (v >> 16 != known) {
+            known = v >> 16;
+            row = &first[known];
+            edges = gn_edge_texels(row[-1], row[0], row[1]);
+        }
+        *out = row[0] >> s & 1U ? 0 : 65536;
+        if (!(edges >> s & 1U)) continue;
+        *out = beyond && (u >= end_u || v >= end_v || u < first_u || v < first_v)
+                   ? 65536
+                   : gn_edge_attenuation(row, s, reach, u, v, hard);
+    }
+}
+#endif
+
 /* The rows that receivers read, and what they say of all of them. */
-GN_HOT static int find_rows(const gn_window *window, const gn_receiver_step *from, const gn_receiver_step *step,
-                            int32_t n, window_rows *rows)
+GN_HOT static int find_rows(const gn_frame *frame, const gn_window *window, const gn_receiver_step *from,
+                            const gn_receiver_step *step, int32_t n, window_rows *rows)
 {
     const gn_light_view *view = window->view;
     int32_t end[2] = {from->u_q16 + (n - 1) * step->u_q16, from->v_q16 + (n - 1) * step->v_q16}, u0, w, h;
-    gn_window_reads(view, gn_min32(from->u_q16, end[0]), gn_max32(from->u_q16, end[0]) + 1024, &u0, &w);
-    gn_window_reads(view, gn_min32(from->v_q16, end[1]), gn_max32(from->v_q16, end[1]) + 1024, &rows->v0, &h);
+    gn_window_reads(view, GN_VIEW_EDGE(frame, view), gn_min32(from->u_q16, end[0]),
+                    gn_max32(from->u_q16, end[0]) + 1024, &u0, &w);
+    gn_window_reads(view, GN_VIEW_EDGE(frame, view), gn_min32(from->v_q16, end[1]),
+                    gn_max32(from->v_q16, end[1]) + 1024, &rows->v0, &h);
     if (!gn_window_covers(window, u0, rows->v0, w, h)) return GN_WINDOW_MISSED;
+    if (!window->any) return GN_WINDOW_LIT;
+    if (window->all == UINT32_MAX) return GN_WINDOW_DARK;
+    if (GN_VIEW_EDGE(frame, view)) {
+        const int32_t rest = GN_VIEW_EDGE(frame, view) - 1;
+        rows->window = window;
+        rows->v0 -= window->v0;
+        rows->dark = &window->dark[rows->v0];
+        rows->doubt = &window->doubt[rows->v0];
+        return ask_rows(rows->dark + rest, rows->doubt + rest, h - 2 * rest,
+                        (UINT32_MAX >> (32 - w + 2 * rest)) << (u0 + rest - window->u0), &rows->doubts);
+    }
     uint32_t mask = (UINT32_MAX >> (32 - w)) << (u0 - window->u0);
     rows->window = window;
     rows->v0 -= window->v0;
@@ -407,10 +453,11 @@ GN_HOT int gn_window_row(const gn_frame *frame, const gn_window *window, const g
 {
     window_rows rows;
     gn_receiver_step across = *step;
-    int said = find_rows(window, from, step, n, &rows);
+    int said = find_rows(frame, window, from, step, n, &rows);
     if (said != GN_WINDOW_MIXED) return said;
     const gn_light_view *view = window->view;
-    int32_t shift = view->filter == GN_FILTER_HARD ? 0 : (view->filter_idx + 1) * 65536 - 32768;
+    int32_t shift =
+        view->filter == GN_FILTER_HARD || GN_VIEW_EDGE(frame, view) ? 0 : (view->filter_idx + 1) * 65536 - 32768;
     int32_t u = from->u_q16 - shift - window->u0 * 65536, v = from->v_q16 - shift - window->v0 * 65536;
     int32_t depth_q30 = from->depth_q31;
     if (!placed && rows.doubts) {
@@ -421,6 +468,12 @@ GN_HOT int gn_window_row(const gn_frame *frame, const gn_window *window, const g
 #if GN_FILTER_MAX >= 2
     if (view->filter == GN_FILTER_3X3 && !(GN_LINEAR_KERNELS && frame->scene->shadow.kernel == GN_KERNEL_LINEAR)) {
         row_3x3(frame, &rows, u, v, depth_q30, &across, n, attenuation);
+        return said;
+    }
+#endif
+#if GN_EDGE_BUILT
+    if (GN_VIEW_EDGE(frame, view)) {
+        row_edges(frame, &rows, u, v, &across, n, attenuation);
         return said;
     }
 #endif

@@ -19,8 +19,10 @@
 int gn_window_begin(gn_window *window, const gn_frame *frame, const gn_light_view *view, const int32_t slope_q28[2],
                     int64_t own_q30, int on_plane);
 
-/* The texels that filters read of receivers whose tile coordinates lie in lo .. hi: the first, and how many. */
-void gn_window_reads(const gn_light_view *view, int32_t lo_q16, int32_t hi_q16, int32_t *first, int32_t *n);
+/* The texels that filters read of receivers whose tile coordinates lie in lo .. hi: the first, and how many. edge: of
+ * those along which outlines are followed, GN_VIEW_EDGE; up to 1 where texels that are all alike tell as much. */
+void gn_window_reads(const gn_light_view *view, int32_t edge, int32_t lo_q16, int32_t hi_q16, int32_t *first,
+                     int32_t *n);
 
 /* Compares w x h texels from (u0, v0) on, all at most GN_WINDOW_TEXELS, with the plane through a place. Returns 0 if
  * the plane leaves the range of depths there. */

@@ -274,6 +274,10 @@ static void check_row(const row *r, int preset, bool list)
     {                                                                                                                  \
         "F6", "yard", ".light=" light " filter=" name, "kernel=linear", "kernel=tent", 0.25                            \
     }
+#define FINER(light, name)                                                                                             \
+    {                                                                                                                  \
+        "F7", "yard", ".light=" light " filter=" name, "edge=4", "edge=0", 0.25                                        \
+    }
 #define DISK(light, penumbra, samples)                                                                                 \
     {                                                                                                                  \
         "F4", "yard", ".light=" light, "filter=disk penumbra=" penumbra " disk_samples=" samples, "filter=2x2", 0.5    \
@@ -460,6 +464,16 @@ static const row rows[] = {
     SOFTNESS("spot"),
     SOFTNESS("point"),
     {"F5", "yard", ".light=all filter=3x3", "softness@1=soft", "", 0.1},
+    FINER("sun", "hard"),
+    FINER("spot", "hard"),
+    FINER("point", "hard"),
+    FINER("sun", "2x2"),
+    FINER("spot", "2x2"),
+    FINER("point", "2x2"),
+    {"F7", "yard", ".light=sun filter=hard depth_bits=32", "edge=8", "edge=0", 0.5},
+    {"F7", "yard", ".light=sun filter=2x2 bias_constant=1 depth_bits=8", "edge=2", NULL, 1},
+    {"F7", "lane", "cascades=3 filter=2x2", "edge=4 fit=tight tiles=worth", "edge=0 fit=tight tiles=worth", 0.5},
+    {"F7", "yard", ".light=all filter=2x2", "softness=hard edge=2", "softness=hard edge=0", 0.25},
 
     /* B: biases */
     BIASES("sun"),

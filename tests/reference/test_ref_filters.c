@@ -1,4 +1,4 @@
-/* The reference engine's filters and biases against closed forms (MODEL 6, 7; rows F3 to F6, B1 to B5, D2 without
+/* The reference engine's filters and biases against closed forms (MODEL 6, 7; rows F3 to F7, B1 to B5, D2 without
  * its stability). */
 #include "ref_fixture.h"
 
@@ -136,6 +136,33 @@ static void test_disk_step(void)
             CHECK_NEAR(mean, open, 0.004);
             CHECK(worst < 0.08);
         }
+}
+
+/* Texels of a half plane whose border rises by a texel every m: where its runs are followed to both ends, the outline
+ * is the line through the middles of its steps; hard: within it, 2x2: half a texel of ramp on both sides along the
+ * steep axis. [F7] */
+static void test_finer_edge(void)
+{
+    double depth[2][1024];
+    for (int m = 1; m <= 8; m++) {
+        for (int i = 0; i < 1024; i++) {
+            const int u = i % 32, v = i / 32;
+            depth[0][i] = v < 12 + u / m ? 1 : 16;
+            depth[1][v + 32 * u] = depth[0][i];
+        }
+        for (int k = 0; k < 4000; k++) {
+            const double u = 8 + k % 61 / 7.6, line = 12 + u / m - 0.5, v = line - 1.5 + k / 61 / 22.0, h = v - line;
+            for (int turned = 0; turned < 2; turned++) {
+                const ref_light_view view = {
+                    .tile_texels = 32, .tile_rows = 32, .depth_range = 16, .depth = depth[turned]};
+                const ref_lookup hard = {.filter = SCENE_FILTER_HARD, .edge = 8},
+                                 soft = {.filter = SCENE_FILTER_2X2, .edge = 8};
+                const double x = turned ? v : u, y = turned ? u : v;
+                if (fabs(h) > 1e-9) CHECK_NEAR(ref_filtered(&view, &hard, x, y, 2), h > 0, 1e-12);
+                if (m > 1) CHECK_NEAR(ref_filtered(&view, &soft, x, y, 2), fmin(fmax(0.5 + h, 0), 1), 1e-9);
+            }
+        }
+    }
 }
 
 /* Around the corner of a closed quarter. */
@@ -580,6 +607,7 @@ int main(void)
     test_kernel_choice();
     test_disk_samples();
     test_disk_step();
+    test_finer_edge();
     test_disk_corner();
     test_disk_radius();
     test_light_filter();

@@ -249,6 +249,45 @@ static int32_t exact_taps(int64_t *first, int64_t w[GN_TENT_TAPS_MAX], i128 *who
     return 2 * (k + 1);
 }
 
+/* Edges finer than texels, from the formula: MODEL 7. */
+static long double outline(const gn_receiver *r, int64_t i, int64_t j, const int side[2], long double f)
+{
+    const int lit = exact_lit(r, i, j), n = GN_K(&frame, edge);
+    int length[2];
+    long double end[2] = {0, 0};
+    for (int e = 0; e < 2; e++) {
+        const int way = e ? 1 : -1;
+        length[e] = n;
+        for (int k = 1; k <= n; k++) {
+            const int64_t a = i + way * k * !side[0], b = j + way * k * !side[1];
+            const int own = exact_lit(r, a, b) == lit, other = exact_lit(r, a + side[0], b + side[1]) == lit;
+            if (own && !other) continue;
+            length[e] = k - 1;
+            end[e] = own == other ? (own ? -0.5L : 0.5L) : 0;
+            break;
+        }
+    }
+    const long double t = (length[0] + f) / (length[0] + length[1] + 1);
+    return t < 0.5L ? end[0] * (1 - 2 * t) : end[1] * (2 * t - 1);
+}
+
+static long double exact_edge(const gn_receiver *r)
+{
+    static const int sides[4][2] = {{-1, 0}, {1, 0}, {0, -1}, {0, 1}};
+    const int64_t i = r->u_q16 >> 16, j = r->v_q16 >> 16;
+    const long double f[2] = {r->u_q16 / 65536.0L - i, r->v_q16 / 65536.0L - j};
+    const int lit = exact_lit(r, i, j);
+    long double left = 1;
+    if (view.border_lit && (outside(i) || outside(j))) return 1;
+    for (int s = 0; s < 4; s++) {
+        const int *side = sides[s], axis = !side[0];
+        if (exact_lit(r, i + side[0], j + side[1]) == lit) continue;
+        const long double y = side[axis] < 0 ? f[axis] : 1 - f[axis], line = outline(r, i, j, side, f[!axis]);
+        left = fminl(left, view.filter == GN_FILTER_HARD ? y >= line : fmaxl(0, fminl(0.5L + y - line, 1)));
+    }
+    return lit ? left : 1 - left;
+}
+
 /* 65536 * attenuation as a rational: numerator; the denominator is returned. */
 static i128 exact_attenuation(i128 *numerator, const gn_receiver *r)
 {
@@ -345,6 +384,7 @@ static void random_view(void *texels, uint32_t i)
     SET_KNOB(&frame, weight_bits, rng_range(&random_state, 4, 12));
     SET_KNOB(&frame, shadow_depth_frac, rng_range(&random_state, 0, 4));
     SET_KNOB(&frame, atten_bits, i & 1 ? 8 : 16);
+    SET_KNOB(&frame, edge, rng_below(&random_state, 2) ? rng_range(&random_state, 1, 8) : 0);
     scene.shadow.kernel = rng_below(&random_state, 2) ? GN_KERNEL_LINEAR : GN_KERNEL_TENT;
     scene.shadow.disk_samples = 1 + rng_below(&random_state, 64);
     view.filter = (uint8_t)rng_below(&random_state, 6);
@@ -425,8 +465,8 @@ static gn_receiver random_receiver(void)
 /* ---- Tests ------------------------------------------------------------------------------------------------------- */
 
 typedef struct {
-    tally error, ends, disk, same, neighbours;
-    uint64_t n_disk_samples, n_disk_open;
+    tally error, ends, disk, same, neighbours, finer;
+    uint64_t n_disk_samples, n_disk_open, n_finer;
     worst w;
 } verdict;
 
@@ -469,9 +509,16 @@ static void try_point(verdict *result, const gn_receiver *r)
         try_disk(result, r, a);
         return;
     }
+    int eight = GN_K(&frame, atten_bits) == 8;
+    if (GN_VIEW_EDGE(&frame, &view)) {
+        const long double off = fabsl(a - 65536 * exact_edge(r));
+        result->n_finer += a && a < 65536;
+        HOLDS(&result->finer, off < (view.filter == GN_FILTER_HARD ? 0 : 1) + 1e-9L + 128 * eight,
+              "edge %d errs by %.4Lf: %s", (int)GN_K(&frame, edge), off, described(r));
+        return;
+    }
     i128 numerator, denominator = exact_attenuation(&numerator, r);
     long double error = (long double)i128_abs((i128)a * denominator - numerator) / (long double)denominator;
-    int eight = GN_K(&frame, atten_bits) == 8;
     /* within half an LSB and a little; 8 bits: half a step of 256 more, and a multiple of it */
     HOLDS(&result->error, error <= (eight ? 128.52L : 0.52L) && (!eight || a % 256 == 0), "errs by %.4Lf: %s", error,
           described(r));
@@ -514,6 +561,8 @@ static void test_attenuation(void)
     CHECK_TALLY(result.error, "attenuation is the rounded rational");
     CHECK_TALLY(result.disk, "attenuation of the disk is a rounded count of its samples");
     CHECK_TALLY(result.ends, "fully lit is 65536, fully shadowed is 0");
+    CHECK_TALLY(result.finer, "edges finer than texels are those of the formula");
+    if (GN_RUNTIME_KNOBS) CHECK(result.n_finer > 2000);
     CHECK_TALLY(result.same, "the same with and without bounds of blocks");
     CHECK(result.n_disk_open * 200 <
           result.n_disk_samples); /* few samples lie so near to a border that they may go either way */

@@ -113,6 +113,7 @@ static void random_view(void)
     SET_KNOB(&frame, weight_bits, rng_range(&random_state, 4, 12));
     SET_KNOB(&frame, shadow_depth_frac, rng_range(&random_state, 0, 4));
     SET_KNOB(&frame, atten_bits, 16);
+    SET_KNOB(&frame, edge, rng_below(&random_state, 2) ? rng_range(&random_state, 1, 8) : 0);
     scene.shadow.kernel = GN_LINEAR_KERNELS && rng_below(&random_state, 2) ? GN_KERNEL_LINEAR : GN_KERNEL_TENT;
     view.depth_bits = depth_bits[rng_below(&random_state, 3)];
     view.filter = (uint8_t)rng_below(&random_state, GN_FILTER_MAX + 1);
@@ -134,7 +135,7 @@ static void random_plane(void)
     place.depth_q30 = rng_range(&random_state, 1 << 28, 3 << 28);
     for (int i = 0; i < 2; i++)
         slope_q28[i] = rng_below(&random_state, 8) ? rng_wide_i32(&random_state, (uint32_t)bits) : 0;
-    on_plane = GN_RECEIVER_PLANE && rng_below(&random_state, 4) == 0;
+    on_plane = GN_VIEW_EDGE(&frame, &view) || (GN_RECEIVER_PLANE && rng_below(&random_state, 4) == 0);
     own_q30 = 0;
     if (rng_below(&random_state, 4) == 0) own_q30 = rng_below(&random_state, 2) ? INT32_MAX : reach() >> 16;
     if (rng_below(&random_state, 8) == 0) own_q30 = (reach() >> 19) * 5;
@@ -214,14 +215,16 @@ static reading read_around(const gn_receiver *r)
 {
     const int64_t here = (int64_t)r->depth_q32 << 14, u = r->u_q16 >> 16, v = r->v_q16 >> 16;
     const int64_t before = doubt_before(), behind = doubt_behind(), near = half_step() + 64 * 65536;
-    const int n = view.filter == GN_FILTER_HARD ? 0 : view.filter_idx + 2;
+    const int edge = GN_VIEW_EDGE(&frame, &view);
+    const int n = edge ? edge : view.filter == GN_FILTER_HARD ? 0 : view.filter_idx + 2;
     reading out = {0, 0};
     for (int64_t j = v - n; j <= v + n; j++)
         for (int64_t i = u - n; i <= u + n; i++) {
             if (view.border_lit && is_outside(i, j)) continue;
             const int64_t t = texel_q46(i, j), own = plane_of_texel(i, j), at = on_plane ? own : here;
-            const double weight = fmin(1, most_weight((double)i, r->u_q16 / 65536.0)) *
-                                  fmin(1, most_weight((double)j, r->v_q16 / 65536.0));
+            const double weight = edge ? 1 /* any may turn the outline */
+                                       : fmin(1, most_weight((double)i, r->u_q16 / 65536.0)) *
+                                             fmin(1, most_weight((double)j, r->v_q16 / 65536.0));
             const int taken_for_dark = t >= at && t < own - before, taken_for_lit = t < at && t >= own + behind - near;
             if (llabs(t - at) <= (on_plane ? rounding() : near) || (!on_plane && (taken_for_dark || taken_for_lit)))
                 out.contested += weight;
@@ -300,10 +303,10 @@ static int random_row(gn_receiver_step *from, gn_receiver_step *step, int32_t n)
 static int window_for(const gn_receiver_step *from, const gn_receiver_step *step, int32_t n, int32_t box[4])
 {
     const int32_t u = from->u_q16 + (n - 1) * step->u_q16, v = from->v_q16 + (n - 1) * step->v_q16;
-    gn_window_reads(&view, from->u_q16 < u ? from->u_q16 : u, (from->u_q16 < u ? u : from->u_q16) + 1024, &box[0],
-                    &box[2]);
-    gn_window_reads(&view, from->v_q16 < v ? from->v_q16 : v, (from->v_q16 < v ? v : from->v_q16) + 1024, &box[1],
-                    &box[3]);
+    gn_window_reads(&view, GN_VIEW_EDGE(&frame, &view), from->u_q16 < u ? from->u_q16 : u,
+                    (from->u_q16 < u ? u : from->u_q16) + 1024, &box[0], &box[2]);
+    gn_window_reads(&view, GN_VIEW_EDGE(&frame, &view), from->v_q16 < v ? from->v_q16 : v,
+                    (from->v_q16 < v ? v : from->v_q16) + 1024, &box[1], &box[3]);
     for (int i = 0; i < 2; i++) { /* larger than it must be, if there is room */
         const int32_t room = GN_WINDOW_TEXELS - box[2 + i], before = rng_range(&random_state, 0, room > 0 ? room : 0);
         box[i] -= before;
@@ -410,10 +413,15 @@ static void test_reads(void)
                       hi = lo + rng_range(&random_state, 0, 5 * 65536);
         const double reach_of = view.filter ? view.filter_idx + 1 : 0.5; /* of centres, the last excluded */
         int32_t first, n;
-        gn_window_reads(&view, lo, hi, &first, &n);
+        const int32_t edge = rng_range(&random_state, 0, 8);
+        gn_window_reads(&view, 0, lo, hi, &first, &n);
         const double at = lo / 65536.0 - reach_of - 0.5, end = hi / 65536.0 + reach_of - 0.5;
         HOLDS(&t, first == (int32_t)floor(at) + 1 && first + n - 1 == (int32_t)floor(end),
               "filter %d, %d .. %d: %d from %d", (int)view.filter, (int)lo, (int)hi, (int)n, (int)first);
+        if (!edge) continue;
+        gn_window_reads(&view, edge, lo, hi, &first, &n); /* of F7 */
+        HOLDS(&t, first == (lo >> 16) - edge && first + n - 1 == (hi >> 16) + edge, "edge %d, %d .. %d: %d from %d",
+              (int)edge, (int)lo, (int)hi, (int)n, (int)first);
     }
     CHECK_TALLY(t, "texels that are read");
 }

@@ -40,6 +40,7 @@ static long of_shadows(const settings *s, flash_core core)
     if (s->feature.receiver_bias) bytes += receiver_bias_bytes[core];
     if (s->feature.caster_bias) bytes += caster_bias_bytes[core];
     if (s->feature.receiver_plane) bytes += receiver_plane_bytes[core];
+    if (s->quality.edge) bytes += edge_bytes[core];
     if (s->feature.auto_bias) bytes += auto_bias_bytes[core];
     if (s->feature.incremental) bytes += incremental_bytes[core];
     if (s->feature.many_cascades) bytes += many_cascades_bytes[core];

@@ -77,6 +77,7 @@ ref_options engine_ref_options(const scene *s, const settings *set, int width, i
                          .depth_bits = set->quality.depth_bits,
                          .other_depth_bits = set->quality.other_depth_bits,
                          .newton_steps = set->quality.newton_steps,
+                         .edge = set->quality.edge,
                          .transparent_layers = set->quality.transparent_layers,
                          .unit = ldexp(1.0, -16 - quantise_world_exp(s))};
 }

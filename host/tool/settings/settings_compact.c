@@ -101,6 +101,7 @@ int settings_compact_check(const settings *set, const scene *s, int width, int h
     if (q->atlas_size > SIDE_MAX)
         return refuse_number(error, error_bytes, "atlas_size", (size_t)q->atlas_size, "up to 256");
     if (q->depth_bits != 16) return refuse_number(error, error_bytes, "depth_bits", (size_t)q->depth_bits, "16");
+    if (q->edge) return refuse_number(error, error_bytes, "edge", (size_t)q->edge, "0");
     if (q->triangle_groups)
         return refuse_number(error, error_bytes, "triangle_groups", (size_t)q->triangle_groups, "0");
     if (q->transparent_layers)

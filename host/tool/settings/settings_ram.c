@@ -121,7 +121,8 @@ static long lattice_bytes(const settings *s)
     if (s->feature.shadows && s->feature.punctual_lights) put(&all, 8, 68, 4); /* forms */
     put(&all, s->capacity.surface_lights, 12, 4);                              /* light */
     put(&all, 1, 200, 4);                                                      /* face_q30 to bits */
-    if (s->feature.shadows && s->feature.receiver_plane) put(&all, 4, 4, 4);   /* slope_view to slope_h_q14 */
+    if (s->feature.shadows && (s->feature.receiver_plane || s->quality.edge))
+        put(&all, 4, 4, 4); /* slope_view to slope_h_q14 */
     const long corners = 12 * corner_bytes(s), facet = facet_bytes(s);
     put(&all, 1, corners > facet ? corners : facet, 4); /* from */
     put(&all, 1, corner_bytes(s), 4);
@@ -153,7 +154,7 @@ static void put_work(layout *out, const settings *s)
     if (has_levels(s)) put(&surface, 1, 28, 8);
     if (has_glow(s)) put(&surface, 1, 4, 4);
     if (has_levels(s) && has_glow(s)) put(&surface, 1, 8, 8); /* glow_depth2_q32 */
-    if (s->feature.receiver_plane || s->feature.auto_bias) put(&surface, 3, 4, 4);
+    if (s->feature.receiver_plane || s->quality.edge || s->feature.auto_bias) put(&surface, 3, 4, 4);
     if (s->feature.auto_bias) put(&surface, 3, 4, 4); /* lift_q30 */
     put(&surface, s->capacity.surface_lights, s->quality.vertex_light ? 44 : 36, 4);
     pad(&surface, surface.align);
