@@ -37,7 +37,8 @@ static bool same_schedule(const scene_shadow *a, const scene_shadow *b)
 
 static bool same_but_schedule(const sweep_row *a, const sweep_row *b)
 {
-    return a->static_layer == b->static_layer && memcmp(&a->quality, &b->quality, sizeof a->quality) == 0 &&
+    return a->static_layer == b->static_layer && a->n_boxes == b->n_boxes && a->shadow.fit == b->shadow.fit &&
+           a->shadow.tiles == b->shadow.tiles && memcmp(&a->quality, &b->quality, sizeof a->quality) == 0 &&
            a->shadow.filter == b->shadow.filter && a->shadow.other_filter == b->shadow.other_filter &&
            a->shadow.kernel == b->shadow.kernel && a->shadow.n_cascades == b->shadow.n_cascades;
 }
@@ -184,6 +185,7 @@ static int add(sweep *w, const sweep_config *c)
     row->quality = set.quality;
     row->shadow = s.shadow;
     row->static_layer = set.feature.static_layer;
+    row->n_boxes = s.n_fixed_fits;
     sweep_find_levels(row);
     if (!is_known(w, row)) {
         int failed = w->colours_only ? measure_colours(w, row, &s, &set, error, sizeof error)
@@ -281,7 +283,7 @@ void sweep_mark_front(sweep *w)
 
 static void look_at_lights(sweep *w, const scene *s)
 {
-    size_t directional = 0;
+    size_t directional = 0, other = 0; /* views */
     for (size_t i = 0; i < s->n_lights; i++) {
         const scene_light *l = &s->lights[i];
         bool shadow = l->shadow && l->strength > 0 && l->mode != SCENE_BAKED;
@@ -290,10 +292,12 @@ static void look_at_lights(sweep *w, const scene *s)
         w->directional |= shadow && is_directional;
         w->other |= shadow && !is_directional;
         directional += shadow && is_directional;
+        if (shadow && !is_directional) other += l->kind == SCENE_LIGHT_POINT ? 6 : 1;
     }
     /* beside a main light the others have their tiles in the local-light atlas */
     w->punctual |= s->shadow.main_light;
     w->other |= s->shadow.main_light && directional > 1;
+    w->several = w->directional || other > 1; /* cascades are varied */
 }
 
 static void look_at_sets(sweep *w)

@@ -23,6 +23,8 @@ typedef enum {
     SWEEP_REFRESH,
     SWEEP_STATIC_LAYER,
     SWEEP_TRIANGLE_GROUPS,
+    SWEEP_FIT,
+    SWEEP_TILES,
     SWEEP_KNOBS
 } sweep_knob;
 
@@ -62,7 +64,7 @@ typedef struct {
     sweep_played played;
     double cost, db; /* what the front is made of, and advice: of a scene that moves, what is played; else the first
                       * frame. The cost by the model, or after sweep_target_scale on the target */
-    int static_layer;
+    int static_layer, n_boxes;       /* boxes: of a compiled fit */
     bool is_counted, is_uncountable; /* on --target: it was; it failed */
     double target,
         target_later; /* instructions per pixel on --target: of the first frame, and the mean of the later ones */
@@ -73,6 +75,8 @@ typedef struct {
     tool_options options; /* of the command line, for loads that share what is seen */
     scene_seen seen;
     bool directional, punctual, other; /* shadows in the directional atlas, lights of the other, shadows in it */
+    bool several;                      /* views that may share an atlas */
+    bool stands;                       /* with something that moves: a directional light does not turn */
     bool held[SWEEP_KNOBS];            /* set on the command line: not varied */
     bool moves, layers;    /* frames differ; some caster moves and is known to, so that a static layer has a use */
     engine_picture common; /* exact shadows */
