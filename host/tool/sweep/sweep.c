@@ -214,6 +214,27 @@ int sweep_complete(sweep *w, size_t i)
     return 0;
 }
 
+int sweep_unfitted(sweep *w, size_t i, sweep_row *out, char *name, size_t bytes)
+{
+    static sweep_plan list; /* large for a stack */
+    char error[TOOL_ERROR_BYTES] = "out of memory";
+    scene s;
+    settings set;
+    sweep_row only = {.config = sweep_nothing_set()};
+    *name = 0;
+    sweep_plan_unfitted(&list, w, &w->rows[i]);
+    if (!list.n) return 0;
+    memset(out, 0, sizeof *out);
+    out->config = list.all[0];
+    for (int k = SWEEP_FIT; k <= SWEEP_TILES; k++)
+        if (w->rows[i].effective.level[k] > 0) only.config.level[k] = out->config.level[k];
+    sweep_name(w, &only, name, bytes);
+    if (load(w, &out->config, &s, &set, error, sizeof error)) return fail(w, error);
+    int failed = measure(w, out, &s, &set, error, sizeof error);
+    scene_free(&s);
+    return failed ? fail(w, error) : 0;
+}
+
 static int measure_all(sweep *w, const sweep_plan *list)
 {
     w->n_done = 0;

@@ -126,6 +126,10 @@ void sweep_show_progress(const sweep *w);
 /* With colours_only: measures the rest of a row. Prints the error and returns -1. */
 int sweep_complete(sweep *w, size_t row);
 
+/* A row with stable fits and equal tiles, the rest and so the atlases alike: its figures into out, and into name what
+ * is set for it, "" where the row is that itself. Prints the error and returns -1. */
+int sweep_unfitted(sweep *w, size_t row, sweep_row *out, char *name, size_t bytes);
+
 /* Instructions on the board that --target names: sweep_target.c. Begin prints why nothing counts, if so; -1: the board
  * is none that ever could. Rows that cannot be counted are counted in n_uncounted. */
 int sweep_target_begin(sweep *w);

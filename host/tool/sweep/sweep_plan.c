@@ -93,7 +93,6 @@ static void plan_one_at_a_time(sweep_plan *list, sweep_config base)
 static void plan_fits(sweep_plan *list, sweep_config base)
 {
     const sweep_config hard = with(base, SWEEP_FILTER, "hard"), small = with_atlases(hard, "64");
-    plan(list, with_fit(base, "stable", "equal"));
     plan(list, with_fit(hard, "stable", "equal"));
     plan(list, small);
     plan(list, with_fit(small, "stable", "equal"));
@@ -194,6 +193,19 @@ void sweep_plan_tiles(sweep_plan *list, const sweep *w, const sweep_row *row)
         if (y) c.level[SWEEP_TILE_HEIGHT] = height + y;
         if ((!x || width + x >= 0) && (!y || height + y >= 0)) plan(list, c);
     }
+}
+
+void sweep_plan_unfitted(sweep_plan *list, const sweep *w, const sweep_row *row)
+{
+    sweep_config c = row->config;
+    bool differs = false;
+    start(list, w);
+    for (int k = SWEEP_FIT; k <= SWEEP_TILES; k++) {
+        if (w->held[k] || !matters(w, (sweep_knob)k) || row->effective.level[k] <= 0) continue;
+        c.level[k] = 0;
+        differs = true;
+    }
+    if (differs) plan(list, c);
 }
 
 void sweep_plan_min(sweep_plan *list, const sweep *w)
