@@ -17,12 +17,13 @@ static bool matters(const sweep *w, sweep_knob k)
     return true;
 }
 
-/* An atlas without a shadow is as small as it can be. */
+/* What has no use is as small as it can be. */
 static void shrink_unused(const sweep *w, sweep_config *c)
 {
     for (int k = SWEEP_PRESET + 1; k < SWEEP_KNOBS; k++)
         if (!matters(w, (sweep_knob)k)) c->level[k] = -1;
     if (!w->directional) c->level[SWEEP_ATLAS] = 0;
+    if (!w->directional && c->level[SWEEP_TILES] == 0) c->level[SWEEP_FIT] = 0; /* what makes both is not built */
     if (!w->other && w->punctual) c->level[SWEEP_OTHER_ATLAS] = 0;
 }
 
