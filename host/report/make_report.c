@@ -304,7 +304,7 @@ static int put_scene(const report *r, const report_scene *s)
     put_title(r, s->name);
     put(r, "</h2>\n<p>%.0f × %.0f pixels, preset balanced, ", number(s->doc[0].root, "width"),
         number(s->doc[0].root, "height"));
-    put_bytes(r, number(s->doc[0].root, "ram_bytes"));
+    put_bytes(r, number(s->doc[BALANCED].root, "ram_bytes"));
     put(r, " of RAM. Fixed point: ");
     put_number(r, number(pair_of(s, BALANCED, FIXED_REFERENCE), "psnr_db"), DECIBEL);
     put(r, "; shadow maps: ");

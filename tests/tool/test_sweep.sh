@@ -255,7 +255,7 @@ bad 1 'the nearest: [0-9]* bytes' advise host/scenes/fence.gltf --quick --size $
 # ---- On a target ---------------------------------------------------------------------------------------------------------------
 
 # one configuration of a still scene, so that one image is built; a terminal sees what is at work
-one="--set preset=tiny --set filter=hard --set atlas_size=64"
+one="--set preset=tiny --set filter=hard --set atlas_size=64 --set fit=tight --set tiles=worth"
 counted="$tool sweep host/scenes/fence.gltf --quick --size $size $one --target mps2-an385 --csv $tmp/counted.csv --svg $tmp/counted.svg"
 if command -v script >/dev/null; then
     script -q -e -c "$counted" "$tmp/typescript" >/dev/null 2>&1 </dev/null
