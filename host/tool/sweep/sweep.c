@@ -319,6 +319,7 @@ static void look_at_lights(sweep *w, const scene *s)
     w->punctual |= s->shadow.main_light;
     w->other |= s->shadow.main_light && directional > 1;
     w->several = w->directional || other > 1; /* cascades are varied */
+    w->single = other + directional * (size_t)s->shadow.n_cascades <= 1;
 }
 
 static void look_at_sets(sweep *w)

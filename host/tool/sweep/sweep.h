@@ -76,6 +76,7 @@ typedef struct {
     scene_seen seen;
     bool directional, punctual, other; /* shadows in the directional atlas, lights of the other, shadows in it */
     bool several;                      /* views that may share an atlas */
+    bool single;                       /* one view, with the cascades that the scene has */
     bool stands;                       /* with something that moves: a directional light does not turn */
     bool held[SWEEP_KNOBS];            /* set on the command line: not varied */
     bool moves, layers;    /* frames differ; some caster moves and is known to, so that a static layer has a use */
