@@ -43,6 +43,38 @@ front() {
         }' docs/trade.txt "$2"
 }
 
+# fits SCENE CSV: rows of the table of fits, two atlases. A scene with nothing to fit has one configuration of each.
+fits() {
+    awk -F '"' -v scene="$1" '
+        function cells(key) { return figures[(key in figures) ? key : after] }
+        NR > 1 && $2 ~ /^preset=balanced filter=hard( (other_)?atlas_size=[0-9]+)*( fit=stable)?( tiles=equal)?$/ {
+            split($3, v, ",")
+            side = $2 ~ /atlas_size=64/ ? 64 : $2 ~ /atlas_size=(32|128|256|512)/ ? 0 : 128
+            figures[side ($2 ~ /fit=|tiles=/ ? "before" : "after")] = sprintf("%d | %.2f %% | %.2f", v[3], 100 * v[9], v[7])
+        }
+        END {
+            for (side = 128; side >= 64; side /= 2) {
+                after = side "after"
+                printf "| %s | %d² | %s | %s |\n", scene, side, cells(side "before"), cells(after)
+            }
+        }' "$2"
+}
+
+# all_fits: the table. Rows of scenes that are not made anew stay.
+all_fits() {
+    echo
+    echo "## The same atlas, before and after"
+    echo
+    echo "Preset balanced, filter hard, first frame. Before: \`fit=stable tiles=equal\`. After: \`fit=tight tiles=worth\`, as the preset has it. Both are against exact shadows. The atlases are as large as each other; equal tiles may leave a part unused, which then takes no RAM."
+    echo
+    echo "| scene | atlas | before: RAM, bytes | shadow mismatch | PSNR, dB | after: RAM, bytes | shadow mismatch | PSNR, dB |"
+    echo "|---|---|---|---|---|---|---|---|"
+    for name in sundial avenue desk room fence mixed; do
+        if [ -f "$work/$name.csv" ]; then fits "$name" "$work/$name.csv"; else grep "^| $name |" "$out/data/TRADE.md" || true; fi
+    done
+    echo
+}
+
 # schedules TEXT: what the sweep says of cascades on a schedule
 schedules() {
     awk '
@@ -86,6 +118,9 @@ for scene in $scenes; do
     } >"$work/$scene.md"
     replace "$scene" "$work/$scene.md"
 done
+
+all_fits >"$work/fits.md"
+replace fits "$work/fits.md"
 
 {
     echo

@@ -3,7 +3,8 @@
  *
  * usage: make_report PAGE FOLDER PLOTS PARTS SCENE...
  *   FOLDER/SCENE/PRESET.json, of each preset but tiny, and the pictures in FOLDER/SCENE/balanced: of gnomon compare
- * --with truth PLOTS: trade-SCENE.svg and the census; left out where they are missing PARTS: page.css, page.js
+ * --with truth; FOLDER/SCENE/before.json and after.json with theirs: of the same atlas with other fits and tiles
+ *   PLOTS: trade-SCENE.svg and the census; left out where they are missing PARTS: page.css, page.js
  */
 #include <ctype.h>
 #include <math.h>
@@ -15,10 +16,10 @@
 #include "embed.h"
 
 enum { PATH_BYTES = 4096 };
-enum { FAST, BALANCED, ACCURATE, N_PRESETS };
+enum { FAST, BALANCED, ACCURATE, N_PRESETS, BEFORE = N_PRESETS, AFTER, N_DOCS };
 enum { FIXED_REFERENCE, REFERENCE_TRUTH, FIXED_TRUTH, N_PAIRS };
 
-static const char *const preset_names[N_PRESETS] = {"fast", "balanced", "accurate"};
+static const char *const doc_names[N_DOCS] = {"fast", "balanced", "accurate", "before", "after"};
 
 /* As gnomon compare names them. */
 static const struct {
@@ -41,9 +42,23 @@ static const struct {
 };
 enum { N_PICTURES = sizeof pictures / sizeof *pictures };
 
+/* Of the same atlas; doc: whose figures stand below. */
+static const struct {
+    const char *name, *file, *title, *what;
+    int doc;
+} fit_pictures[] = {
+    {"before", "before/fixed", "before", "fit stable, tiles equal", BEFORE},
+    {"after", "after/fixed", "after", "fit tight, tiles worth", AFTER},
+    {"exact", "after/truth", "exact shadows", "by a ray tracer", N_DOCS},
+    {"error_before", "before/error_fixed_truth", "error before", "against exact shadows, eight times as strong",
+     N_DOCS},
+    {"error_after", "after/error_fixed_truth", "error after", "against exact shadows, eight times as strong", N_DOCS},
+};
+enum { N_FIT_PICTURES = sizeof fit_pictures / sizeof *fit_pictures };
+
 typedef struct {
     const char *name;
-    json_doc doc[N_PRESETS];
+    json_doc doc[N_DOCS];
 } report_scene;
 
 typedef struct {
@@ -136,7 +151,7 @@ static void put_summary_row(const report *r, const report_scene *s, int preset)
         put_title(r, s->name);
         put(r, "</a></th>");
     }
-    put(r, "<td class=\"word\">%s</td>", preset_names[preset]);
+    put(r, "<td class=\"word\">%s</td>", doc_names[preset]);
     put_cell(r, number(fixed, "identical"), PERCENT);
     put_cell(r, number(fixed, "psnr_db"), DECIBEL);
     put_cell(r, number(fixed, "shadow_mismatch"), PERCENT);
@@ -177,19 +192,59 @@ static void put_summary(const report *r)
 
 /* ---- A scene ----------------------------------------------------------------------------------------------------- */
 
-static int put_pictures(const report *r, const report_scene *s)
+/* FOLDER/SCENE/FILE.png, but for the end of its caption. */
+static int put_picture(const report *r, const report_scene *s, const char *name, const char *file, const char *title,
+                       const char *what)
 {
     const int w = (int)number(s->doc[0].root, "width"), h = (int)number(s->doc[0].root, "height");
+    char end[64];
+    snprintf(end, sizeof end, "/%s.png", file);
+    const char *path = path_of(r->folder, s->name, end, "");
+    put(r, "<figure><img data-picture=\"%s\" width=\"%d\" height=\"%d\" alt=\"", name, w, h);
+    put_title(r, s->name);
+    put(r, ", %s: %s\" src=\"", title, what);
+    if (embed_png(r->page, path)) return complain(path, "cannot be read");
+    put(r, "\"><figcaption><b>%s</b> %s", title, what);
+    return 0;
+}
+
+static int put_pictures(const report *r, const report_scene *s)
+{
     put(r, "<div class=\"pictures\">\n");
     for (int i = 0; i < N_PICTURES; i++) {
         char file[64];
-        snprintf(file, sizeof file, "/balanced/%s.png", pictures[i].file);
-        const char *path = path_of(r->folder, s->name, file, "");
-        put(r, "<figure><img data-picture=\"%s\" width=\"%d\" height=\"%d\" alt=\"", pictures[i].file, w, h);
-        put_title(r, s->name);
-        put(r, ", %s: %s\" src=\"", pictures[i].title, pictures[i].what);
-        if (embed_png(r->page, path)) return complain(path, "cannot be read");
-        put(r, "\"><figcaption><b>%s</b> %s</figcaption></figure>\n", pictures[i].title, pictures[i].what);
+        snprintf(file, sizeof file, "balanced/%s", pictures[i].file);
+        if (put_picture(r, s, pictures[i].file, file, pictures[i].title, pictures[i].what)) return -1;
+        put(r, "</figcaption></figure>\n");
+    }
+    put(r, "</div>\n");
+    return 0;
+}
+
+static void put_fit_figures(const report *r, const json_value *doc)
+{
+    const json_value *pair = json_get(doc, pairs[FIXED_TRUTH].key);
+    put(r, ": mismatch ");
+    put_number(r, number(pair, "shadow_mismatch"), PERCENT);
+    put(r, ", PSNR ");
+    put_number(r, number(pair, "psnr_db"), DECIBEL);
+    put(r, ", RAM ");
+    put_bytes(r, number(doc, "ram_bytes"));
+}
+
+/* What the atlas's texels are spent on. */
+static int put_fits(const report *r, const report_scene *s)
+{
+    put(r, "<h3>The same atlas, before and after</h3>\n"
+           "<p>Preset balanced, filter hard. Before, tiles cover a sphere around what a cascade shows, and are of one "
+           "size. After, they cover what is visible where something casts, and are as large as that is worth on the "
+           "screen. Equal tiles may leave a part of the atlas unused, which takes no RAM.</p>\n"
+           "<div class=\"pictures\">\n");
+    for (int i = 0; i < N_FIT_PICTURES; i++) {
+        if (put_picture(r, s, fit_pictures[i].name, fit_pictures[i].file, fit_pictures[i].title, fit_pictures[i].what))
+            return -1;
+        if (fit_pictures[i].doc < N_DOCS) put_fit_figures(r, s->doc[fit_pictures[i].doc].root);
+        put(r, "</figcaption></figure>\n");
     }
     put(r, "</div>\n");
     return 0;
@@ -249,7 +304,7 @@ static int put_scene(const report *r, const report_scene *s)
     put_title(r, s->name);
     put(r, "</h2>\n<p>%.0f × %.0f pixels, preset balanced, ", number(s->doc[0].root, "width"),
         number(s->doc[0].root, "height"));
-    put_bytes(r, number(s->doc[0].root, "ram_bytes"));
+    put_bytes(r, number(s->doc[BALANCED].root, "ram_bytes"));
     put(r, " of RAM. Fixed point: ");
     put_number(r, number(pair_of(s, BALANCED, FIXED_REFERENCE), "psnr_db"), DECIBEL);
     put(r, "; shadow maps: ");
@@ -257,6 +312,7 @@ static int put_scene(const report *r, const report_scene *s)
     put(r, ".</p>\n");
     if (put_pictures(r, s)) return -1;
     put_metrics(r, s);
+    if (put_fits(r, s)) return -1;
     snprintf(plot, sizeof plot, "trade-%s", s->name);
     put_plot(r, "What RAM and instructions buy", plot, "h3");
     put(r, "</section>\n");
@@ -321,10 +377,10 @@ static int put_page(const report *r)
 static int read_scene(report_scene *s, const char *folder, const char *name)
 {
     s->name = name;
-    for (int i = 0; i < N_PRESETS; i++) {
+    for (int i = 0; i < N_DOCS; i++) {
         char file[64], error[256];
         size_t n;
-        snprintf(file, sizeof file, "/%s.json", preset_names[i]);
+        snprintf(file, sizeof file, "/%s.json", doc_names[i]);
         const char *path = path_of(folder, name, file, "");
         char *text = embed_read(path, &n);
         if (!text) return complain(path, "cannot be read");
@@ -356,7 +412,7 @@ int main(int argc, char **argv)
     r.scenes = calloc(r.n_scenes, sizeof *r.scenes);
     const int failed = r.scenes ? run(&r, argv[1], argv + 5) : complain(argv[1], "out of memory");
     for (size_t i = 0; r.scenes && i < r.n_scenes; i++)
-        for (int k = 0; k < N_PRESETS; k++) json_free(&r.scenes[i].doc[k]);
+        for (int k = 0; k < N_DOCS; k++) json_free(&r.scenes[i].doc[k]);
     free(r.scenes);
     return failed ? 1 : 0;
 }

@@ -1,7 +1,7 @@
 "use strict";
 // The slider: two of a scene's pictures, one over the other. Without it the page shows them side by side all the same.
 (() => {
-  const pairs = [["fixed", "reference"], ["reference", "truth"], ["fixed", "truth"]];
+  const pairs = [["fixed", "reference"], ["reference", "truth"], ["fixed", "truth"], ["before", "after"]];
 
   const make = (name, properties, ...children) => {
     const element = Object.assign(document.createElement(name), properties);
@@ -20,12 +20,12 @@
 
     const show = (image, name) => { image.src = source(name).src; image.alt = source(name).alt; };
     const update = () => {
-      const rightName = withError ? `error_${pair[0]}_${pair[1]}` : pair[1];
-      show(left, pair[0]);
-      show(right, rightName);
-      leftTag.textContent = pair[0];
-      rightTag.textContent = withError ? `error against ${pair[1]}, ×8` : pair[1];
-      slider.setAttribute("aria-label", `Edge between ${pair[0]} on the left and ${rightTag.textContent} on the right`);
+      const fits = withError && pair[0] === "before"; // each has its error
+      show(left, fits ? "error_before" : pair[0]);
+      show(right, fits ? "error_after" : withError ? `error_${pair[0]}_${pair[1]}` : pair[1]);
+      leftTag.textContent = fits ? "error before, ×8" : pair[0];
+      rightTag.textContent = fits ? "error after, ×8" : withError ? `error against ${pair[1]}, ×8` : pair[1];
+      slider.setAttribute("aria-label", `Edge between ${leftTag.textContent} on the left and ${rightTag.textContent} on the right`);
     };
     slider.addEventListener("input", () => stage.style.setProperty("--at", `${slider.value / 10}%`));
 

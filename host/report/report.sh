@@ -14,6 +14,13 @@ for wanted in "$@"; do
     for preset in fast balanced accurate; do
         "$tool" compare "$scene" --with truth --json --size "$size" --frame "$frame" --set preset=$preset -o "$out/$name/$preset" >"$out/$name/$preset.json"
     done
+    # the same atlas with the fits and tiles before, and after; hard edges show where texels are
+    for fits in 'before stable equal' 'after tight worth'; do
+        # shellcheck disable=SC2086
+        set -- $fits
+        "$tool" compare "$scene" --with truth --json --size "$size" --frame "$frame" --set preset=balanced --set filter=hard --set fit="$2" --set tiles="$3" \
+            -o "$out/$name/$1" >"$out/$name/$1.json"
+    done
     names="$names $name"
 done
 # shellcheck disable=SC2086

@@ -16,8 +16,8 @@ count() { # count NUMBER PATTERN
     found=$(grep -o -e "$2" "$page" | wc -l)
     [ "$found" = "$1" ] && pass || fail "the page has $found of $2, not $1"
 }
-count 36 '<img data-picture='
-count 36 'src="data:image/png;base64,'
+count 66 '<img data-picture='
+count 66 'src="data:image/png;base64,'
 count 6 '<section class="scene" id='
 count 10 '<svg role="img"'
 count 18 '<td class="word">'
@@ -39,6 +39,27 @@ for name in $scenes; do
         awk -v name="$name" -v preset=$preset '/<tr><th scope="rowgroup"/ { at = index($0, "#" name "\"") } at && index($0, ">" preset "<")' "$page" | grep -q ">$want&#8239;%<" &&
             pass || fail "$name, $preset: the summary does not say $want % identical"
     done
+done
+
+# the same atlas: pictures and figures are those of compare without and with tight fits and tiles by worth, and shadows are nearer to exact ones
+picture() { sed -n "s/.*data-picture=\"$2\" .*alt=\"$1,.*src=\"data:image\/png;base64,\([^\"]*\)\".*/\1/p" "$page" | base64 -d; }
+figure() { sed -n "s/.*data-picture=\"$2\" .*alt=\"$1,.*<b>$2<\/b>[^:]*: mismatch \([0-9.]*\)&#8239;%, PSNR \([0-9.]*\)&#8239;dB.*/\1 \2/p" "$page"; }
+for name in Fence Mixed; do
+    scene=host/scenes/$(echo $name | tr FM fm).gltf
+    set -- --size 64x48 --frame 2 --set preset=balanced --set filter=hard
+    for fits in "before stable equal" "after tight worth"; do
+        which=${fits%% *} fit=${fits#* }
+        "$tool" compare "$scene" "$@" --set fit="${fit% *}" --set tiles="${fit#* }" --with truth --json -o "$tmp/fits" >"$tmp/fits.json" 2>/dev/null
+        picture $name $which >"$tmp/shown.png"
+        cmp -s "$tmp/shown.png" "$tmp/fits/fixed.png" && pass || fail "$name: the picture $which is not compare's with $fits"
+        picture $name error_$which >"$tmp/shown.png"
+        cmp -s "$tmp/shown.png" "$tmp/fits/error_fixed_truth.png" && pass || fail "$name: the error $which is not compare's with $fits"
+        sed 's/.*"fixed_truth": {\([^[]*\).*/\1/; s/.*"psnr_db": \([0-9.]*\).*"shadow_mismatch": \([0-9.]*\).*/\1 \2/' "$tmp/fits.json" | awk '{ printf "%.2f %.1f\n", 100 * $2, $1 }' >"$tmp/$which"
+        [ -s "$tmp/$which" ] && [ "$(figure $name $which)" = "$(cat "$tmp/$which")" ] && pass || fail "$name: $which the page says $(figure $name $which), compare $(cat "$tmp/$which")"
+    done
+    picture $name exact >"$tmp/shown.png"
+    cmp -s "$tmp/shown.png" "$tmp/fits/truth.png" && pass || fail "$name: no exact shadows beside them"
+    [ "$(paste -d ' ' "$tmp/before" "$tmp/after" | awk '{ print ($3 < $1 && $4 > $2) }')" = 1 ] && pass || fail "$name: after is not nearer to exact shadows than before: $(cat "$tmp/before" "$tmp/after" | tr '\n' ' ')"
 done
 
 # what is missing is named
@@ -65,6 +86,9 @@ addEventListener("load", () => {
   const buttons = document.querySelectorAll(".bar button");
   buttons[0].click();
   said.push(`error ${stage.querySelectorAll("img")[1].src === document.querySelector("[data-picture=error_fixed_reference]").src}`);
+  const errors = ["error_before", "error_after"].map((name) => document.querySelector(`[data-picture=${name}]`).src);
+  document.querySelectorAll(".bar input")[3].click();
+  said.push(`fits ${[...stage.querySelectorAll("img")].every((image, i) => image.src === errors[i])} ${stage.querySelector(".left").textContent.slice(0, 12)}`);
   buttons[1].click();
   said.push(`blink ${getComputedStyle(stage.querySelectorAll("img")[1]).animationName} ${buttons[1].ariaPressed}`);
   const small = [...document.querySelectorAll("nav a, .bar label, .bar button")].filter((e) => e.getBoundingClientRect().height < 32).length;
@@ -91,14 +115,14 @@ if command -v chromium >/dev/null; then
 PHONE
     where=desktop
     told=$(browse --window-size=1280,900 --screenshot="$tmp/desktop.png" --dump-dom "$here/probed.html" | sed -n 's/.*data-probe="\([^"]*\)".*/\1/p')
-    probed "fits true at 1280" "wider 0" "broken 0" "stages 6" "edge 25%" "right reference" "error true" "blink blink true" "small 0"
+    probed "fits true at 1280" "wider 0" "broken 0" "stages 6" "edge 25%" "right reference" "error true" "fits true error before" "blink blink true" "small 0"
     where=phone
     told=$(browse --window-size=500,1400 --screenshot="$tmp/phone.png" --dump-dom "$here/phone.html" | sed -n 's/.*data-probe="\([^"]*\)".*/\1/p')
-    probed "fits true at 360" "wider 0" "broken 0" "stages 6" "edge 25%" "right reference" "error true" "blink blink true" "small 0"
+    probed "fits true at 360" "wider 0" "broken 0" "stages 6" "edge 25%" "right reference" "error true" "fits true error before" "blink blink true" "small 0"
     browse --window-size=1280,900 --screenshot="$tmp/light.png" "$here/report/index.html" >/dev/null
     browse --window-size=1280,900 --blink-settings=preferredColorScheme=0 --screenshot="$tmp/dark.png" "$here/report/index.html" >/dev/null
     sed '/^<script>$/,/^<\/script>$/d' "$page" >"$tmp/plain.html" # as without JavaScript
-    [ "$(browse --window-size=1280,900 --screenshot="$tmp/plain.png" --dump-dom "$here/plain.html" | grep -o '<img data-picture=' | wc -l)" = 36 ] && pass ||
+    [ "$(browse --window-size=1280,900 --screenshot="$tmp/plain.png" --dump-dom "$here/plain.html" | grep -o '<img data-picture=' | wc -l)" = 66 ] && pass ||
         fail "pictures are missing without JavaScript"
     for shot in light dark plain; do [ "$(wc -c <"$tmp/$shot.png" 2>/dev/null || echo 0)" -gt 20000 ] && pass || fail "no screenshot, or an empty one: $shot"; done
     cmp -s "$tmp/light.png" "$tmp/dark.png" && fail "a dark screen sees the light page" || pass

@@ -92,6 +92,37 @@ good sweep host/scenes/sundial.gltf --quick --size $size --set filter=5x5 --set 
 grep -q 'filter=\|preset=' "$tmp/out" && fail "sweep varies what --set holds" || pass
 good sweep host/scenes/sundial.gltf --quick --size $size --set shadows=0
 
+# ---- Fits and tiles ------------------------------------------------------------------------------------------------------------
+
+# the same atlas without tight fits and tiles by worth: farther from exact shadows, and not more bytes; a single spot has nothing to fit
+for name in sundial mixed; do
+    awk -F '"' '$2 ~ /^preset=balanced filter=hard( (other_)?atlas_size=64)+( fit=stable tiles=equal)?$/ { split($3, v, ","); i = $2 ~ /fit=/; n++; ram[i] = v[3]; db[i] = v[7]; off[i] = v[9] }
+        END { exit !(n == 2 && off[0] < off[1] && db[0] > db[1] && ram[1] < ram[0]) }' "$tmp/$name.csv" || fail "sweep of $name: fits and tiles make no difference in the same atlas"
+    pass
+done
+grep -q 'fit=\|tiles=' "$tmp/desk.csv" && fail "the sweep of desk varies fits of a single spot" || pass
+good sweep host/scenes/sundial.gltf --quick --size $size --set fit=tight --all
+! grep -q 'fit=' "$tmp/out" && grep -q 'tiles=equal$' "$tmp/out" && pass || fail "sweep varies the fit that --set holds, or not the tiles"
+good sweep host/scenes/sundial.gltf --quick --size $size --set tight_fit=0 --all
+grep -q 'fit=\|tiles=' "$tmp/out" && fail "sweep varies fits that are not built" || pass
+# a compiled fit where a light stands while something moves: what compare says of the first frame and of a later one
+held="--size 16x12 --set preset=balanced --set filter=hard --set atlas_size=64 --set other_atlas_size=64 --set depth_bits=16 --set other_depth_bits=16 --set cascades=2 --set persp_step=8 --set triangle_groups=0 --set subpixel_bits=6"
+for name in sundial mixed; do
+    # shellcheck disable=SC2086
+    good sweep host/scenes/$name.gltf $held --csv "$tmp/$name.fits.csv"
+    sed 's/^"\([^"]*\)".*/\1/' "$tmp/$name.fits.csv" | tr '\n' ';' >"$tmp/found"
+    for fits in 'fit=stable;' 'tiles=equal;' 'fit=stable tiles=equal;'; do grep -q ";$fits" "$tmp/found" && pass || fail "the sweep of $name has no $fits of $(cat "$tmp/found")"; done
+done
+grep -q '^"fit=compiled"' "$tmp/sundial.fits.csv" && fail "the sweep of sundial compiles fits for a light that turns" || pass
+worst=
+for frame in 0 1 2 3 4 5 6 7 8; do
+    # shellcheck disable=SC2086
+    run compare host/scenes/mixed.gltf $held --json --with truth --frame $frame --set fit=compiled
+    [ $frame = 0 ] && first=$(field psnr_db fixed_truth) || worst=$(printf '%s\n%s\n' "$worst" "$(field psnr_db fixed_truth)" | grep . | sort -g | sed 1q)
+done
+[ -n "$first" ] && [ "$(awk -F '"' '$2 == "fit=compiled" { split($3, v, ","); print v[7], v[19] }' "$tmp/mixed.fits.csv")" = "$first $worst" ] && pass ||
+    fail "with compiled fits compare says $first, and $worst at worst; the sweep $(grep '^"fit=compiled' "$tmp/mixed.fits.csv" | cut -d , -f 1-7,19)"
+
 # ---- From frame to frame -------------------------------------------------------------------------------------------------------
 
 # what is played, its tiles kept, is what each frame is on its own
@@ -202,6 +233,16 @@ for tile in "16 4" "16 16" "32 4" "32 16" "64 4" "64 8" "64 16" "128 8"; do
 done
 [ "${n_tiles:-0}" -gt 3 ] && [ ! -s "$tmp/cheaper" ] && pass || fail "of $n_tiles other tiles, cheaper than advised: $(head -n 2 "$tmp/cheaper")"
 
+# advice takes tight fits where they pay, and says what they are good for: what compare says of the same atlas
+good advise host/scenes/fence.gltf --quick --size $size --set preset=accurate --ram 100000
+grep -q '^--set preset=accurate .*--set fit=tight' "$tmp/out" && pass || fail "advice for fence has no tight fit: $(head -n 1 "$tmp/out")"
+said=$(sed -n 's/^  with fit=stable  *\([0-9.]*\) dB,.* mismatch \([0-9.]*\) %, \([0-9]*\) bytes .*/\1 \2 \3/p' "$tmp/out")
+# shellcheck disable=SC2046
+good compare host/scenes/fence.gltf --size $size --json --with truth $(sed 1q "$tmp/out") --set fit=stable
+[ "$said" = "$(printf '%.2f %.3f %d' "$(field psnr_db fixed_truth)" "$(awk "BEGIN { print 100 * $(field shadow_mismatch fixed_truth) }")" "$(field ram_bytes)")" ] && pass || fail "advice for fence says of stable fits: $said"
+good advise host/scenes/desk.gltf --quick --size $size --ram 100000
+grep -q '^  with ' "$tmp/out" && fail "advice for desk has something to say of fits" || pass
+
 # a budget of both kinds, and those that nothing fits: what is named would do, and a byte less would not
 good advise host/scenes/fence.gltf --quick --size $size --ram 100000 --instructions-per-pixel 100000
 bad 1 'no configuration fits into 1000 bytes at 32x24; the least RAM found: [0-9]* bytes and .* by --set' advise host/scenes/fence.gltf --quick --size $size --ram 1000
@@ -214,7 +255,7 @@ bad 1 'the nearest: [0-9]* bytes' advise host/scenes/fence.gltf --quick --size $
 # ---- On a target ---------------------------------------------------------------------------------------------------------------
 
 # one configuration of a still scene, so that one image is built; a terminal sees what is at work
-one="--set preset=tiny --set filter=hard --set atlas_size=64"
+one="--set preset=tiny --set filter=hard --set atlas_size=64 --set fit=tight --set tiles=worth"
 counted="$tool sweep host/scenes/fence.gltf --quick --size $size $one --target mps2-an385 --csv $tmp/counted.csv --svg $tmp/counted.svg"
 if command -v script >/dev/null; then
     script -q -e -c "$counted" "$tmp/typescript" >/dev/null 2>&1 </dev/null
@@ -279,6 +320,7 @@ new=$tmp/docs/pictures/trade-avenue.svg # without what was counted
 grep '<circle' docs/pictures/trade-avenue.svg | head -n "$(grep -c '<circle' "$new")" >"$tmp/points"
 [ -s "$tmp/points" ] && grep '<circle' "$new" | cmp -s - "$tmp/points" && pass || fail "docs/pictures/trade-avenue.svg is out of date: make docs"
 for name in sundial avenue desk room fence mixed; do
+    [ "$(grep -c "^| $name | \(128\|64\)² | [0-9]* | [0-9.]* % | [0-9.]* | [0-9]* | [0-9.]* % | [0-9.]* |$" docs/data/TRADE.md)" = 2 ] && pass || fail "docs/data/TRADE.md does not compare fits of $name"
     [ -s docs/pictures/trade-$name.svg ] && grep -q "../pictures/trade-$name.svg" docs/data/TRADE.md && pass || fail "docs/data/TRADE.md has no picture of $name"
 done
 

@@ -77,8 +77,8 @@ size_t settings_shadow_lights(const scene *s);
 /* Whether anything casts: a scene whose shadows are all in masks needs no shadows to be drawn. */
 bool settings_casts(const scene *s);
 
-/* Switches off the features that cost RAM where the scene does not need them: shadows, and what makes the local-light
- * atlas.
+/* Switches off the features that cost RAM where the scene does not need them: shadows, what makes the local-light
+ * atlas, and tight fits.
  */
 void settings_trim(settings *set, const scene *s);
 

@@ -159,6 +159,7 @@ void settings_trim(settings *set, const scene *s)
     if (!shadows) set->feature.shadows = 0;
     if (!punctual) set->feature.punctual_lights = 0;
     if (!main_light) set->feature.main_light = 0;
+    if (s->shadow.fit == SCENE_FIT_STABLE && s->shadow.tiles != SCENE_TILES_WORTH) set->feature.tight_fit = 0;
 }
 
 static void drop(double **array)

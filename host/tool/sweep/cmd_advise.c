@@ -233,8 +233,21 @@ static void make_arguments(const sweep *w, const sweep_row *r, char *out, size_t
 
 /* ---- Results ----------------------------------------------------------------------------------------------------- */
 
-static void print_text(const sweep *w, const sweep_row *r)
+/* What tight fits and tiles by worth are good for. A first frame, as the line before it. */
+static int print_unfitted(sweep *w, size_t best)
 {
+    sweep_row r;
+    char name[64];
+    if (sweep_unfitted(w, best, &r, name, sizeof name)) return -1;
+    if (*name)
+        printf("  with %-22s%6.2f dB, attenuation RMS %.4f, shadow mismatch %.3f %%, %ld bytes with the same atlas\n",
+               name, r.truth.psnr_db, r.truth.atten_rms, 100 * r.truth.shadow_mismatch, r.ram_bytes);
+    return 0;
+}
+
+static int print_text(sweep *w, size_t best)
+{
+    const sweep_row *r = &w->rows[best];
     const tool_options *o = &w->options;
     char arguments[ARGUMENT_BYTES];
     make_arguments(w, r, arguments, sizeof arguments);
@@ -251,11 +264,13 @@ static void print_text(const sweep *w, const sweep_row *r)
                o->frame + 1, o->frame + SWEEP_PLAYED, r->played.truth.mean_db, r->played.truth.worst_db, r->played.max);
     printf("  against exact shadows    %8.2f dB, attenuation RMS %.4f, shadow mismatch %.3f %%%s\n", r->truth.psnr_db,
            r->truth.atten_rms, 100 * r->truth.shadow_mismatch, w->moves ? ", in the first frame" : "");
+    if (print_unfitted(w, best)) return -1;
     printf("  against the same in double %6.2f dB, %.3f %% identical%s\n", r->reference.psnr_db,
            100 * r->reference.identical, w->moves ? ", in the first frame" : "");
     printf("  the best of %zu configurations, at %dx%d\n", w->n_rows, o->width, o->height);
     if (w->n_uncounted)
         printf("  %zu could not be counted on %s, the first: %s\n", w->n_uncounted, o->target, w->uncounted);
+    return 0;
 }
 
 static void print_json(const sweep *w, const sweep_row *r)
@@ -342,7 +357,7 @@ int tool_advise(const tool_options *o)
         if (best != SIZE_MAX && sweep_complete(&w, best)) status = TOOL_FAILED;
         else if (best == SIZE_MAX) status = refuse(&w, &b);
         else if (o->json) print_json(&w, &w.rows[best]);
-        else print_text(&w, &w.rows[best]);
+        else if (print_text(&w, best)) status = TOOL_FAILED;
     }
     sweep_end(&w);
     return status;

@@ -298,12 +298,12 @@ static int write_csv(const sweep *w, const char *path, char *error, size_t bytes
 /* Short enough for a plot: "tiny 3x3 64 cascades 4". */
 static void shorten(char *name)
 {
-    static const char *const drop[] = {"preset=", "filter=", "kernel=", "other_atlas_size=", "atlas_size="};
+    static const char *const drop[] = {"preset=", "filter=", "kernel=", "other_atlas_size=", "atlas_size=", "fit="};
     static const char *const shrink[][2] = {
         {"other_depth_bits=", "o.depth "}, {"depth_bits=", "depth "},  {"cascades=", "casc. "},
         {"persp_step=", "step "},          {"subpixel_bits=", "sub "}, {"tile_width=", "tw "},
         {"tile_height=", "th "},           {"refresh=", "ref. "},      {"static_layer=", "layer "},
-        {"triangle_groups=", "groups "},
+        {"triangle_groups=", "groups "},   {"tiles=", "tiles "},
     };
     for (size_t i = 0; i < sizeof drop / sizeof *drop; i++)
         for (char *at; (at = strstr(name, drop[i]));)

@@ -37,7 +37,8 @@ static bool same_schedule(const scene_shadow *a, const scene_shadow *b)
 
 static bool same_but_schedule(const sweep_row *a, const sweep_row *b)
 {
-    return a->static_layer == b->static_layer && memcmp(&a->quality, &b->quality, sizeof a->quality) == 0 &&
+    return a->static_layer == b->static_layer && a->n_boxes == b->n_boxes && a->shadow.fit == b->shadow.fit &&
+           a->shadow.tiles == b->shadow.tiles && memcmp(&a->quality, &b->quality, sizeof a->quality) == 0 &&
            a->shadow.filter == b->shadow.filter && a->shadow.other_filter == b->shadow.other_filter &&
            a->shadow.kernel == b->shadow.kernel && a->shadow.n_cascades == b->shadow.n_cascades;
 }
@@ -184,6 +185,7 @@ static int add(sweep *w, const sweep_config *c)
     row->quality = set.quality;
     row->shadow = s.shadow;
     row->static_layer = set.feature.static_layer;
+    row->n_boxes = s.n_fixed_fits;
     sweep_find_levels(row);
     if (!is_known(w, row)) {
         int failed = w->colours_only ? measure_colours(w, row, &s, &set, error, sizeof error)
@@ -210,6 +212,27 @@ int sweep_complete(sweep *w, size_t i)
     row.cost = w->rows[i].cost; /* counted, perhaps */
     w->rows[i] = row;
     return 0;
+}
+
+int sweep_unfitted(sweep *w, size_t i, sweep_row *out, char *name, size_t bytes)
+{
+    static sweep_plan list; /* large for a stack */
+    char error[TOOL_ERROR_BYTES] = "out of memory";
+    scene s;
+    settings set;
+    sweep_row only = {.config = sweep_nothing_set()};
+    *name = 0;
+    sweep_plan_unfitted(&list, w, &w->rows[i]);
+    if (!list.n) return 0;
+    memset(out, 0, sizeof *out);
+    out->config = list.all[0];
+    for (int k = SWEEP_FIT; k <= SWEEP_TILES; k++)
+        if (w->rows[i].effective.level[k] > 0) only.config.level[k] = out->config.level[k];
+    sweep_name(w, &only, name, bytes);
+    if (load(w, &out->config, &s, &set, error, sizeof error)) return fail(w, error);
+    int failed = measure(w, out, &s, &set, error, sizeof error);
+    scene_free(&s);
+    return failed ? fail(w, error) : 0;
 }
 
 static int measure_all(sweep *w, const sweep_plan *list)
@@ -281,7 +304,7 @@ void sweep_mark_front(sweep *w)
 
 static void look_at_lights(sweep *w, const scene *s)
 {
-    size_t directional = 0;
+    size_t directional = 0, other = 0; /* views */
     for (size_t i = 0; i < s->n_lights; i++) {
         const scene_light *l = &s->lights[i];
         bool shadow = l->shadow && l->strength > 0 && l->mode != SCENE_BAKED;
@@ -290,10 +313,13 @@ static void look_at_lights(sweep *w, const scene *s)
         w->directional |= shadow && is_directional;
         w->other |= shadow && !is_directional;
         directional += shadow && is_directional;
+        if (shadow && !is_directional) other += l->kind == SCENE_LIGHT_POINT ? 6 : 1;
     }
     /* beside a main light the others have their tiles in the local-light atlas */
     w->punctual |= s->shadow.main_light;
     w->other |= s->shadow.main_light && directional > 1;
+    w->several = w->directional || other > 1; /* cascades are varied */
+    w->single = other + directional * (size_t)s->shadow.n_cascades <= 1;
 }
 
 static void look_at_sets(sweep *w)

@@ -23,6 +23,8 @@ typedef enum {
     SWEEP_REFRESH,
     SWEEP_STATIC_LAYER,
     SWEEP_TRIANGLE_GROUPS,
+    SWEEP_FIT,
+    SWEEP_TILES,
     SWEEP_KNOBS
 } sweep_knob;
 
@@ -62,7 +64,7 @@ typedef struct {
     sweep_played played;
     double cost, db; /* what the front is made of, and advice: of a scene that moves, what is played; else the first
                       * frame. The cost by the model, or after sweep_target_scale on the target */
-    int static_layer;
+    int static_layer, n_boxes;       /* boxes: of a compiled fit */
     bool is_counted, is_uncountable; /* on --target: it was; it failed */
     double target,
         target_later; /* instructions per pixel on --target: of the first frame, and the mean of the later ones */
@@ -73,6 +75,9 @@ typedef struct {
     tool_options options; /* of the command line, for loads that share what is seen */
     scene_seen seen;
     bool directional, punctual, other; /* shadows in the directional atlas, lights of the other, shadows in it */
+    bool several;                      /* views that may share an atlas */
+    bool single;                       /* one view, with the cascades that the scene has */
+    bool stands;                       /* with something that moves: a directional light does not turn */
     bool held[SWEEP_KNOBS];            /* set on the command line: not varied */
     bool moves, layers;    /* frames differ; some caster moves and is known to, so that a static layer has a use */
     engine_picture common; /* exact shadows */
@@ -121,6 +126,10 @@ void sweep_show_progress(const sweep *w);
 
 /* With colours_only: measures the rest of a row. Prints the error and returns -1. */
 int sweep_complete(sweep *w, size_t row);
+
+/* A row with stable fits and equal tiles, the rest and so the atlases alike: its figures into out, and into name what
+ * is set for it, "" where the row is that itself. Prints the error and returns -1. */
+int sweep_unfitted(sweep *w, size_t row, sweep_row *out, char *name, size_t bytes);
 
 /* Instructions on the board that --target names: sweep_target.c. Begin prints why nothing counts, if so; -1: the board
  * is none that ever could. Rows that cannot be counted are counted in n_uncounted. */

@@ -26,6 +26,8 @@ static const struct {
                        {"8", "4", "1,8", "1,4", "1,2,4,8", "2", "1,2", "1,1,1,8", "1,1,1,4", "1,1,1,2", "1"}},
     [SWEEP_STATIC_LAYER] = {"static_layer", "incremental", {"0", "1"}},
     [SWEEP_TRIANGLE_GROUPS] = {"triangle_groups", NULL, {"16", "64", "256", "1024", "0"}},
+    [SWEEP_FIT] = {"fit", "tight_fit", {"stable", "tight", "compiled"}},
+    [SWEEP_TILES] = {"tiles", "tight_fit", {"equal", "worth"}},
 };
 
 int sweep_n_levels(sweep_knob k)
@@ -119,6 +121,11 @@ static int level_of_schedule(const scene_shadow *s)
     return sweep_level_of(SWEEP_REFRESH, text);
 }
 
+static int level_of_tiles(scene_tiles tiles)
+{
+    return tiles == SCENE_TILES_EQUAL ? 0 : tiles == SCENE_TILES_WORTH ? 1 : -1;
+}
+
 void sweep_find_levels(sweep_row *row)
 {
     const gn_knobs *q = &row->quality;
@@ -138,4 +145,6 @@ void sweep_find_levels(sweep_row *row)
     level[SWEEP_REFRESH] = level_of_schedule(&row->shadow);
     level[SWEEP_STATIC_LAYER] = sweep_level_of_int(SWEEP_STATIC_LAYER, row->static_layer);
     level[SWEEP_TRIANGLE_GROUPS] = sweep_level_of_int(SWEEP_TRIANGLE_GROUPS, q->triangle_groups);
+    level[SWEEP_FIT] = (int)(row->n_boxes ? SCENE_FIT_COMPILED : row->shadow.fit);
+    level[SWEEP_TILES] = level_of_tiles(row->shadow.tiles);
 }

@@ -10,17 +10,20 @@ static bool matters(const sweep *w, sweep_knob k)
     if (k == SWEEP_FILTER || k == SWEEP_KERNEL) return shadows;
     if (k == SWEEP_ATLAS || k == SWEEP_DEPTH_BITS || k == SWEEP_CASCADES) return w->directional;
     if (k == SWEEP_OTHER_ATLAS || k == SWEEP_OTHER_DEPTH_BITS) return w->other;
+    if (k == SWEEP_FIT) return w->directional;
+    if (k == SWEEP_TILES) return w->several;
     if (k == SWEEP_REFRESH) return w->directional && w->moves;
     if (k == SWEEP_STATIC_LAYER) return shadows && w->layers;
     return true;
 }
 
-/* An atlas without a shadow is as small as it can be. */
+/* What has no use is as small as it can be. */
 static void shrink_unused(const sweep *w, sweep_config *c)
 {
     for (int k = SWEEP_PRESET + 1; k < SWEEP_KNOBS; k++)
         if (!matters(w, (sweep_knob)k)) c->level[k] = -1;
     if (!w->directional) c->level[SWEEP_ATLAS] = 0;
+    if (!w->directional && c->level[SWEEP_TILES] == 0) c->level[SWEEP_FIT] = 0; /* what makes both is not built */
     if (!w->other && w->punctual) c->level[SWEEP_OTHER_ATLAS] = 0;
 }
 
@@ -44,6 +47,11 @@ static sweep_config with_atlases(sweep_config c, const char *side)
 static sweep_config with_depth(sweep_config c, const char *bits)
 {
     return with(with(c, SWEEP_DEPTH_BITS, bits), SWEEP_OTHER_DEPTH_BITS, bits);
+}
+
+static sweep_config with_fit(sweep_config c, const char *fit, const char *tiles)
+{
+    return with(with(c, SWEEP_FIT, fit), SWEEP_TILES, tiles);
 }
 
 static void plan_presets(sweep_plan *list)
@@ -70,13 +78,26 @@ static void plan_one_at_a_time(sweep_plan *list, sweep_config base)
         {SWEEP_REFRESH, {"8", "4", "1,8", "1,4", "1,2,4,8", "2", "1,2", "1,1,1,8", "1,1,1,4", "1,1,1,2"}},
         {SWEEP_STATIC_LAYER, {"1"}},
         {SWEEP_TRIANGLE_GROUPS, {"256", "64"}},
+        {SWEEP_FIT, {"stable"}},
+        {SWEEP_TILES, {"equal"}},
     };
     static const char *const tents[] = {"3x3", "5x5", "7x7"};
-    for (size_t i = 0; i < sizeof ones / sizeof *ones; i++)
+    for (size_t i = 0; i < sizeof ones / sizeof *ones - list->w->single; i++) /* one view: not the last, tiles */
         for (size_t l = 0; matters(list->w, ones[i].knob) && l < SWEEP_LEVELS_MAX && ones[i].levels[l]; l++)
             plan(list, with(base, ones[i].knob, ones[i].levels[l]));
     for (size_t i = 0; matters(list->w, SWEEP_KERNEL) && i < 3; i++)
         plan(list, with(with(base, SWEEP_FILTER, tents[i]), SWEEP_KERNEL, "linear"));
+}
+
+/* The same atlas with tight fits and tiles by worth, and without: before the factorial, which may have these by another
+ * name. A compiled fit costs a look at every frame, so there is one, and advice has none. */
+static void plan_fits(sweep_plan *list, sweep_config base)
+{
+    const sweep_config hard = with(base, SWEEP_FILTER, "hard"), small = with_atlases(hard, "64");
+    plan(list, with_fit(hard, "stable", "equal"));
+    plan(list, small);
+    plan(list, with_fit(small, "stable", "equal"));
+    if (list->w->stands && !list->w->colours_only) plan(list, with(base, SWEEP_FIT, "compiled"));
 }
 
 /* Filter, atlas and preset in full; the number of cascades is a half fraction of it: 1 or 4 by the parity of the
@@ -112,6 +133,7 @@ static void plan_quick(sweep_plan *list)
     sweep_config balanced = with(sweep_nothing_set(), SWEEP_PRESET, "balanced");
     plan_presets(list);
     for (size_t i = 0; i < 6; i++) plan(list, with_atlases(with(balanced, SWEEP_FILTER, filters[i / 3]), sides[i % 3]));
+    plan(list, with_fit(with_atlases(with(balanced, SWEEP_FILTER, "hard"), "64"), "stable", "equal"));
     if (matters(list->w, SWEEP_REFRESH)) plan(list, with(balanced, SWEEP_REFRESH, "4"));
 }
 
@@ -130,8 +152,16 @@ void sweep_plan_documented(sweep_plan *list, const sweep *w, bool quick)
     }
     plan_presets(list);
     plan_one_at_a_time(list, with(sweep_nothing_set(), SWEEP_PRESET, "balanced"));
-    if (w->directional || w->other) plan_factorial(list);
+    if (w->directional || w->other) {
+        plan_fits(list, with(sweep_nothing_set(), SWEEP_PRESET, "balanced"));
+        plan_factorial(list);
+    }
     plan_extremes(list);
+}
+
+static bool is_compiled(sweep_knob k, int level)
+{
+    return k == SWEEP_FIT && level == (int)SCENE_FIT_COMPILED;
 }
 
 void sweep_plan_around(sweep_plan *list, const sweep *w, const sweep_row *row)
@@ -141,7 +171,7 @@ void sweep_plan_around(sweep_plan *list, const sweep *w, const sweep_row *row)
         int now = row->effective.level[k];
         if (now < 0 || w->held[k] || !matters(w, (sweep_knob)k)) continue;
         for (int to = now - 1; to <= now + 1; to += 2) {
-            if (to < 0 || to >= sweep_n_levels((sweep_knob)k)) continue;
+            if (to < 0 || to >= sweep_n_levels((sweep_knob)k) || is_compiled((sweep_knob)k, to)) continue;
             sweep_config c = row->config;
             c.level[k] = to;
             plan(list, c);
@@ -164,6 +194,19 @@ void sweep_plan_tiles(sweep_plan *list, const sweep *w, const sweep_row *row)
         if (y) c.level[SWEEP_TILE_HEIGHT] = height + y;
         if ((!x || width + x >= 0) && (!y || height + y >= 0)) plan(list, c);
     }
+}
+
+void sweep_plan_unfitted(sweep_plan *list, const sweep *w, const sweep_row *row)
+{
+    sweep_config c = row->config;
+    bool differs = false;
+    start(list, w);
+    for (int k = SWEEP_FIT; k <= SWEEP_TILES; k++) {
+        if (w->held[k] || !matters(w, (sweep_knob)k) || row->effective.level[k] <= 0) continue;
+        c.level[k] = 0;
+        differs = true;
+    }
+    if (differs) plan(list, c);
 }
 
 void sweep_plan_min(sweep_plan *list, const sweep *w)

@@ -17,4 +17,7 @@ void sweep_plan_around(sweep_plan *list, const sweep *w, const sweep_row *row);
 void sweep_plan_tiles(sweep_plan *list, const sweep *w, const sweep_row *row);
 void sweep_plan_min(sweep_plan *list, const sweep *w);
 
+/* Of a row: the configuration with stable fits and equal tiles, where that can be another. */
+void sweep_plan_unfitted(sweep_plan *list, const sweep *w, const sweep_row *row);
+
 #endif

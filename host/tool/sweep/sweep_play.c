@@ -26,18 +26,52 @@ static void free_frames(scene *frames, size_t n)
     for (size_t i = 0; i < n; i++) scene_free(&frames[i]);
 }
 
+/* Boxes of a compiled fit are those of the first frame: finding them takes a look at all frames. */
+static void take_boxes(scene *s, const scene *first)
+{
+    memcpy(s->fixed_fits, first->fixed_fits, sizeof s->fixed_fits);
+    s->n_fixed_fits = first->n_fixed_fits;
+}
+
 /* The first, and those that are played; of a scene in which nothing moves the first once more. */
 static int load_frames(const sweep *w, const char *const *sets, int n_sets, scene *frames, char *error, size_t bytes)
 {
-    for (size_t i = 0; i <= w->n_played; i++)
-        if (load_frame(w, w->options.frame + (w->moves ? (int)i : 0), sets, n_sets, &frames[i], error, bytes)) {
+    const char *later[TOOL_SETS_MAX + SWEEP_KNOBS + 1];
+    memcpy(later, sets, (size_t)n_sets * sizeof *sets);
+    later[n_sets] = "fit=tight";
+    for (size_t i = 0; i <= w->n_played; i++) {
+        const int n = n_sets + (i && frames->shadow.fit == SCENE_FIT_TIGHT);
+        if (load_frame(w, w->options.frame + (w->moves ? (int)i : 0), later, n, &frames[i], error, bytes)) {
             free_frames(frames, i);
             return -1;
         }
+        if (i) take_boxes(&frames[i], frames);
+    }
     return 0;
 }
 
 /* ---- Beginning and end ------------------------------------------------------------------------------------------- */
+
+static bool turns(const scene *frames, size_t n, size_t light)
+{
+    for (size_t i = 1; i < n; i++)
+        if (memcmp(frames[i].lights[light].direction, frames->lights[light].direction,
+                   sizeof frames->lights->direction))
+            return true;
+    return false;
+}
+
+/* A compiled fit is of these. */
+static bool has_standing_light(const scene *frames, size_t n)
+{
+    for (size_t l = 0; l < frames->n_lights; l++) {
+        const scene_light *light = &frames->lights[l];
+        if (light->kind == SCENE_LIGHT_DIRECTIONAL && light->shadow && light->mode != SCENE_BAKED &&
+            !turns(frames, n, l))
+            return true;
+    }
+    return false;
+}
 
 /* Exact shadows in each frame. */
 static int draw_truth(sweep *w, const settings *set, char *error, size_t bytes)
@@ -46,6 +80,7 @@ static int draw_truth(sweep *w, const settings *set, char *error, size_t bytes)
     scene frames[SWEEP_PLAYED + 1];
     if (load_frames(w, o->sets, o->n_sets, frames, error, bytes)) return -1;
     int failed = 0;
+    w->stands = has_standing_light(frames, w->n_played + 1);
     for (size_t i = 0; !failed && i < w->n_played; i++) {
         engine_picture truth;
         failed = engine_truth(&truth, &frames[i + 1], set, o->width, o->height, 1, error, bytes);
