@@ -102,7 +102,7 @@ GN_HOT int gn_lookup_cross_on_plane(const gn_lookup *l, int32_t u, int32_t v, ui
     const uint32_t across = (uint32_t)l->slope_q28[0] * 16, down = (uint32_t)l->slope_q28[1] * 16;
     const gn_texels above = gn_view_texels(view, u, v - 1), row = gn_texels_at(above, bits, (size_t)pitch - 1),
                     below = gn_texels_at(row, bits, (size_t)pitch + 1);
-    GN_COUNT(taps_lone, 5);
+    GN_COUNT(taps_lone, 1);
     *dark = (uint32_t)(gn_texel_load(row, bits, 1) < least) |
             (uint32_t)(gn_texel_load(above, bits, 0) < least - down) << 1 |
             (uint32_t)(gn_texel_load(below, bits, 0) < least + down) << 2 |

@@ -25,6 +25,7 @@ typedef enum {
     SWEEP_TRIANGLE_GROUPS,
     SWEEP_FIT,
     SWEEP_TILES,
+    SWEEP_EDGE,
     SWEEP_KNOBS
 } sweep_knob;
 

@@ -28,6 +28,7 @@ static const struct {
     [SWEEP_TRIANGLE_GROUPS] = {"triangle_groups", NULL, {"16", "64", "256", "1024", "0"}},
     [SWEEP_FIT] = {"fit", "tight_fit", {"stable", "tight", "compiled"}},
     [SWEEP_TILES] = {"tiles", "tight_fit", {"equal", "worth"}},
+    [SWEEP_EDGE] = {"edge", NULL, {"0", "2", "4", "8"}},
 };
 
 int sweep_n_levels(sweep_knob k)
@@ -147,4 +148,5 @@ void sweep_find_levels(sweep_row *row)
     level[SWEEP_TRIANGLE_GROUPS] = sweep_level_of_int(SWEEP_TRIANGLE_GROUPS, q->triangle_groups);
     level[SWEEP_FIT] = (int)(row->n_boxes ? SCENE_FIT_COMPILED : row->shadow.fit);
     level[SWEEP_TILES] = level_of_tiles(row->shadow.tiles);
+    level[SWEEP_EDGE] = sweep_level_of_int(SWEEP_EDGE, q->edge);
 }

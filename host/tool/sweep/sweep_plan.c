@@ -7,7 +7,7 @@
 static bool matters(const sweep *w, sweep_knob k)
 {
     bool shadows = w->directional || w->other;
-    if (k == SWEEP_FILTER || k == SWEEP_KERNEL) return shadows;
+    if (k == SWEEP_FILTER || k == SWEEP_KERNEL || k == SWEEP_EDGE) return shadows;
     if (k == SWEEP_ATLAS || k == SWEEP_DEPTH_BITS || k == SWEEP_CASCADES) return w->directional;
     if (k == SWEEP_OTHER_ATLAS || k == SWEEP_OTHER_DEPTH_BITS) return w->other;
     if (k == SWEEP_FIT) return w->directional;
@@ -97,6 +97,9 @@ static void plan_fits(sweep_plan *list, sweep_config base)
     plan(list, with_fit(hard, "stable", "equal"));
     plan(list, small);
     plan(list, with_fit(small, "stable", "equal"));
+    plan(list, with(hard, SWEEP_EDGE, "4"));
+    plan(list, with(small, SWEEP_EDGE, "4"));
+    plan(list, with(with(base, SWEEP_FILTER, "2x2"), SWEEP_EDGE, "4"));
     if (list->w->stands && !list->w->colours_only) plan(list, with(base, SWEEP_FIT, "compiled"));
 }
 
@@ -164,12 +167,19 @@ static bool is_compiled(sweep_knob k, int level)
     return k == SWEEP_FIT && level == (int)SCENE_FIT_COMPILED;
 }
 
+/* Whether its filters have edges that may be finer than texels. */
+static bool has_edges(const sweep_row *row)
+{
+    return row->shadow.filter <= SCENE_FILTER_2X2 || row->shadow.other_filter <= SCENE_FILTER_2X2;
+}
+
 void sweep_plan_around(sweep_plan *list, const sweep *w, const sweep_row *row)
 {
     start(list, w);
     for (int k = SWEEP_PRESET + 1; k < SWEEP_KNOBS; k++) {
         int now = row->effective.level[k];
         if (now < 0 || w->held[k] || !matters(w, (sweep_knob)k)) continue;
+        if (k == SWEEP_EDGE && !has_edges(row)) continue;
         for (int to = now - 1; to <= now + 1; to += 2) {
             if (to < 0 || to >= sweep_n_levels((sweep_knob)k) || is_compiled((sweep_knob)k, to)) continue;
             sweep_config c = row->config;
