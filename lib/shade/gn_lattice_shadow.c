@@ -134,14 +134,14 @@ GN_HOT static int verdict(const gn_lattice_cell *cell, uint32_t slot, uint32_t v
     int32_t limit = p->view->perspective ? 0 : -(1 << 29); /* which bends the plane */
     if (depth_lo <= limit && depth_hi > limit) return GN_CELL_SPLIT;
     if ((gn_abs32(lo.u_q16) | gn_abs32(hi.u_q16) | gn_abs32(lo.v_q16) | gn_abs32(hi.v_q16)) >> 27) return GN_CELL_SPLIT;
-    uint32_t idx = gn_lattice_window_idx(cell->frame, p->view);
-    gn_window *window = &cell->lattice->window[idx];
+    gn_window *window = gn_lattice_window_of(cell->lattice, cell->frame, p->view, cell->corner[0]->x);
+    const uint32_t asked = 1U << ((uint32_t)(p->view - cell->frame->view) & 31U);
     if (gn_lattice_window_is_made(window, p->view, cell->corner[0]->x)) {
         if (!window->planar) window = NULL;
     } else {
         int taken = window->view && cell->corner[0]->x < window->until_x; /* by that of another view */
-        if (!taken && !(cell->ask->asked >> idx & 1U)) {
-            cell->ask->asked |= 1U << idx;
+        if (!taken && !(cell->ask->asked & asked)) {
+            cell->ask->asked |= asked;
             cell->ask->slot = (int32_t)slot;
             cell->ask->view_idx = view_idx;
             return GN_CELL_SPLIT;

@@ -208,7 +208,7 @@ GN_HOT gn_window *gn_lattice_window(gn_lattice *l, const gn_frame *frame, const 
                                     uint32_t view_idx, int32_t x, const gn_corner *at)
 {
     const gn_light_view *view = &frame->view[s->light[slot].state->view_idx + (int32_t)view_idx];
-    gn_window *window = &l->window[gn_lattice_window_idx(frame, view)];
+    gn_window *window = gn_lattice_window_of(l, frame, view, x);
     const int32_t log2 = l->size_log2, size = 1 << log2, pixels = !at;
     if (window->view != view) begin_window(l, frame, s, slot, view, at, window);
     if (window->planar <= 0) return NULL;

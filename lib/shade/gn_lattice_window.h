@@ -13,10 +13,18 @@ gn_window *gn_lattice_window(gn_lattice *lattice, const gn_frame *frame, const g
                              uint32_t view_idx, int32_t x, const gn_corner *at);
 
 #if GN_SHADOWS
-/* Which of the lattice's it is. */
-GN_HOT static inline uint32_t gn_lattice_window_idx(const gn_frame *frame, const gn_light_view *view)
+/* The view's window among the lattice's, or one that is of no use from column x on, or any. */
+GN_HOT static inline gn_window *gn_lattice_window_of(gn_lattice *l, const gn_frame *frame, const gn_light_view *view,
+                                                     int32_t x)
 {
-    return (uint32_t)(view - frame->view) & (GN_WINDOWS - 1);
+    const uint32_t first = (uint32_t)(view - frame->view) & (GN_WINDOWS - 1);
+    for (uint32_t i = 0; i < GN_WINDOWS; i++)
+        if (l->window[i].view == view) return &l->window[i];
+    for (uint32_t i = 0; i < GN_WINDOWS; i++) {
+        gn_window *window = &l->window[(first + i) & (GN_WINDOWS - 1)];
+        if (!window->view || x >= window->until_x) return window;
+    }
+    return &l->window[first];
 }
 
 /* Whether it is already made. */

@@ -273,7 +273,7 @@ typedef struct {
 /* A window that is to be made before the cell can be looked at. */
 typedef struct {
     int32_t slot;             /* -1: none */
-    uint32_t view_idx, asked; /* a bit for each that was */
+    uint32_t view_idx, asked; /* a bit for each view that was */
 } gn_wanted_window;
 
 /* The cell at hand. */
