@@ -35,6 +35,7 @@ GN_HOT static int find_places(const gn_lattice_cell *cell, uint32_t slot, uint32
     uint32_t seen = 0; /* 0: not; else how bias moves the point */
     p->view = &cell->frame->view[cell->s->light[slot].state->view_idx + (int32_t)view_idx];
     p->window = NULL;
+    p->follows = 0;
     p->has_slopes = 0;
     p->view_idx = view_idx;
     p->bent = GN_PLACES_BILINEAR;
