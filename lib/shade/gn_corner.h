@@ -150,8 +150,8 @@ GN_HOT static inline int gn_corner_place(gn_lattice *l, const gn_frame *frame, c
 #endif
 
 #if GN_SHADOWS
-/* Slopes of depth over a texel of the view, 0 without B5. Corners at the same distance of the light from their plane,
- * to 2^-15, share them. */
+/* Slopes of depth over a texel of the view, 0 without B5 and F7. Corners at the same distance of the light from their
+ * plane, to 2^-15, share them. */
 void gn_corner_slopes(gn_lattice *lattice, const gn_frame *frame, const gn_surface *surface, const gn_corner *corner,
                       const gn_light_view *view, int32_t slope_q28[2]);
 #endif

@@ -199,7 +199,8 @@ GN_HOT static inline int32_t deepest_q30(const receiver_plane *r, int axis, int3
 }
 
 /* Whether no texel that receivers read is nearer to the light than any of them: (k + 1) texels around each. Depths are
- * below 2^30 with the margin: below 2^31 in all. */
+ * below 2^30 with the margin; on a face's plane, which goes on for 16.6 texels of 2^25 beyond the receivers, below
+ * 2^30.6: below 2^31 in all. */
 GN_HOT static int texels_behind(const gn_light_view *view, const receiver_plane *r, int32_t k, const int32_t first[2],
                                 const int32_t last[2])
 {
@@ -214,7 +215,7 @@ GN_HOT static int texels_behind(const gn_light_view *view, const receiver_plane 
                              r->margin_q30,
                   from_q30 = r->p->at[2][0] + r->margin_q30;
     if (most_q30 <= 0) return 1;
-    const uint32_t most = (uint32_t)most_q30 << 2;
+    const uint32_t most = (uint32_t)gn_min32(most_q30, (1 << 30) - 1) << 2;
     gn_texels row = gn_view_texels(view, first[0], first[1]);
     for (int32_t v = first[1]; v <= last[1]; v++, row = gn_texels_at(row, bits, view->tile_texels)) {
         const int32_t down = from_q30 + deepest_q30(r, 1, v, reach_q16);
@@ -241,7 +242,7 @@ GN_HOT static inline int hides_vertex(const gn_light_view *view, const vertex_pl
 }
 
 /* Whether the plane of the receivers says that all of them are lit, where bounds say nothing. Places of pixels are off
- * by less than 2^-10 texels. `slope_q30`: what depth at taps may be more than the receiver's. */
+ * by less than 2^-10 texels. slope_q28: of the face's plane that taps are compared with, 0 if they are not. */
 GN_HOT static GN_NOINLINE int plane_is_lit(const gn_frame *frame, const gn_light_view *view, receiver_plane *r,
                                            const int32_t slope_q28[2])
 {

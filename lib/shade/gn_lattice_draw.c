@@ -150,7 +150,22 @@ GN_HOT static void set_alike(uint32_t *out, const uint32_t *end, int said)
 }
 
 #if GN_EDGE_BUILT
-/* Makes the window anew from a row of nodes on, or from half of one where it reads too many texels. */
+/* The texels that n nodes of a row read, first and how many along each axis. Returns 0 if no window holds them. */
+GN_HOT static int texels_of_row(const gn_frame *frame, const gn_lattice_edge *edge, const gn_receiver_step *at,
+                                const gn_receiver_step *step, int32_t n, int32_t first[2], int32_t size[2])
+{
+    const int32_t from[2] = {at->u_q16, at->v_q16}, by[2] = {step->u_q16, step->v_q16};
+    for (int i = 0; i < 2; i++) {
+        const int32_t end = from[i] + (n - 1) * by[i];
+        gn_window_reads(edge->view, GN_VIEW_EDGE(frame, edge->view), gn_min32(from[i], end) - 64,
+                        gn_max32(from[i], end) + 1088, &first[i], &size[i]);
+        if (size[i] > GN_WINDOW_TEXELS) return 0;
+    }
+    return 1;
+}
+
+/* Looks up a row that its window does not cover in one that is made for it, and as far as it goes for those below; or
+ * in one for each half, quarter... of the row where it reads too many texels. */
 GN_HOT static GN_NOINLINE int follow_row(const drawing *d, const gn_lattice_edge *edge, int32_t below,
                                          const gn_receiver_step *row, const gn_receiver_step *step, int32_t n,
                                          uint32_t *out)
@@ -158,25 +173,19 @@ GN_HOT static GN_NOINLINE int follow_row(const drawing *d, const gn_lattice_edge
     const gn_frame *frame = d->s->frame;
     const int32_t rows = (1 << d->size_log2) - below, down[2] = {edge->u_q16.dy, edge->v_q16.dy};
     gn_receiver_step at = *row;
-    gn_window_place place = {at.u_q16, at.v_q16, at.depth_q31, 0};
-    for (int32_t left = n, most = n; left; left -= most) {
-        int32_t first[2], size[2];
-        for (most = gn_min32(most, left);; most = (most + 1) >> 1) {
-            const int32_t u = at.u_q16 + (most - 1) * step->u_q16, v = at.v_q16 + (most - 1) * step->v_q16;
-            gn_window_reads(edge->view, GN_VIEW_EDGE(frame, edge->view), gn_min32(at.u_q16, u) - 64,
-                            gn_max32(at.u_q16, u) + 1088, &first[0], &size[0]);
-            gn_window_reads(edge->view, GN_VIEW_EDGE(frame, edge->view), gn_min32(at.v_q16, v) - 64,
-                            gn_max32(at.v_q16, v) + 1088, &first[1], &size[1]);
-            if (size[0] <= GN_WINDOW_TEXELS && size[1] <= GN_WINDOW_TEXELS) break;
+    for (int32_t left = n, most = n, first[2], size[2]; left; left -= most) {
+        most = gn_min32(most, left);
+        while (!texels_of_row(frame, edge, &at, step, most, first, size)) {
             if (most < 4) return GN_WINDOW_MISSED;
+            most = (most + 1) >> 1;
         }
         for (int i = 0; i < 2 && most == n; i++) {
-            const int32_t more =
-                gn_min32((int32_t)((int64_t)rows * gn_abs32(down[i]) >> 16) + 1, GN_WINDOW_TEXELS - size[i]);
+            const int32_t needed = (int32_t)((int64_t)rows * gn_abs32(down[i]) >> 16) + 1,
+                          more = gn_min32(needed, GN_WINDOW_TEXELS - size[i]);
             if (down[i] < 0) first[i] -= more;
             size[i] += more;
         }
-        place.u_q16 = at.u_q16, place.v_q16 = at.v_q16, place.depth_q30 = at.depth_q31;
+        const gn_window_place place = {at.u_q16, at.v_q16, at.depth_q31, 0};
         GN_COUNT(windows, 1);
         if (!gn_window_compare(edge->window, &place, first[0], first[1], size[0], size[1])) return GN_WINDOW_MISSED;
         const int said = gn_window_row(frame, edge->window, &at, step, most, 1, out);

@@ -19,7 +19,7 @@
 typedef struct {
     const gn_light_view *view;
     gn_window *window;
-    int follows;
+    int follows; /* the window, where it does not cover rows, may be made anew */
     uint32_t view_idx;
     int bent;    /* GN_PLACES_... */
     int outside; /* of the tile, so that bias goes along rays: forms on the screen do not say where */
@@ -35,6 +35,7 @@ GN_HOT static int find_places(const gn_lattice_cell *cell, uint32_t slot, uint32
     uint32_t seen = 0; /* 0: not; else how bias moves the point */
     p->view = &cell->frame->view[cell->s->light[slot].state->view_idx + (int32_t)view_idx];
     p->window = NULL;
+    p->follows = 0;
     p->has_slopes = 0;
     p->view_idx = view_idx;
     p->bent = GN_PLACES_BILINEAR;
@@ -120,11 +121,45 @@ GN_HOT static int verdict_of_window(const gn_frame *frame, gn_window *window, co
     return said == GN_WINDOW_LIT ? GN_CELL_LIT : said == GN_WINDOW_DARK ? GN_CELL_DARK : GN_CELL_EDGE;
 }
 
+/* The view's window, NULL if it has none. Returns 0 if the cell asks for it to be made. */
+GN_HOT static int find_window(const gn_lattice_cell *cell, uint32_t slot, const places *p, gn_window **out)
+{
+    const int32_t x = cell->corner[0]->x;
+    gn_window *window = gn_lattice_window_of(cell->lattice, cell->frame, p->view, x);
+    const uint32_t asked = 1U << ((uint32_t)(p->view - cell->frame->view) & 31U);
+    *out = NULL;
+    if (gn_lattice_window_is_made(window, p->view, x)) {
+        if (window->planar) *out = window;
+        return 1;
+    }
+    int taken = window->view && x < window->until_x; /* by that of another view */
+    if (taken || cell->ask->asked & asked) return 1;
+    cell->ask->asked |= asked;
+    cell->ask->slot = (int32_t)slot;
+    cell->ask->view_idx = p->view_idx;
+    return 0;
+}
+
+/* What a window says that may be made anew. Where surfaces are not planes, those on the receiver's plane tell no more
+ * than whether all is alike: pixels have planes of their own. */
+GN_HOT static int ask_new_window(const gn_lattice_cell *cell, gn_window *window, places *p, const gn_receiver_step *lo,
+                                 const gn_receiver_step *hi)
+{
+    const int alone = window->planar < 0 && GN_PLANES && gn_shadow_has_plane(cell->frame, p->view);
+    if (window->planar < 0) window->w = 0;
+    if (alone && p->view->perspective) return GN_CELL_EDGE;
+    const int said = verdict_of_window(cell->frame, window, p, lo, hi, 1);
+    p->follows = window->planar > 0 && GN_VIEW_EDGE(cell->frame, p->view);
+    if (!alone && (said != GN_CELL_SPLIT || p->follows)) p->window = window;
+    return said == GN_CELL_SPLIT ? GN_CELL_EDGE : said;
+}
+
 /* The shadow of a view over the cell, all of which lies between its corners. */
-GN_HOT static int verdict(const gn_lattice_cell *cell, uint32_t slot, uint32_t view_idx, places *p)
+GN_HOT static int verdict(const gn_lattice_cell *cell, uint32_t slot, places *p)
 {
     gn_receiver_step lo, hi;
     int32_t depth_lo, depth_hi;
+    gn_window *window;
     p->window = NULL;
     p->follows = 0;
     range_of(p->u, &lo.u_q16, &hi.u_q16);
@@ -134,24 +169,11 @@ GN_HOT static int verdict(const gn_lattice_cell *cell, uint32_t slot, uint32_t v
     int32_t limit = p->view->perspective ? 0 : -(1 << 29); /* which bends the plane */
     if (depth_lo <= limit && depth_hi > limit) return GN_CELL_SPLIT;
     if ((gn_abs32(lo.u_q16) | gn_abs32(hi.u_q16) | gn_abs32(lo.v_q16) | gn_abs32(hi.v_q16)) >> 27) return GN_CELL_SPLIT;
-    gn_window *window = gn_lattice_window_of(cell->lattice, cell->frame, p->view, cell->corner[0]->x);
-    const uint32_t asked = 1U << ((uint32_t)(p->view - cell->frame->view) & 31U);
-    if (gn_lattice_window_is_made(window, p->view, cell->corner[0]->x)) {
-        if (!window->planar) window = NULL;
-    } else {
-        int taken = window->view && cell->corner[0]->x < window->until_x; /* by that of another view */
-        if (!taken && !(cell->ask->asked & asked)) {
-            cell->ask->asked |= asked;
-            cell->ask->slot = (int32_t)slot;
-            cell->ask->view_idx = view_idx;
-            return GN_CELL_SPLIT;
-        }
-        window = NULL;
-    }
+    if (!find_window(cell, slot, p, &window)) return GN_CELL_SPLIT;
     int said = window && window->planar > 0 ? verdict_of_window(cell->frame, window, p, &lo, &hi, 0) : GN_CELL_SPLIT;
     if (said != GN_CELL_SPLIT) {
         p->window = window;
-        p->follows = GN_VIEW_EDGE(cell->frame, p->view);
+        p->follows = GN_VIEW_EDGE(cell->frame, p->view) > 0;
         return said;
     }
     find_slopes(cell, p);
@@ -160,19 +182,7 @@ GN_HOT static int verdict(const gn_lattice_cell *cell, uint32_t slot, uint32_t v
     lo.depth_q31 = 2 * (int32_t)gn_clamp64(depth_lo - slope, -(1 << 29), (1 << 30) - 16384);
     hi.depth_q31 = 2 * (int32_t)gn_clamp64(depth_hi + slope, -(1 << 29), (1 << 30) - 16384);
     said = verdict_of_bounds(cell, p, &lo, &hi);
-    if (said != GN_CELL_EDGE || !window) return said;
-    if (window->planar < 0) window->w = 0;
-    const int on_plane = GN_PLANES && gn_shadow_has_plane(cell->frame, p->view);
-    if (window->planar < 0 && on_plane && p->view->perspective) return said;
-    said = verdict_of_window(cell->frame, window, p, &lo, &hi, 1);
-    if (window->planar < 0 && on_plane) return said == GN_CELL_SPLIT ? GN_CELL_EDGE : said;
-    p->follows = window->planar > 0 && GN_VIEW_EDGE(cell->frame, p->view);
-    if (said == GN_CELL_SPLIT) {
-        if (p->follows) p->window = window;
-        return GN_CELL_EDGE;
-    }
-    p->window = window;
-    return said;
+    return said == GN_CELL_EDGE && window ? ask_new_window(cell, window, p, &lo, &hi) : said;
 }
 
 enum { BEND, BEND_DOWN, HOLD };
@@ -243,7 +253,7 @@ GN_HOT static int add_edge(const gn_lattice_cell *cell, uint32_t slot, places *p
     gn_lattice_edge *edge = &out->edge[out->n_edges++];
     edge->view = p->view;
     edge->window = p->window;
-    edge->follows = p->follows;
+    edge->follows = (uint8_t)p->follows;
     edge->slot = (uint8_t)slot;
     edge->view_idx = (uint8_t)p->view_idx;
     edge->bent = (uint8_t)p->bent;
@@ -401,7 +411,7 @@ GN_HOT static GN_NOINLINE int add_two(const gn_lattice_cell *cell, uint32_t slot
     for (; views; views &= views - 1) {
         uint32_t view_idx = (uint32_t)first_bit(views);
         if (find_places(cell, slot, view_idx, p) != PLACED) break;
-        if (verdict(cell, slot, view_idx, p) == GN_CELL_SPLIT) break;
+        if (verdict(cell, slot, p) == GN_CELL_SPLIT) break;
         int holds = places_hold(cell, p);
         if (holds == BEND || (holds == BEND_DOWN && !has_forms(cell, slot, p->view))) break;
         add_edge(cell, slot, p, light, light->more_uq16);
@@ -440,7 +450,7 @@ GN_HOT static GN_NOINLINE int add_blend(const gn_lattice_cell *cell, uint32_t sl
     for (int k = 0; k < 2; k++) {
         uint32_t view_idx = k ? second : first;
         if (find_places(cell, slot, view_idx, p) != PLACED) return 0;
-        if (verdict(cell, slot, view_idx, p) == GN_CELL_SPLIT) return 0;
+        if (verdict(cell, slot, p) == GN_CELL_SPLIT) return 0;
         if (places_hold(cell, p) == BEND) return 0;
         uint32_t part[4];
         for (int i = 0; i < 4; i++) part[i] = gn_mul_uq16(light->more_uq16[i], k ? 65536 - share[i] : share[i]);
@@ -480,7 +490,7 @@ GN_HOT int gn_cell_shadow(const gn_lattice_cell *cell, uint32_t slot, const gn_c
     for (left = views; left; left &= left - 1) {
         int placed = find_places(cell, slot, (uint32_t)first_bit(left), &p);
         if (placed == PLACED_PARTLY) return GN_CELL_SPLIT;
-        int one = placed == PLACED_NOWHERE ? GN_CELL_LIT : verdict(cell, slot, (uint32_t)first_bit(left), &p);
+        int one = placed == PLACED_NOWHERE ? GN_CELL_LIT : verdict(cell, slot, &p);
         if (one == GN_CELL_SPLIT) return GN_CELL_SPLIT;
         if (one == GN_CELL_EDGE || (all >= 0 && all != one)) break;
         all = one;

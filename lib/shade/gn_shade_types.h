@@ -245,9 +245,9 @@ typedef struct {
 typedef struct {
     const gn_light_view *view;
     gn_window *window; /* NULL: none */
-    int follows;
     uint8_t slot, view_idx;
-    uint8_t bent; /* rows are placed each for itself */
+    uint8_t bent;    /* rows are placed each for itself */
+    uint8_t follows; /* the window is made anew for rows that it does not cover */
     gn_patch u_q16, v_q16, depth_q30;
     gn_patch more_q24[3]; /* what it adds where it is not in shadow; of the second of two faces, which adds the same,
                              the first one tells the border between them */

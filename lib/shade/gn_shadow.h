@@ -35,8 +35,8 @@ GN_HOT static inline int gn_shadow_has_plane(const gn_frame *frame, const gn_lig
     return (GN_RECEIVER_PLANE && frame->scene->lights[view->light_idx].receiver_plane) || GN_VIEW_EDGE(frame, view);
 }
 
-/* Slopes of depth over a texel of the view, 0 without B5; `from` is a point of the face from the light, spots and
- * points only. */
+/* Slopes of depth over a texel of the view, 0 without B5 and F7; `from` is a point of the face from the light, spots
+ * and points only. */
 void gn_shadow_slopes(const gn_frame *frame, const gn_surface *surface, const gn_light_view *view,
                       const int32_t from_q16[3], int32_t slope_q28[2]);
 

@@ -20,7 +20,8 @@ typedef struct {
 #define GN_VIEW_EDGE(frame, view) ((void)(frame), (void)(view), 0)
 #endif
 
-/* Index of the filter whose texels decide as much as all that the view's reads around a point. */
+/* Filter index whose texels say as much as all that a lookup reads: with edges, the receiver's and the eight around it.
+ */
 #define GN_VIEW_REACH(frame, view) ((view)->filter_idx + (GN_VIEW_EDGE(frame, view) > 0))
 
 /* Attenuation 0 (shadowed) .. 65536 (lit). Texels outside the tile repeat its border, or are lit if the view says so.

@@ -82,9 +82,11 @@ static void plan_one_at_a_time(sweep_plan *list, sweep_config base)
         {SWEEP_TILES, {"equal"}},
     };
     static const char *const tents[] = {"3x3", "5x5", "7x7"};
-    for (size_t i = 0; i < sizeof ones / sizeof *ones - list->w->single; i++) /* one view: not the last, tiles */
+    for (size_t i = 0; i < sizeof ones / sizeof *ones; i++) {
+        if (ones[i].knob == SWEEP_TILES && list->w->single) continue;
         for (size_t l = 0; matters(list->w, ones[i].knob) && l < SWEEP_LEVELS_MAX && ones[i].levels[l]; l++)
             plan(list, with(base, ones[i].knob, ones[i].levels[l]));
+    }
     for (size_t i = 0; matters(list->w, SWEEP_KERNEL) && i < 3; i++)
         plan(list, with(with(base, SWEEP_FILTER, tents[i]), SWEEP_KERNEL, "linear"));
 }
