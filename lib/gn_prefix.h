@@ -61,6 +61,7 @@
 #define gn_caster_draw GN_PREFIXED_(GN_PREFIX, gn_caster_draw)
 #define gn_caster_rows GN_PREFIXED_(GN_PREFIX, gn_caster_rows)
 #define gn_cell_bend2_q32 GN_PREFIXED_(GN_PREFIX, gn_cell_bend2_q32)
+#define gn_cell_border GN_PREFIXED_(GN_PREFIX, gn_cell_border)
 #define gn_cell_find_bend GN_PREFIXED_(GN_PREFIX, gn_cell_find_bend)
 #define gn_cell_hides GN_PREFIXED_(GN_PREFIX, gn_cell_hides)
 #define gn_cell_is_limited GN_PREFIXED_(GN_PREFIX, gn_cell_is_limited)

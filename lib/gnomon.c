@@ -155,6 +155,7 @@
 #include "shade/gn_corner_screen.c"
 #include "shade/gn_lattice.c"
 #include "shade/gn_lattice_block.c"
+#include "shade/gn_lattice_border.c"
 #include "shade/gn_lattice_draw.c"
 #include "shade/gn_lattice_even.c"
 #include "shade/gn_lattice_texture.c"

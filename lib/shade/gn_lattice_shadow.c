@@ -338,51 +338,6 @@ GN_HOT static GN_NOINLINE uint32_t hidden_faces(const gn_lattice_cell *cell, uin
 #endif
 
 #if GN_PUNCTUAL_LIGHTS || GN_MANY_CASCADES
-/* How far inside the first of two faces the corner lies, if positive: |from| along its axis less that along the
- * other's. [P5] */
-GN_HOT static int64_t inside_face(const gn_lattice_cell *cell, uint32_t slot, int32_t one, int32_t other,
-                                  const gn_corner *c)
-{
-    int32_t from[3] = {0, 0, 0};
-#if GN_PUNCTUAL_LIGHTS
-    gn_corner_from(c, cell->s->light[slot].state, from);
-#endif
-    int64_t ahead = one & 1 ? -(int64_t)from[one >> 1] : from[one >> 1];
-    (void)cell, (void)slot, (void)c;
-    return ahead - (other & 1 ? -(int64_t)from[other >> 1] : from[other >> 1]);
-}
-
-/* Where the border of two views lies between the corners: what is 0 there, positive in the first view. As a share of
- * the depth, what is linear on the surface is so on the screen; spheres of cascades are not. Returns 0 if that moves
- * the border by more than a pixel, and the cell can be split. */
-GN_HOT static GN_NOINLINE int find_border(const gn_lattice_cell *cell, uint32_t slot, int32_t one, int32_t other,
-                                          gn_patch *out)
-{
-    int32_t inside[4], nearest = INT32_MAX;
-    int64_t exact[4], lo = INT64_MAX, hi = INT64_MIN;
-    uint64_t all = 1;
-    const int cascaded = cell->s->light[slot].state->kind == GN_LIGHT_DIRECTIONAL;
-    for (int i = 0; i < 4; i++) {
-        const gn_corner *c = cell->corner[i];
-        nearest = gn_min32(nearest, c->z_q16);
-        exact[i] = cascaded ? gn_sample_inside_q32(cell->frame, c->x, c->y, c->z_q16, one)
-                            : inside_face(cell, slot, one, other, c);
-        all |= gn_abs64(exact[i]);
-        if (exact[i] < lo) lo = exact[i];
-        if (exact[i] > hi) hi = exact[i];
-    }
-    if (cascaded && cell->size_log2 > gn_cell_finest_log2(cell->frame) &&
-        gn_cell_bend2_q32(cell) > (uint64_t)(hi - lo) >> cell->size_log2)
-        return 0;
-    for (int32_t down = gn_max32(36 - gn_clz64(all), 0), i = 0; i < 4; i++) { /* to less than 2^28 */
-        uint32_t share_q30 =
-            GN_FLAT_Q16(cell->frame) ? 1U << 30 : gn_quotient_q30((uint32_t)nearest, (uint32_t)cell->corner[i]->z_q16);
-        inside[i] = (int32_t)((exact[i] >> down) * (int64_t)share_q30 >> 30);
-    }
-    gn_patch_make(out, inside, cell->size_log2);
-    return 1;
-}
-
 /* Whether forms on the screen tell where the view sees all of the cell: if they do at its corners. */
 GN_HOT static int has_forms(const gn_lattice_cell *cell, uint32_t slot, const gn_light_view *view)
 {
@@ -416,7 +371,7 @@ GN_HOT static GN_NOINLINE int add_two(const gn_lattice_cell *cell, uint32_t slot
         if (holds == BEND || (holds == BEND_DOWN && !has_forms(cell, slot, p->view))) break;
         add_edge(cell, slot, p, light, light->more_uq16);
     }
-    if (views || !find_border(cell, slot, one, other, &out->edge[n_edges + 1].more_q24[0])) {
+    if (views || !gn_cell_border(cell, slot, one, other, &out->edge[n_edges + 1].more_q24[0])) {
         out->n_edges = n_edges;
         return 0;
     }

@@ -16,7 +16,7 @@ identifiers() { awk -v p="$1" -v n="$2" 'BEGIN { for (i = 1; i <= n; i++) print 
     identifiers D 12
     identifiers P 10
     identifiers A 7
-    identifiers F 6
+    identifiers F 7
     identifiers B 6
     identifiers M 11
     identifiers R 12
