@@ -249,7 +249,7 @@ static int32_t exact_taps(int64_t *first, int64_t w[GN_TENT_TAPS_MAX], i128 *who
     return 2 * (k + 1);
 }
 
-/* Edges finer than texels, from the formula: MODEL 7. */
+/* Edges finer than texels, from the formula: MODEL 7. [F7] */
 static long double outline(const gn_receiver *r, int64_t i, int64_t j, const int side[2], long double f)
 {
     const int lit = exact_lit(r, i, j), n = GN_K(&frame, edge);
