@@ -26,9 +26,8 @@
     X(edge, EDGE, 0, 8,                                                                                                \
       "edges finer than a texel, of the hard filter and 2x2: texels along which outlines are followed each way; 0: "   \
       "edges are those of texels",                                                                                     \
-      "2.7 KB of flash, 15 to 34 % of the instructions; taps compare with the receiver's plane, which darkens the "    \
-      "foot of "                                                                                                       \
-      "lit walls")                                                                                                     \
+      "2.7 KB of flash, 15 to 30 % of the instructions; taps compare with the receiver's plane, which darkens the "    \
+      "foot of lit walls")                                                                                             \
     X(atten_bits, ATTEN_BITS, 8, 16, "bits of attenuation (8 or 16)", "none")                                          \
     X(atlas_size, ATLAS_SIZE, 16, 1024, "texels per side of the directional atlas, a power of two",                    \
       "depth_bits / 8 bytes per texel of RAM, and the time to fill them")                                              \

@@ -130,7 +130,7 @@ GN_HOT static GN_SHARED int attenuations(const gn_shading *s, const part_view *v
 {
     gn_receiver_step from = {row->at[0], row->at[1], 0}, step = {0, 0, 0};
     if (view->said != GN_WINDOW_MIXED) return view->said;
-    if (!view->window || view->window->view != view->view) return GN_WINDOW_MISSED;
+    if (!view->window) return GN_WINDOW_MISSED;
     if (ahead) {
         step.u_q16 = gn_step_of(row->at[0], row->last[0], ahead);
         step.v_q16 = gn_step_of(row->at[1], row->last[1], ahead);

@@ -12,7 +12,8 @@ typedef struct {
     int32_t end[2]; /* bits of the texel after the last: 1 in the receiver's line, 2 in the other, where dark differs */
 } texel_run;
 
-/* Along a row; bit n is the receiver's texel. Bits of texels like it are 0. */
+/* Along a row; bit n, 1 .. 8, is the receiver's texel. Bits of texels like it are 0; those above 2n may be any, as runs
+ * end there. Shifts are up to 31. */
 GN_HOT static inline void run_of_row(uint32_t own, uint32_t other, int32_t n, texel_run *run)
 {
     const uint32_t bits = ~own & other, before = ~(bits << (32 - n)), after = ~(bits >> (n + 1));
@@ -56,6 +57,7 @@ GN_HOT static int32_t share_by_side(const texel_run *run, int32_t n, uint32_t f_
     const int32_t end = run->length[side] >= n ? 1 : run->end[side];
     if (end == 0) line = -line;
     else if (end != 3) line = 0;
+    /* all below 2^22: y up to 2^16, length up to 17 */
     if (hard) return y_q16 * 2 * length < line ? 0 : 65536;
     return gn_max32(0, gn_min32(32768 + y_q16 - line / (2 * length), 65536));
 }

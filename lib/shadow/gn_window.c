@@ -431,21 +431,14 @@ GN_HOT static int find_rows(const gn_frame *frame, const gn_window *window, cons
     if (!gn_window_covers(window, u0, rows->v0, w, h)) return GN_WINDOW_MISSED;
     if (!window->any) return GN_WINDOW_LIT;
     if (window->all == UINT32_MAX) return GN_WINDOW_DARK;
-    if (GN_VIEW_EDGE(frame, view)) {
-        const int32_t rest = GN_VIEW_EDGE(frame, view) - 1;
-        rows->window = window;
-        rows->v0 -= window->v0;
-        rows->dark = &window->dark[rows->v0];
-        rows->doubt = &window->doubt[rows->v0];
-        return ask_rows(rows->dark + rest, rows->doubt + rest, h - 2 * rest,
-                        (UINT32_MAX >> (32 - w + 2 * rest)) << (u0 + rest - window->u0), &rows->doubts);
-    }
-    uint32_t mask = (UINT32_MAX >> (32 - w)) << (u0 - window->u0);
+    /* with edges: read, but not asked, as what is next to receivers tells whether all are alike */
+    const int32_t rest = GN_VIEW_EDGE(frame, view) ? GN_VIEW_EDGE(frame, view) - 1 : 0;
+    uint32_t mask = (UINT32_MAX >> (32 - w + 2 * rest)) << (u0 + rest - window->u0);
     rows->window = window;
     rows->v0 -= window->v0;
     rows->dark = &window->dark[rows->v0];
     rows->doubt = &window->doubt[rows->v0];
-    return ask_rows(rows->dark, rows->doubt, h, mask, &rows->doubts);
+    return ask_rows(rows->dark + rest, rows->doubt + rest, h - 2 * rest, mask, &rows->doubts);
 }
 
 GN_HOT int gn_window_row(const gn_frame *frame, const gn_window *window, const gn_receiver_step *from,
