@@ -63,7 +63,8 @@
     X(lookups_2x2, "lookup by 2x2")                                                                                    \
     X(taps_tent, "tap of 3x3, 5x5 or 7x7")                                                                             \
     X(taps_lone, "tap of the hard filter or the disk")                                                                 \
-    X(taps_edge, "row of taps, or lone tap, at a tile's border or against a plane")
+    X(taps_edge, "row of taps, or lone tap, at a tile's border or against a plane")                                    \
+    X(outlines, "receiver beside an outline that is found between texels")
 
 #define GN_COUNT_ENUM_(event, what) GN_COUNT_##event,
 typedef enum { GN_COUNT_EVENTS(GN_COUNT_ENUM_) GN_COUNT_N } gn_count_event;

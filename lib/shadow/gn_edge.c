@@ -67,7 +67,7 @@ GN_HOT uint32_t gn_edge_attenuation(const uint32_t *row, int32_t s, int32_t n, i
     const uint32_t f[2] = {(uint32_t)u_q16 & 0xFFFFU, (uint32_t)v_q16 & 0xFFFFU};
     const uint32_t dark = row[0] >> s & 1U, flip = 0U - dark;
     int32_t share = 65536;
-    GN_COUNT(taps_tent, 6); /* which cost as much */
+    GN_COUNT(outlines, 1);
     for (int side = 0; side < 4; side++) {
         const int by_column = side >> 1, step = side & 1 ? 1 : -1;
         const uint32_t *beside = by_column ? row : row + step;

@@ -67,3 +67,4 @@ COST(lookups_2x2, 73.28) /* lookup by 2x2 */
 COST(taps_tent, 22.77) /* tap of 3x3, 5x5 or 7x7 */
 COST(taps_lone, 79.42) /* tap of the hard filter or the disk */
 COST(taps_edge, 475.2) /* row of taps, or lone tap, at a tile's border or against a plane */
+COST(outlines, 136.62) /* receiver beside an outline that is found between texels */
