@@ -206,15 +206,23 @@ static GN_NOINLINE gn_status flush_tile(const gn_frame *frame, gn_scratch *scrat
 }
 
 /* The finished tile, with the caller's drawing over it. [R11] */
-static void draw_tile(const gn_frame *frame, gn_scratch *scratch, uint32_t tile_idx)
-{
-    gn_shade_tile(frame, scratch, tile_idx);
 #if GN_TILE_DRAWING
+/* What the caller draws over the scene. */
+static GN_NOINLINE void draw_over(const gn_frame *frame, gn_scratch *scratch, uint32_t tile_idx)
+{
     const gn_scene *scene = frame->scene;
     gn_rect rect = gn_screen_rect(frame, tile_idx);
     if (scene->draw_over && !(GN_RAW_VIEWS && frame->picture.format == GN_FORMAT_RAW32))
         scene->draw_over(scene->draw_user, rect.x0, rect.y0, rect.x1 - rect.x0, rect.y1 - rect.y0,
                          scratch->pixel.bytes);
+}
+#endif
+
+static void draw_tile(const gn_frame *frame, gn_scratch *scratch, uint32_t tile_idx)
+{
+    gn_shade_tile(frame, scratch, tile_idx);
+#if GN_TILE_DRAWING
+    draw_over(frame, scratch, tile_idx);
 #endif
 }
 

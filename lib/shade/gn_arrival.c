@@ -58,16 +58,16 @@ GN_HOT static int place_in(const gn_frame *frame, const gn_surface *surface, int
                            gn_auto_bias form, const int32_t from_q16[3], const int32_t offset_q16[3], gn_arrival *out)
 {
     int32_t moved[3];
-    int64_t at[3], less_q32 = move_point(surface, z_q16 + GN_FLAT_Q16(frame), view, &form, from_q16, offset_q16, moved);
-    for (int i = 0; i < 3; i++) at[i] = gn_dot_q30(moved, view->axis_q30[i]); /* sqrt(3) * 2^61 */
-    if (at[2] <= view->fit.persp.near_q16) return 0;
-    uint32_t z = at[2] > UINT32_MAX ? UINT32_MAX : (uint32_t)at[2];
+    int64_t less_q32 = move_point(surface, z_q16 + GN_FLAT_Q16(frame), view, &form, from_q16, offset_q16, moved),
+            far = gn_dot_q30(moved, view->axis_q30[2]); /* sqrt(3) * 2^61 */
+    if (far <= view->fit.persp.near_q16) return 0;
+    uint32_t z = far > UINT32_MAX ? UINT32_MAX : (uint32_t)far;
     int32_t clz = gn_clz32(z);
     uint32_t recip = gn_recip_norm(z << clz, GN_K(frame, newton_steps));
     /* 1 - n / z: n * recip * 2^(clz - 31) */
     uint64_t inverse = (uint64_t)(uint32_t)view->fit.persp.near_q16 * recip >> (31 - clz);
-    out->u_q16 = persp_coord(view, at[0], recip, clz);
-    out->v_q16 = persp_coord(view, at[1], recip, clz);
+    out->u_q16 = persp_coord(view, gn_dot_q30(moved, view->axis_q30[0]), recip, clz);
+    out->v_q16 = persp_coord(view, gn_dot_q30(moved, view->axis_q30[1]), recip, clz);
     out->depth_q32 = (uint32_t)gn_clamp64(UINT32_MAX - (int64_t)inverse - less_q32, 0, UINT32_MAX);
     return 1;
 }

@@ -104,18 +104,26 @@ GN_HOT static inline int32_t coord_persp(int32_t x, int32_t clz, int32_t half, i
     return (int32_t)((int64_t)gn_mul_high(x * (1 << (clz - 2)), half) * focal2_q16 >> 29) + middle_q16;
 }
 
+/* How far the receiver's offset moves a point. */
+GN_HOT static GN_NOINLINE void offset_of(const gn_frame *frame, const gn_surface *s, const gn_corner *c,
+                                         const gn_light_state *light, const int32_t from[3], int32_t offset[3])
+{
+    int32_t lifted[3];
+    offset[0] = offset[1] = offset[2] = 0;
+    if (!(GN_AUTO_BIAS && light->auto_bias && !GN_CURVED(s)))
+        gn_bias_punctual(frame, light, gn_sample_lifted(s, light, normal_of(s, c), lifted),
+                         c->z_q16 + GN_FLAT_Q16(frame), from, offset);
+}
+
 /* In any case. Returns how the point is seen. */
 GN_HOT static GN_NOINLINE int place_carefully(const gn_frame *frame, const gn_surface *s, const gn_corner *c,
                                               gn_corner_light *at, const gn_light_view *view)
 {
     const gn_light_state *light = &frame->light[view->light_idx];
-    const int32_t *n = normal_of(s, c);
-    int32_t offset[3] = {0, 0, 0}, lifted[3], from[3];
+    int32_t offset[3], from[3];
     gn_arrival place;
     gn_corner_from(c, light, from);
-    if (!(GN_AUTO_BIAS && light->auto_bias && !GN_CURVED(s)))
-        gn_bias_punctual(frame, light, gn_sample_lifted(s, light, n, lifted), c->z_q16 + GN_FLAT_Q16(frame), from,
-                         offset);
+    offset_of(frame, s, c, light, from, offset);
     at->seen = (uint8_t)gn_arrival_place(frame, s, view, c->z_q16, from, offset, &place);
     if (!at->seen) return 0;
     at->u_q16 = place.u_q16;

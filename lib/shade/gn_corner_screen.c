@@ -52,8 +52,8 @@ GN_HOT static int add_over_depth(const gn_slope *w, int32_t length_q16, uint32_t
 
 /* A row of the matrix, f * axis + c * axis of depth, times what points are from the light: on the screen, and at the
  * eye, below 2^30, Q16. Returns 0 if that is too far. */
-GN_HOT static int find_form(const gn_frame *frame, const gn_screen_plane *p, const gn_light_view *view, int i,
-                            const int32_t by_q27[2], wide_slope *out, int32_t *eye_q16)
+GN_HOT static GN_NOINLINE int find_form(const gn_frame *frame, const gn_screen_plane *p, const gn_light_view *view,
+                                        int i, const int32_t by_q27[2], wide_slope *out, int32_t *eye_q16)
 {
     int32_t px = 2 * p->x + 1 - frame->picture.width, py = frame->picture.height - 1 - 2 * p->y;
     int64_t at = 0, dx = 0, dy = 0, eye = 0; /* |row| < 2^30.2, |a| <= 2^30 */
@@ -83,8 +83,8 @@ typedef struct {
 } point_mover;
 
 /* What the last two do to a form, of which `by_q27` is a row before the first. */
-GN_HOT static void add_lengths(const gn_light_view *view, const point_mover *move, int32_t ray_shift, int i,
-                               const int32_t by_q27[2], wide_slope *out, int32_t *eye_q16)
+GN_HOT static GN_NOINLINE void add_lengths(const gn_light_view *view, const point_mover *move, int32_t ray_shift, int i,
+                                           const int32_t by_q27[2], wide_slope *out, int32_t *eye_q16)
 {
     int32_t along_q27 = (int32_t)((gn_dot_q30(move->n_q30, view->axis_q30[i]) * by_q27[0] +
                                    gn_dot_q30(move->n_q30, view->axis_q30[2]) * by_q27[1]) >>
@@ -171,9 +171,10 @@ GN_HOT static GN_NOINLINE int find_move(gn_lattice *l, const gn_frame *frame, co
     out->less_q30 = out->in_tile = 0;
     out->z_least = 1 << 22;
 #if GN_AUTO_BIAS
-    if (s->light[slot].state->auto_bias) /* whoever has the lattice's own corner in use has it at this pixel */
-        return view->filter != GN_FILTER_DISK && gn_corner_locate(l, frame, s, slot, x, y, &l->corner) &&
-               move_by_auto_bias(l, s, slot, out, move);
+    if (s->light[slot].state->auto_bias) { /* whoever has the lattice's own corner in use has it at this pixel */
+        if (view->filter == GN_FILTER_DISK || !gn_corner_locate(l, frame, s, slot, x, y, &l->corner)) return 0;
+        return move_by_auto_bias(l, s, slot, out, move);
+    }
 #endif
     (void)frame, (void)x, (void)y;
     return l->light[slot].lifts && move->share_q31 != INT32_MAX;

@@ -13,14 +13,6 @@
 
 #if GN_INTERPOLATES
 
-/* What varies. */
-typedef struct {
-    gn_slope colour_q24[3];
-    gn_facet_curve length2_q22; /* of the normal, if it turns */
-    gn_slope tint_q16[3];       /* the vertices' colours, if those are to be multiplied */
-    int tinted, each;           /* nodes are all pixels */
-} facet_look;
-
 /* A vertex colour's channel: 65536 is 1. */
 GN_HOT static inline int32_t tint_q16(const gn_surface *s, int channel, int vertex)
 {
@@ -79,7 +71,7 @@ GN_HOT static void add_pixel_light(const gn_facet *f, const gn_facet_light *ligh
 }
 
 /* Nodes of n pixels without light that they ask for; per_length_q30: their 1 / |n|, or NULL. */
-GN_HOT static void begin_nodes(const gn_facet *f, const facet_look *look, int32_t right, int32_t down, int32_t n,
+GN_HOT static void begin_nodes(const gn_facet *f, const gn_facet_look *look, int32_t right, int32_t down, int32_t n,
                                const uint32_t *per_length_q30)
 {
     const gn_slope *slope = look->colour_q24;
@@ -97,7 +89,7 @@ GN_HOT static void begin_nodes(const gn_facet *f, const facet_look *look, int32_
 }
 
 /* The colours of n pixels from (x, y) of the picture on, a node each. */
-GN_HOT static void light_pixels(const gn_facet *f, const facet_look *look, int32_t x, int32_t y, int32_t n)
+GN_HOT static GN_SHARED void light_pixels(const gn_facet *f, const gn_facet_look *look, int32_t x, int32_t y, int32_t n)
 {
     gn_lattice *l = &f->s->lattice;
     int32_t right = x - f->screen.x0, down = y - f->screen.y0;
@@ -142,7 +134,7 @@ GN_HOT static void use_texels(const gn_facet *f, const gn_run_span *span, int32_
 #endif
 
 /* Nodes are all pixels, or, of a texture under light that is linear, two. */
-GN_HOT static void draw_lit_span(const gn_facet *f, const facet_look *look, const gn_run_span *span)
+GN_HOT static void draw_lit_span(const gn_facet *f, const gn_facet_look *look, const gn_run_span *span)
 {
     const int each = look->each;
     int32_t(*node)[3] = f->s->lattice.by.node[0], n = each ? span->n_px : 2;
@@ -158,7 +150,7 @@ GN_HOT static void draw_lit_span(const gn_facet *f, const facet_look *look, cons
     gn_pixel_store_line(f->s->frame, &f->s->rows, span->x, span->y, (1U << span->n_px) - 1, &line);
 }
 
-GN_HOT static void draw_runs(const gn_facet *f, const facet_look *look)
+GN_HOT static void draw_runs(const gn_facet *f, const gn_facet_look *look)
 {
     gn_shading *s = f->s;
     const gn_slope *slope = look->colour_q24;
@@ -215,7 +207,7 @@ GN_HOT static void draw_levels(const gn_facet *f, const gn_run_span *span)
 #endif
 
 /* Of a span; `look` NULL: of two colours. */
-GN_HOT static void draw_pieces(const gn_facet *f, const facet_look *look, const gn_run_span *span)
+GN_HOT static void draw_pieces(const gn_facet *f, const gn_facet_look *look, const gn_run_span *span)
 {
     gn_run_span piece = *span;
     for (int32_t left = span->n_px; left > 0; left -= GN_FACET_ROW_PX, piece.x += GN_FACET_ROW_PX) {
@@ -225,7 +217,7 @@ GN_HOT static void draw_pieces(const gn_facet *f, const facet_look *look, const 
     }
 }
 
-GN_HOT static void draw_spans(const gn_facet *f, const facet_look *look)
+GN_HOT static void draw_spans(const gn_facet *f, const gn_facet_look *look)
 {
     gn_lattice *l = &f->s->lattice;
     GN_COUNT(facet_pixels, f->n_px);
@@ -268,7 +260,7 @@ GN_HOT static int tint_vertices(gn_facet *f)
     return 1;
 }
 
-GN_HOT static void use_tints(gn_facet *f, facet_look *look)
+GN_HOT static void use_tints(gn_facet *f, gn_facet_look *look)
 {
     for (int c = 0; look->tinted && c < 3; c++) gn_facet_slope(&f->screen, &look->tint_q16[c], f->tint_q16[c]);
 }
@@ -279,7 +271,7 @@ GN_HOT static int tint_vertices(gn_facet *f)
     return 1;
 }
 
-GN_HOT static void use_tints(gn_facet *f, facet_look *look)
+GN_HOT static void use_tints(gn_facet *f, gn_facet_look *look)
 {
     (void)f, (void)look;
 }
@@ -332,7 +324,7 @@ GN_HOT static int shows_bend(const gn_facet *f, int tinted)
 }
 
 /* Sets what varies. Returns 0 if something is too steep, or bent. */
-GN_HOT static int find_look(gn_facet *f, facet_look *look)
+GN_HOT static GN_SHARED int find_look(gn_facet *f, gn_facet_look *look)
 {
     int32_t one[3] = {1 << 22, 1 << 22, 1 << 22}, above[3];
     const int32_t(*colour)[3] = (const int32_t(*)[3])f->colour_q24;
@@ -352,18 +344,18 @@ GN_HOT static int find_look(gn_facet *f, facet_look *look)
 GN_HOT GN_NOINLINE int gn_facet_draw(gn_facet *f)
 {
     const gn_lattice *l = &f->s->lattice;
-    facet_look look;
+    gn_facet_look *look = &f->look;
     if (!f->n_lights && f->turns && !is_lit(f)) f->turns = 0;
-    look.tinted = !tint_vertices(f);
-    look.each = f->n_lights || f->turns || look.tinted;
-    if (!look.each && draw_one_colour(f)) return 1;
+    look->tinted = !tint_vertices(f);
+    look->each = f->n_lights || f->turns || look->tinted;
+    if (!look->each && draw_one_colour(f)) return 1;
     if (!f->screen.steep && use_two_colours(f)) {
         GN_COUNT(facet_pixels, f->n_px);
         for (int32_t i = 0; i < l->n_spans; i++) draw_pieces(f, NULL, &l->span[i]);
         return 1;
     }
-    if (!find_look(f, &look)) return 0;
-    draw_spans(f, &look);
+    if (!find_look(f, look)) return 0;
+    draw_spans(f, look);
     return 1;
 }
 

@@ -20,12 +20,6 @@ int gn_facet_screen_use(gn_facet_screen *screen, const gn_frame *frame, const gn
 /* Through values at the vertices, |.| <= 2^30: all pixels of the triangle stay within 32 bits, or `steep` is set. */
 void gn_facet_slope(gn_facet_screen *screen, gn_slope *out, const int32_t at[3]);
 
-/* Quadratic on the screen: at + dx x + dy y + xx x^2 + xy x y + yy y^2, (x, y) to the right and down. */
-typedef struct {
-    gn_slope line;
-    int32_t xx, xy, yy;
-} gn_facet_curve;
-
 /* Through values at the vertices, and in the middles of the edges 01, 02, 12, where it is a quarter of `above` more
  * than the mean of the ends. */
 void gn_facet_curve_find(gn_facet_screen *screen, gn_facet_curve *out, const int32_t at[3], const int32_t above[3]);

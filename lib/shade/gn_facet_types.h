@@ -56,6 +56,20 @@ typedef struct {
     gn_facet_edge edge;
 } gn_facet_light;
 
+/* Quadratic on the screen: at + dx x + dy y + xx x^2 + xy x y + yy y^2, (x, y) to the right and down. */
+typedef struct {
+    gn_slope line;
+    int32_t xx, xy, yy;
+} gn_facet_curve;
+
+/* What varies over the triangle. */
+typedef struct {
+    gn_slope colour_q24[3];
+    gn_facet_curve length2_q22; /* of the normal, if it turns */
+    gn_slope tint_q16[3];       /* the vertices' colours, if those are to be multiplied */
+    int tinted, each;           /* nodes are all pixels */
+} gn_facet_look;
+
 enum { GN_FACET_LIGHTS = 3 };
 
 /* A small triangle. */
@@ -70,6 +84,7 @@ typedef struct {
     int32_t tint_q16[3][3];   /* colours of the vertices, likewise */
     int32_t n_lights;
     gn_facet_light light[GN_FACET_LIGHTS];
+    gn_facet_look look;
 #if GN_PUNCTUAL_LIGHTS
     gn_facet_vertices vertices; /* where spots or points are in the list */
 #endif

@@ -36,7 +36,7 @@ GN_HOT static inline uint32_t bits_of(int32_t from, int32_t to)
 }
 
 /* Marks the part's pixels. Returns the number of rows with pixels in them. */
-GN_HOT static int mark(gn_lattice *l)
+GN_HOT static GN_NOINLINE int mark(gn_lattice *l)
 {
     int any = 0;
     memset(l->bits, 0, sizeof l->bits);
@@ -113,14 +113,15 @@ GN_HOT static inline gn_corner *corner_at(gn_shading *s, int32_t x, int32_t y)
     return &l->from.corners[i];
 }
 
-GN_HOT static void find_corners(gn_shading *s, int32_t x, int32_t y, int32_t size_log2, gn_corner *corner[4])
+GN_HOT static void find_corners(gn_shading *s, int32_t x, int32_t y, int32_t size_log2)
 {
     GN_UNROLL
-    for (int32_t k = 0; k < 4; k++) corner[k] = corner_at(s, x + ((k & 1) << size_log2), y + ((k >> 1) << size_log2));
+    for (int32_t k = 0; k < 4; k++)
+        s->lattice.cell_corner[k] = corner_at(s, x + ((k & 1) << size_log2), y + ((k >> 1) << size_log2));
 }
 
 /* The next quarter that has pixels. Returns 0 if there is none. */
-GN_HOT static int next_quarter(gn_shading *s, gn_split_cell *split, int32_t *x, int32_t *y, gn_corner *corner[4])
+GN_HOT static int next_quarter(gn_shading *s, gn_split_cell *split, int32_t *x, int32_t *y)
 {
     int32_t log2 = split->size_log2 - 1;
     while (split->next < 4) {
@@ -128,7 +129,7 @@ GN_HOT static int next_quarter(gn_shading *s, gn_split_cell *split, int32_t *x, 
         *y = split->y + ((split->next >> 1) << log2);
         split->next++;
         if (shade_few(s, *x, *y, log2)) continue;
-        find_corners(s, *x, *y, log2, corner);
+        find_corners(s, *x, *y, log2);
         return 1;
     }
     return 0;
@@ -138,9 +139,9 @@ GN_HOT static int next_quarter(gn_shading *s, gn_split_cell *split, int32_t *x, 
 GN_HOT static void shade_cell(gn_shading *s, int32_t x, int32_t y, int32_t size_log2)
 {
     gn_split_cell *split = s->lattice.split;
-    gn_corner *corner[4];
+    gn_corner *const *corner = s->lattice.cell_corner;
     int depth = 0;
-    find_corners(s, x, y, size_log2, corner);
+    find_corners(s, x, y, size_log2);
     for (;;) {
         GN_COUNT(cells, 1);
         if (gn_lattice_look_at(&s->lattice, s->frame, &s->surface, corner, size_log2))
@@ -149,7 +150,7 @@ GN_HOT static void shade_cell(gn_shading *s, int32_t x, int32_t y, int32_t size_
             GN_COUNT(cells_split, 1);
             split[depth++] = (gn_split_cell){(int16_t)x, (int16_t)y, (uint8_t)size_log2, 0};
         } else shade_cell_by_pixels(s, x, y, size_log2);
-        while (depth > 0 && !next_quarter(s, &split[depth - 1], &x, &y, corner)) depth--;
+        while (depth > 0 && !next_quarter(s, &split[depth - 1], &x, &y)) depth--;
         if (!depth) return;
         size_log2 = split[depth - 1].size_log2 - 1;
     }
@@ -242,7 +243,8 @@ GN_HOT static int are_few(const gn_lattice *l, const gn_rect *box, int32_t n_px)
     return n_px <= (l->uniform ? FEW_OF_ONE_COLOUR : FEW + ((box->x1 - box->x0 + box->y1 - box->y0) >> 1));
 }
 
-GN_HOT void gn_lattice_shade(gn_shading *s)
+/* Shades a surface that takes no parts. Otherwise returns 1, and sets where parts are. */
+GN_HOT static GN_NOINLINE int begin_parts(gn_shading *s)
 {
     gn_lattice *l = &s->lattice;
     gn_rect box = box_of(l);
@@ -250,7 +252,7 @@ GN_HOT void gn_lattice_shade(gn_shading *s)
     int32_t n_px = count_pixels(l);
     if (reached && n_px > FEW_OF_A_FACET && gn_facet_shade(s, &box, n_px)) {
         if (GN_MIXES(s) && s->surface.textured) gn_surface_use_bary(s->frame, &s->surface); /* alpha is read there */
-        return;
+        return 0;
     }
     gn_surface_use_bary(s->frame, &s->surface);
     /* of parallel rays each pixel has its own highlight: gn_sample_on_plane() is of rays from the eye */
@@ -260,24 +262,33 @@ GN_HOT void gn_lattice_shade(gn_shading *s)
     const int32_t beyond = 1 << (l->uniform && !few ? 4 : l->size_log2); /* rows of parts look ahead */
     if (!reached || alone || !gn_corner_begin(l, s->frame, &s->surface, &box, beyond)) {
         shade_pixels(s, 1);
-        return;
+        return 0;
     }
     l->has_face = 0;
     if (few) {
         l->cascade = l->surface_cascade;
         shade_pixels(s, 0);
-        return;
+        return 0;
     }
     l->n_rows = gn_min32(2 << l->size_log2, GN_PART_ROWS);
+    l->x = box.x0;
+    l->y = box.y0;
     l->x_end = box.x1;
     l->y_end = box.y1;
     forget_windows(l);
-    for (l->y = box.y0; l->y < box.y1; l->y += l->n_rows) {
-        for (l->x = box.x0; l->x < box.x1; l->x = l->part_end) {
+    return 1;
+}
+
+GN_HOT void gn_lattice_shade(gn_shading *s)
+{
+    gn_lattice *l = &s->lattice;
+    if (!begin_parts(s)) return;
+    const int32_t x0 = l->x;
+    for (; l->y < l->y_end; l->y += l->n_rows)
+        for (l->x = x0; l->x < l->x_end; l->x = l->part_end) {
             begin_part(s);
             if (!gn_part_shade(s) && mark(l)) shade_part(s);
         }
-    }
 }
 
 #endif

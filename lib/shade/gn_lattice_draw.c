@@ -4,6 +4,7 @@
 #include "base/gn_count.h"
 #include "base/gn_hint.h"
 #include "base/gn_q.h"
+#include "shade/gn_arrival.h"
 #include "shade/gn_exact.h"
 #include "shade/gn_lattice.h"
 #include "shade/gn_lattice_block.h"
@@ -17,22 +18,11 @@
 
 #if GN_INTERPOLATES
 
-/* The cell at hand. */
-typedef struct {
-    gn_shading *s;
-    int32_t x, y, size_log2;
-    gn_patch base_q24[3];
-    int32_t first, n; /* nodes of a row: from this pixel on */
-#if GN_TEXTURES
-    gn_cell_textures textures;
-#endif
-} drawing;
-
 /* ---- Rows of nodes ----------------------------------------------------------------------------------------------- */
 
 #if GN_SHADOWS
 /* One exact lookup, at a depth that is limited to the view's range. */
-GN_HOT static uint32_t lookup(const drawing *d, const gn_light_view *view, const int32_t slope_q28[2],
+GN_HOT static uint32_t lookup(const gn_drawing *d, const gn_light_view *view, const int32_t slope_q28[2],
                               const gn_receiver_step *at, int32_t x, int32_t y)
 {
     int32_t depth_q30 = gn_max32(0, gn_min32(at->depth_q31, (1 << 30) - 1));
@@ -41,7 +31,7 @@ GN_HOT static uint32_t lookup(const drawing *d, const gn_light_view *view, const
 }
 
 /* A row's first node and its steps between pixels, from where its ends are seen. */
-GN_HOT static inline void step_row(const drawing *d, const gn_corner_light *at, const gn_receiver_step *end,
+GN_HOT static inline void step_row(const gn_drawing *d, const gn_corner_light *at, const gn_receiver_step *end,
                                    gn_receiver_step *from, gn_receiver_step *step)
 {
     step->u_q16 = (end->u_q16 - at->u_q16) >> d->size_log2;
@@ -53,7 +43,7 @@ GN_HOT static inline void step_row(const drawing *d, const gn_corner_light *at, 
 }
 
 /* By forms on the screen. Returns 0 if they do not tell. */
-GN_HOT static GN_NOINLINE int place_flat_row(const drawing *d, const gn_lattice_edge *edge, int32_t below,
+GN_HOT static GN_NOINLINE int place_flat_row(const gn_drawing *d, const gn_lattice_edge *edge, int32_t below,
                                              gn_receiver_step *from, gn_receiver_step *step)
 {
 #if GN_PUNCTUAL_LIGHTS
@@ -77,7 +67,7 @@ GN_HOT static GN_NOINLINE int place_flat_row(const drawing *d, const gn_lattice_
 }
 
 /* The same of any surface. */
-GN_HOT static GN_NOINLINE void place_row(const drawing *d, const gn_lattice_edge *edge, int32_t below,
+GN_HOT static GN_NOINLINE void place_row(const gn_drawing *d, const gn_lattice_edge *edge, int32_t below,
                                          gn_receiver_step *from, gn_receiver_step *step)
 {
     gn_lattice *l = &d->s->lattice;
@@ -97,34 +87,48 @@ GN_HOT static GN_NOINLINE void place_row(const drawing *d, const gn_lattice_edge
 }
 
 #if GN_PUNCTUAL_LIGHTS
+/* The face of a cube that sees a pixel, which is found for it; GN_FACE_NONE: none does. */
+GN_HOT static GN_NOINLINE uint32_t locate_alone(gn_shading *s, uint32_t slot, int32_t x, int32_t y)
+{
+    gn_corner *c = &s->lattice.corner;
+    int32_t from[3];
+    if (!gn_corner_locate(&s->lattice, s->frame, &s->surface, slot, x, y, c)) return GN_FACE_NONE;
+    gn_corner_from(c, s->surface.light[slot].state, from);
+    return (uint32_t)gn_persp_face(from);
+}
+
+/* A lookup where that face sees it. */
+GN_HOT static GN_NOINLINE uint32_t look_up_corner(const gn_drawing *d, uint32_t slot, const gn_light_view *view)
+{
+    gn_lattice *l = &d->s->lattice;
+    const gn_corner *c = &l->corner;
+    const gn_corner_light *at = &c->light[slot];
+    const gn_receiver_step place = {at->u_q16, at->v_q16, at->depth_q30};
+    int32_t slope[2];
+    GN_COUNT(edge_lookups, 1);
+    gn_corner_slopes(l, d->s->frame, &d->s->surface, c, view, slope);
+    return lookup(d, view, slope, &place, c->x, c->y);
+}
+
 /* Lookups of a row's pixels, of those that the part has. */
-GN_HOT static GN_NOINLINE void look_up_alone(const drawing *d, const gn_lattice_edge *edge, int32_t below,
+GN_HOT static GN_NOINLINE void look_up_alone(const gn_drawing *d, const gn_lattice_edge *edge, int32_t below,
                                              uint32_t *out)
 {
     gn_shading *s = d->s;
     gn_lattice *l = &s->lattice;
-    gn_corner *c = &l->corner;
-    const gn_corner_light *at = &c->light[edge->slot];
     uint32_t bits = below >> d->size_log2 ? 0 : gn_lattice_bits(l, d->x, d->y + below, d->size_log2) >> d->first;
-    for (int32_t i = 0, x = d->x + d->first, y = d->y + below; i < d->n; i++, x++) {
+    for (int32_t i = 0; i < d->n; i++) {
         out[i] = 65536;
-        if (!(bits >> i & 1U) || !gn_corner_locate(l, s->frame, &s->surface, edge->slot, x, y, c)) continue;
-        int32_t from[3];
-        gn_corner_from(c, s->surface.light[edge->slot].state, from);
-        uint32_t face = (uint32_t)gn_persp_face(from);
-        if (!gn_corner_place(l, s->frame, &s->surface, c, edge->slot, face)) continue;
-        const gn_light_view *view = edge->view + (int32_t)face - edge->view_idx;
-        int32_t slope[2];
-        gn_corner_slopes(l, s->frame, &s->surface, c, view, slope);
-        gn_receiver_step place = {at->u_q16, at->v_q16, at->depth_q30};
-        GN_COUNT(edge_lookups, 1);
-        out[i] = lookup(d, view, slope, &place, x, y);
+        if (!(bits >> i & 1U)) continue;
+        const uint32_t face = locate_alone(s, edge->slot, d->x + d->first + i, d->y + below);
+        if (face == GN_FACE_NONE || !gn_corner_place(l, s->frame, &s->surface, &l->corner, edge->slot, face)) continue;
+        out[i] = look_up_corner(d, edge->slot, edge->view + (int32_t)face - edge->view_idx);
     }
 }
 #endif
 
 /* A row of nodes in a view, `below` pixels under the cell's first row, and steps between pixels. Depths are in Q30. */
-GN_HOT static void find_row(const drawing *d, const gn_lattice_edge *edge, int32_t below, gn_receiver_step *at,
+GN_HOT static void find_row(const gn_drawing *d, const gn_lattice_edge *edge, int32_t below, gn_receiver_step *at,
                             gn_receiver_step *step)
 {
     step->u_q16 = edge->u_q16.dx + below * edge->u_q16.dxy;
@@ -166,7 +170,7 @@ GN_HOT static int texels_of_row(const gn_frame *frame, const gn_lattice_edge *ed
 
 /* Looks up a row that its window does not cover in one that is made for it, and as far as it goes for those below; or
  * in one for each half, quarter... of the row where it reads too many texels. */
-GN_HOT static GN_NOINLINE int follow_row(const drawing *d, const gn_lattice_edge *edge, int32_t below,
+GN_HOT static GN_NOINLINE int follow_row(const gn_drawing *d, const gn_lattice_edge *edge, int32_t below,
                                          const gn_receiver_step *row, const gn_receiver_step *step, int32_t n,
                                          uint32_t *out)
 {
@@ -202,8 +206,9 @@ GN_HOT static GN_NOINLINE int follow_row(const drawing *d, const gn_lattice_edge
 
 /* Attenuations of nodes from .. end - 1 of such a row. Returns GN_WINDOW_LIT or _DARK if all of them are, and sets
  * none; else _MIXED. */
-GN_HOT static int look_up_row(const drawing *d, const gn_lattice_edge *edge, int32_t below, const gn_receiver_step *row,
-                              const gn_receiver_step *step, int32_t from, int32_t end, uint32_t *out)
+GN_HOT static int look_up_row(const gn_drawing *d, const gn_lattice_edge *edge, int32_t below,
+                              const gn_receiver_step *row, const gn_receiver_step *step, int32_t from, int32_t end,
+                              uint32_t *out)
 {
     gn_receiver_step at = {row->u_q16 + from * step->u_q16, row->v_q16 + from * step->v_q16,
                            row->depth_q31 + from * step->depth_q31};
@@ -230,7 +235,8 @@ GN_HOT static int look_up_row(const drawing *d, const gn_lattice_edge *edge, int
 
 #if GN_PUNCTUAL_LIGHTS || GN_MANY_CASCADES
 /* Attenuations along a row of pixels that two faces or cascades see. */
-GN_HOT static GN_NOINLINE void look_up_two(const drawing *d, const gn_lattice_edge *edge, int32_t below, uint32_t *out)
+GN_HOT static GN_NOINLINE void look_up_two(const gn_drawing *d, const gn_lattice_edge *edge, int32_t below,
+                                           uint32_t *out)
 {
     gn_receiver_step at[2], step[2];
     for (int k = 0; k < 2; k++) {
@@ -249,7 +255,8 @@ GN_HOT static GN_NOINLINE void look_up_two(const drawing *d, const gn_lattice_ed
 #endif
 
 /* Attenuations along a row of nodes that one view sees. Returns what look_up_row() does. */
-GN_HOT static GN_NOINLINE int look_up_one(const drawing *d, const gn_lattice_edge *edge, int32_t below, uint32_t *out)
+GN_HOT static GN_NOINLINE int look_up_one(const gn_drawing *d, const gn_lattice_edge *edge, int32_t below,
+                                          uint32_t *out)
 {
     gn_receiver_step at, step;
     find_row(d, edge, below, &at, &step);
@@ -259,7 +266,7 @@ GN_HOT static GN_NOINLINE int look_up_one(const drawing *d, const gn_lattice_edg
 }
 
 /* The same of any row of nodes, `below` pixels under the cell's first row. */
-GN_HOT static int find_attenuations(const drawing *d, const gn_lattice_edge *edge, int32_t below, uint32_t *out)
+GN_HOT static int find_attenuations(const gn_drawing *d, const gn_lattice_edge *edge, int32_t below, uint32_t *out)
 {
 #if GN_PUNCTUAL_LIGHTS
     if (edge->bent == GN_PLACES_LONE) {
@@ -277,7 +284,7 @@ GN_HOT static int find_attenuations(const drawing *d, const gn_lattice_edge *edg
 }
 
 /* Adds the light of an edge to a row of nodes, where it is not in shadow. */
-GN_HOT static GN_NOINLINE void add_edge_light(const drawing *d, const gn_lattice_edge *edge, int32_t below,
+GN_HOT static GN_NOINLINE void add_edge_light(const gn_drawing *d, const gn_lattice_edge *edge, int32_t below,
                                               int32_t (*node)[3])
 {
     const uint32_t *share = d->s->lattice.row.attenuation[0], *end = share + d->n;
@@ -311,7 +318,7 @@ typedef struct {
     int32_t from[3], step[3];
 } node_row;
 
-GN_INLINE void add_patches(const drawing *d, const gn_patch colour_q24[3], int32_t below, node_row *row)
+GN_INLINE void add_patches(const gn_drawing *d, const gn_patch colour_q24[3], int32_t below, node_row *row)
 {
     GN_UNROLL
     for (int c = 0; c < 3; c++) {
@@ -333,7 +340,7 @@ GN_HOT static void put_row(const node_row *row, int32_t (*node)[3], int32_t (*co
 
 /* Colours of a row of nodes. Lights before the first with an edge in it are in shadow all along it, or nowhere: those
  * take no loop of their own. */
-GN_HOT static void find_nodes(const drawing *d, int32_t below, int32_t (*node)[3])
+GN_HOT static void find_nodes(const gn_drawing *d, int32_t below, int32_t (*node)[3])
 {
     node_row row = {{0, 0, 0}, {0, 0, 0}};
     int is_put = 0;
@@ -363,7 +370,7 @@ GN_HOT static void find_nodes(const drawing *d, int32_t below, int32_t (*node)[3
 
 #if GN_TEXTURES
 /* Whether the nodes at hand lie in 2^-18 .. 1. */
-GN_HOT static int nodes_inside(const drawing *d)
+GN_HOT static int nodes_inside(const gn_drawing *d)
 {
     const gn_lattice *l = &d->s->lattice;
     uint32_t all = 0;
@@ -374,8 +381,9 @@ GN_HOT static int nodes_inside(const drawing *d)
 }
 
 /* Texels take the place of attenuations: after each row of nodes that has been found. */
-GN_HOT static GN_NOINLINE void use_textures(const drawing *d, gn_pixel_line *line)
+GN_HOT static GN_NOINLINE void use_textures(gn_drawing *d)
 {
+    gn_pixel_line *line = &d->line;
     gn_shading *s = d->s;
     line->inside = nodes_inside(d);
     gn_lattice_textures_line(&s->lattice, &d->textures, line);
@@ -389,8 +397,9 @@ GN_HOT static GN_NOINLINE void use_textures(const drawing *d, gn_pixel_line *lin
 #endif
 
 /* A row of pixels. */
-GN_HOT static void draw_row(const drawing *d, int32_t below, const gn_pixel_line *line)
+GN_HOT static void draw_row(const gn_drawing *d, int32_t below)
 {
+    const gn_pixel_line *line = &d->line;
     gn_shading *s = d->s;
     uint32_t bits = gn_lattice_bits(&s->lattice, d->x, d->y + below, d->size_log2);
 #if GN_TEXTURES
@@ -401,7 +410,7 @@ GN_HOT static void draw_row(const drawing *d, int32_t below, const gn_pixel_line
 }
 
 /* Rows of pixels between two rows of nodes, which then are those below. */
-GN_HOT static GN_NOINLINE void draw_strip(const drawing *d, int32_t below, const gn_pixel_line *line)
+GN_HOT static GN_NOINLINE void draw_strip(const gn_drawing *d, int32_t below)
 {
     gn_lattice *l = &d->s->lattice;
     int32_t log2 = l->look.spacing_log2, moves = 0, (*node)[3] = l->by.node[0], (*next)[3] = l->by.node[1],
@@ -409,7 +418,7 @@ GN_HOT static GN_NOINLINE void draw_strip(const drawing *d, int32_t below, const
     for (int32_t i = 0; i < d->n; i++)
         for (int c = 0; c < 3; c++) moves |= step[i][c] = (next[i][c] - node[i][c]) >> log2;
     for (int32_t t = 0; t < 1 << log2; t++) {
-        draw_row(d, below + t, line);
+        draw_row(d, below + t);
         for (int32_t i = 0; moves && i < d->n; i++)
             for (int c = 0; c < 3; c++) node[i][c] += step[i][c];
     }
@@ -418,7 +427,7 @@ GN_HOT static GN_NOINLINE void draw_strip(const drawing *d, int32_t below, const
 }
 
 /* Colours without the light of edges. */
-GN_HOT static void begin_base(drawing *d, const gn_lattice_look *look)
+GN_HOT static GN_NOINLINE void begin_base(gn_drawing *d, const gn_lattice_look *look)
 {
     GN_UNROLL
     for (int c = 0; c < 3; c++) {
@@ -430,21 +439,21 @@ GN_HOT static void begin_base(drawing *d, const gn_lattice_look *look)
 }
 
 /* Rows of nodes, and the pixels between them. */
-GN_HOT static void draw_nodes(const drawing *d)
+GN_HOT static void draw_nodes(gn_drawing *d)
 {
     gn_lattice *l = &d->s->lattice;
     int32_t log2 = l->look.spacing_log2, known = -1;
-    gn_pixel_line line = {.node = (const int32_t(*)[3])l->by.node[0], .spacing_log2 = log2};
+    d->line = (gn_pixel_line){.node = (const int32_t(*)[3])l->by.node[0], .spacing_log2 = log2};
     for (int32_t below = 0; below < 1 << d->size_log2; below += 1 << log2) {
         if (!gn_lattice_columns(l, d->x, d->y + below, 1 << log2, d->size_log2)) continue;
         if (known != below || !log2) find_nodes(d, below, l->by.node[0]);
         known = below + (1 << log2);
         if (log2) find_nodes(d, known, l->by.node[1]);
 #if GN_TEXTURES
-        if (d->s->surface.textured) use_textures(d, &line);
+        if (d->s->surface.textured) use_textures(d);
 #endif
-        if (log2) draw_strip(d, below, &line);
-        else draw_row(d, below, &line);
+        if (log2) draw_strip(d, below);
+        else draw_row(d, below);
     }
     gn_levels_forget(l); /* nodes took their place */
 }
@@ -453,30 +462,30 @@ GN_HOT void gn_lattice_draw(gn_shading *s, int32_t x, int32_t y, int32_t size_lo
 {
     gn_lattice *l = &s->lattice;
     const gn_lattice_look *look = &l->look;
-    drawing d;
+    gn_drawing *d = &l->drawing;
     int32_t size = 1 << size_log2, spacing_log2 = look->spacing_log2;
     if (!look->n_edges && !s->surface.textured) {
         gn_lattice_draw_blocks(s, x, y, size_log2);
         return;
     }
-    d.s = s;
-    d.x = x;
-    d.y = y;
-    d.size_log2 = size_log2;
+    d->s = s;
+    d->x = x;
+    d->y = y;
+    d->size_log2 = size_log2;
     GN_COUNT(cells_drawn, 1);
-    begin_base(&d, look);
+    begin_base(d, look);
     uint32_t any = gn_lattice_columns(l, x, y, size, size_log2);
-    d.first = (31 - gn_clz32(any & (0U - any))) & -(1 << spacing_log2);
-    d.n = ((31 - gn_clz32(any) - d.first) >> spacing_log2) + 1 + (spacing_log2 > 0);
+    d->first = (31 - gn_clz32(any & (0U - any))) & -(1 << spacing_log2);
+    d->n = ((31 - gn_clz32(any) - d->first) >> spacing_log2) + 1 + (spacing_log2 > 0);
 #if GN_TEXTURES
     if (s->surface.textured) {
-        for (int32_t next = 0; gn_lattice_textures_begin(s, x, y, size_log2, corner, next, &d.textures); next++)
-            draw_nodes(&d);
+        for (int32_t next = 0; gn_lattice_textures_begin(s, x, y, size_log2, corner, next, &d->textures); next++)
+            draw_nodes(d);
         return;
     }
 #endif
     (void)corner;
-    draw_nodes(&d);
+    draw_nodes(d);
 }
 
 #endif

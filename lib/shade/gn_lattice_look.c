@@ -55,7 +55,7 @@ GN_HOT static int find_highlight(const gn_lattice_cell *cell, uint32_t slot, gn_
 
 /* What is left of a light at the corners. Returns whether a realtime shadow is part of that, -1 if the cell is to be
  * split: a mask that limits the shadow bends it, and at a radius it ends at once. */
-GN_HOT static int find_shares(const gn_lattice_cell *cell, uint32_t slot, gn_contribution *out)
+GN_HOT static GN_NOINLINE int find_shares(const gn_lattice_cell *cell, uint32_t slot, gn_contribution *out)
 {
     const gn_light_state *light = cell->s->light[slot].state;
     int realtime = 0, masks = 0, ends = 0;
@@ -187,7 +187,7 @@ GN_HOT static int products_hold(const gn_lattice_cell *cell)
 /* Whether all that a light adds is less than half a step of the picture: what shadows it, and how uneven it is, cannot
  * be seen. Of a channel of 6 bits half a step is 1/32 or more of what is there, up to 1/4, and of black 2^-11. A cone
  * may be brighter between corners in its rim. */
-GN_HOT static int is_faint(gn_lattice_cell *cell, uint32_t slot, int32_t least_q24, int32_t most_q24)
+GN_HOT static GN_NOINLINE int is_faint(gn_lattice_cell *cell, uint32_t slot, int32_t least_q24, int32_t most_q24)
 {
     const gn_lattice_look *look = cell->out;
     const int32_t(*c)[3] = look->colour_q24;
@@ -225,6 +225,16 @@ GN_HOT static int limit_is_seen(const uint32_t colour_uq16[3], const gn_contribu
     return 0;
 }
 
+/* Adds what interpolated light is off by. */
+GN_HOT static GN_NOINLINE void add_error(gn_lattice_cell *cell, uint32_t slot, int32_t least_q24, int32_t most_q24)
+{
+    uint32_t kink, strongest = gn_cell_strongest(cell->s->light[slot].radiance_uq16);
+    uint32_t error = gn_cell_unevenness_q24(cell, slot, least_q24, most_q24, &kink);
+    int32_t log2 = gn_cell_light_log2(cell->frame); /* where it arrives it is part of the light itself */
+    if ((uint64_t)error << log2 > (uint32_t)least_q24) cell->error_q24 += (uint64_t)strongest * error >> 16;
+    if ((uint64_t)kink << log2 > (uint32_t)least_q24) cell->kink_q24 += (uint64_t)strongest * kink >> 16;
+}
+
 /* Cells of this size may hide the light of a cone, or of the end of a range, that no corner sees. */
 enum { UNSEEN_LOG2 = 2 };
 
@@ -255,13 +265,7 @@ GN_HOT static int add_light(gn_lattice_cell *cell, uint32_t slot)
     if (realtime < 0 || shadow == GN_CELL_SPLIT || (cell->near < 0 && fades(light, shadow))) return 0;
     if (shadow == GN_CELL_EDGE && !edge_product_holds(cell, slot, light)) return 0;
     if (most >= 1 << 27 && limit_is_seen(colour, light, shadow)) return 0;
-    if (shadow != GN_CELL_DARK && !faint) {
-        uint32_t kink, strongest = gn_cell_strongest(colour);
-        uint32_t error = gn_cell_unevenness_q24(cell, slot, least, most, &kink);
-        int32_t log2 = gn_cell_light_log2(cell->frame); /* where it arrives it is part of the light itself */
-        if ((uint64_t)error << log2 > (uint32_t)least) cell->error_q24 += (uint64_t)strongest * error >> 16;
-        if ((uint64_t)kink << log2 > (uint32_t)least) cell->kink_q24 += (uint64_t)strongest * kink >> 16;
-    }
+    if (shadow != GN_CELL_DARK && !faint) add_error(cell, slot, least, most);
     add_colour(cell, slot, light, shadow == GN_CELL_LIT);
     return 1;
 }
@@ -344,11 +348,13 @@ GN_HOT static int fading_of(const gn_frame *frame, gn_corner *const corner[4])
 }
 
 /* Returns 0 if the cell is too steep or its textures too uneven. */
-GN_HOT static int begin_look(gn_lattice *lattice, const gn_frame *frame, const gn_surface *surface,
-                             gn_corner *const corner[4], int32_t size_log2, gn_wanted_window *ask)
+GN_HOT static GN_NOINLINE int begin_look(gn_lattice *lattice, const gn_frame *frame, const gn_surface *surface,
+                                         gn_corner *const corner[4], int32_t size_log2)
 {
     gn_lattice_look *look = &lattice->look;
     gn_lattice_cell *cell = &lattice->by.look.cell;
+    gn_wanted_window *ask = &lattice->by.look.ask;
+    *ask = (gn_wanted_window){-1, 0, 0};
     *cell = (gn_lattice_cell){lattice, frame, surface, corner, size_log2, {0, 0}, 1, 0, 0, 0, look, ask};
     if (!gn_cell_find_bend(cell) || !gn_cell_textures_hold(cell) || !gn_cell_masks_hold(cell)) return 0;
     if (surface->n_lights) cell->near = fading_of(frame, corner);
@@ -379,21 +385,27 @@ GN_HOT static GN_NOINLINE uint32_t add_lights(gn_lattice_cell *cell, uint32_t sl
     return slot;
 }
 
+/* Returns 0 if the cell is to be split. */
+GN_HOT static GN_NOINLINE int end_look(const gn_lattice_cell *cell)
+{
+    const int limits = !finish_colours(cell);
+    return !(limits && cell->size_log2 > gn_cell_finest_log2(cell->frame)) && is_even(cell);
+}
+
 /* Windows are made here, where there is more stack. */
 GN_HOT int gn_lattice_look_at(gn_lattice *lattice, const gn_frame *frame, const gn_surface *surface,
                               gn_corner *const corner[4], int32_t size_log2)
 {
-    gn_wanted_window ask = {-1, 0, 0};
     gn_lattice_cell *cell = &lattice->by.look.cell;
-    if (!begin_look(lattice, frame, surface, corner, size_log2, &ask)) return 0;
-    for (uint32_t slot = 0; (slot = add_lights(cell, slot)) < surface->n_lights; ask.slot = -1) {
-        if (ask.slot < 0) return 0;
+    gn_wanted_window *ask = &lattice->by.look.ask;
+    if (!begin_look(lattice, frame, surface, corner, size_log2)) return 0;
+    for (uint32_t slot = 0; (slot = add_lights(cell, slot)) < surface->n_lights; ask->slot = -1) {
+        if (ask->slot < 0) return 0;
 #if GN_SHADOWS
-        gn_lattice_window(lattice, frame, surface, (uint32_t)ask.slot, ask.view_idx, corner[0]->x, corner[0]);
+        gn_lattice_window(lattice, frame, surface, (uint32_t)ask->slot, ask->view_idx, corner[0]->x, corner[0]);
 #endif
     }
-    int limits = !finish_colours(cell);
-    return !(limits && size_log2 > gn_cell_finest_log2(frame)) && is_even(cell);
+    return end_look(cell);
 }
 
 #endif

@@ -15,22 +15,9 @@
 /* ---- Shadows ----------------------------------------------------------------------------------------------------- */
 
 #if GN_SHADOWS
-/* Where one view sees the corners. */
-typedef struct {
-    const gn_light_view *view;
-    gn_window *window;
-    int follows; /* the window, where it does not cover rows, may be made anew */
-    uint32_t view_idx;
-    int bent;    /* GN_PLACES_... */
-    int outside; /* of the tile, so that bias goes along rays: forms on the screen do not say where */
-    int32_t u[4], v[4], depth[4];
-    int has_slopes;
-    int32_t slope_q28[2]; /* of the receiver's plane: find_slopes() */
-} places;
-
 enum { PLACED, PLACED_NOWHERE, PLACED_PARTLY }; /* partly: the places are not of one plane */
 
-GN_HOT static int find_places(const gn_lattice_cell *cell, uint32_t slot, uint32_t view_idx, places *p)
+GN_HOT static int find_places(const gn_lattice_cell *cell, uint32_t slot, uint32_t view_idx, gn_cell_places *p)
 {
     uint32_t seen = 0; /* 0: not; else how bias moves the point */
     p->view = &cell->frame->view[cell->s->light[slot].state->view_idx + (int32_t)view_idx];
@@ -52,7 +39,7 @@ GN_HOT static int find_places(const gn_lattice_cell *cell, uint32_t slot, uint32
 }
 
 /* Sets p->slope_q28, of the window's plane if it has one. */
-GN_HOT static void find_slopes(const gn_lattice_cell *cell, places *p)
+GN_HOT static void find_slopes(const gn_lattice_cell *cell, gn_cell_places *p)
 {
     if (p->has_slopes) return;
     p->has_slopes = 1;
@@ -71,7 +58,7 @@ GN_HOT static void range_of(const int32_t at[4], int32_t *lo, int32_t *hi)
 }
 
 /* What bounds of depth say. */
-GN_HOT static int verdict_of_bounds(const gn_lattice_cell *cell, const places *p, const gn_receiver_step *lo,
+GN_HOT static int verdict_of_bounds(const gn_lattice_cell *cell, const gn_cell_places *p, const gn_receiver_step *lo,
                                     const gn_receiver_step *hi)
 {
     uint32_t attenuation;
@@ -82,7 +69,7 @@ GN_HOT static int verdict_of_bounds(const gn_lattice_cell *cell, const places *p
 }
 
 /* A place of the window's plane that the corners lie around. */
-GN_HOT static gn_window_place middle_of(const gn_window *window, const places *p)
+GN_HOT static gn_window_place middle_of(const gn_window *window, const gn_cell_places *p)
 {
     int64_t lo = 0, hi = 0;
     for (int i = 1; window->planar < 0 && i < 4; i++) {
@@ -103,7 +90,7 @@ GN_HOT static gn_window_place middle_of(const gn_window *window, const places *p
 enum { FEW_TEXELS = 20 };
 
 /* What a window says of all texels that are read between places. */
-GN_HOT static int verdict_of_window(const gn_frame *frame, gn_window *window, const places *p,
+GN_HOT static int verdict_of_window(const gn_frame *frame, gn_window *window, const gn_cell_places *p,
                                     const gn_receiver_step *lo, const gn_receiver_step *hi, int may_compare)
 {
     int32_t u0, v0, w, h;
@@ -122,7 +109,7 @@ GN_HOT static int verdict_of_window(const gn_frame *frame, gn_window *window, co
 }
 
 /* The view's window, NULL if it has none. Returns 0 if the cell asks for it to be made. */
-GN_HOT static int find_window(const gn_lattice_cell *cell, uint32_t slot, const places *p, gn_window **out)
+GN_HOT static int find_window(const gn_lattice_cell *cell, uint32_t slot, const gn_cell_places *p, gn_window **out)
 {
     const int32_t x = cell->corner[0]->x;
     gn_window *window = gn_lattice_window_of(cell->lattice, cell->frame, p->view, x);
@@ -142,8 +129,8 @@ GN_HOT static int find_window(const gn_lattice_cell *cell, uint32_t slot, const 
 
 /* What a window says that may be made anew. Where surfaces are not planes, those on the receiver's plane tell no more
  * than whether all is alike: pixels have planes of their own. */
-GN_HOT static int ask_new_window(const gn_lattice_cell *cell, gn_window *window, places *p, const gn_receiver_step *lo,
-                                 const gn_receiver_step *hi)
+GN_HOT static int ask_new_window(const gn_lattice_cell *cell, gn_window *window, gn_cell_places *p,
+                                 const gn_receiver_step *lo, const gn_receiver_step *hi)
 {
     const int alone = window->planar < 0 && GN_PLANES && gn_shadow_has_plane(cell->frame, p->view);
     if (window->planar < 0) window->w = 0;
@@ -155,7 +142,7 @@ GN_HOT static int ask_new_window(const gn_lattice_cell *cell, gn_window *window,
 }
 
 /* The shadow of a view over the cell, all of which lies between its corners. */
-GN_HOT static int verdict(const gn_lattice_cell *cell, uint32_t slot, places *p)
+GN_HOT static int verdict(const gn_lattice_cell *cell, uint32_t slot, gn_cell_places *p)
 {
     gn_receiver_step lo, hi;
     int32_t depth_lo, depth_hi;
@@ -189,7 +176,7 @@ enum { BEND, BEND_DOWN, HOLD };
 
 /* Whether places are close enough to bilinear, or to linear along rows: the perspectives of camera and light bend them.
  */
-GN_HOT static int places_hold(const gn_lattice_cell *cell, places *p)
+GN_HOT static int places_hold(const gn_lattice_cell *cell, gn_cell_places *p)
 {
     uint32_t u[2], v[2], bend[2] = {cell->bend_q16[0], cell->bend_q16[1]};
     gn_cell_changes(p->u, u);
@@ -217,7 +204,7 @@ GN_HOT static int places_hold(const gn_lattice_cell *cell, places *p)
 
 /* Whether a texel that the cell reads is in doubt: it may be before the receiver here and behind it there, which is not
  * smooth. A window of the cell, where there is one, has all of these texels: verdict(). */
-GN_HOT static int touches(const gn_frame *frame, const places *p)
+GN_HOT static int touches(const gn_frame *frame, const gn_cell_places *p)
 {
     const gn_window *window = p->window;
     int32_t lo, hi, u0, v0, w, h;
@@ -233,7 +220,7 @@ GN_HOT static int touches(const gn_frame *frame, const places *p)
 }
 
 /* Pixels between lookups. */
-GN_HOT static int32_t lookup_spacing(const gn_lattice_cell *cell, const places *p)
+GN_HOT static int32_t lookup_spacing(const gn_lattice_cell *cell, const gn_cell_places *p)
 {
     uint32_t u = gn_cell_spread(p->u[0], p->u[1], p->u[2], p->u[3]),
              v = gn_cell_spread(p->v[0], p->v[1], p->v[2], p->v[3]);
@@ -245,7 +232,7 @@ GN_HOT static int32_t lookup_spacing(const gn_lattice_cell *cell, const places *
 
 /* Adds a light whose shadow has an edge here, with a share of what it adds without shadow. Returns 0 if there is no
  * room. */
-GN_HOT static int add_edge(const gn_lattice_cell *cell, uint32_t slot, places *p, const gn_contribution *light,
+GN_HOT static int add_edge(const gn_lattice_cell *cell, uint32_t slot, gn_cell_places *p, const gn_contribution *light,
                            const uint32_t share_uq16[4])
 {
     gn_lattice_look *out = cell->out;
@@ -339,7 +326,7 @@ GN_HOT static GN_NOINLINE uint32_t hidden_faces(const gn_lattice_cell *cell, uin
 
 #if GN_PUNCTUAL_LIGHTS || GN_MANY_CASCADES
 /* Whether forms on the screen tell where the view sees all of the cell: if they do at its corners. */
-GN_HOT static int has_forms(const gn_lattice_cell *cell, uint32_t slot, const gn_light_view *view)
+GN_HOT static GN_NOINLINE int has_forms(const gn_lattice_cell *cell, uint32_t slot, const gn_light_view *view)
 {
 #if GN_PUNCTUAL_LIGHTS
     gn_corner_light at;
@@ -358,7 +345,7 @@ GN_HOT static int has_forms(const gn_lattice_cell *cell, uint32_t slot, const gn
 /* Adds an edge in the shadow of a light, two faces or cascades of which see the cell. Returns 0 if there is no room, or
  * it is to be split. */
 GN_HOT static GN_NOINLINE int add_two(const gn_lattice_cell *cell, uint32_t slot, const gn_contribution *light,
-                                      uint32_t views, places *p)
+                                      uint32_t views, gn_cell_places *p)
 {
     gn_lattice_look *out = cell->out;
     const int32_t n_edges = out->n_edges, one = first_bit(views), other = first_bit(views & (views - 1));
@@ -395,7 +382,7 @@ GN_HOT static inline int begins_or_ends(const uint32_t share_uq16[4])
 
 /* Adds an edge in two cascades that blend. Returns 0 if there is no room, or it is to be split. */
 GN_HOT static GN_NOINLINE int add_blend(const gn_lattice_cell *cell, uint32_t slot, const gn_contribution *light,
-                                        uint32_t views, places *p)
+                                        uint32_t views, gn_cell_places *p)
 {
     uint32_t first = (uint32_t)first_bit(views), second = (uint32_t)first_bit(views & (views - 1)), share[4];
     if (views & ~(1U << first | 1U << second)) return 0;
@@ -416,7 +403,7 @@ GN_HOT static GN_NOINLINE int add_blend(const gn_lattice_cell *cell, uint32_t sl
 
 /* Adds an edge of a light that several views see. Returns 0 if the cell is to be split. */
 GN_HOT static int add_of_several(const gn_lattice_cell *cell, uint32_t slot, const gn_contribution *light,
-                                 uint32_t views, places *p)
+                                 uint32_t views, gn_cell_places *p)
 {
     int cascaded = !p->view->perspective;
     gn_blend blend = GN_BLENDED_CASCADES && cascaded ? cell->frame->scene->shadow.blend : GN_BLEND_HARD;
@@ -436,24 +423,24 @@ GN_HOT int gn_cell_shadow(const gn_lattice_cell *cell, uint32_t slot, const gn_c
 {
     uint32_t views = views_of(cell, slot), left;
     int all = -1, added;
-    places p;
+    gn_cell_places *p = &cell->lattice->by.look.places;
     if (!views) return GN_CELL_LIT;
 #if GN_PUNCTUAL_LIGHTS
     if (views & (views - 1) && cell->s->light[slot].state->kind == GN_LIGHT_POINT)
         views |= hidden_faces(cell, slot, views);
 #endif
     for (left = views; left; left &= left - 1) {
-        int placed = find_places(cell, slot, (uint32_t)first_bit(left), &p);
+        int placed = find_places(cell, slot, (uint32_t)first_bit(left), p);
         if (placed == PLACED_PARTLY) return GN_CELL_SPLIT;
-        int one = placed == PLACED_NOWHERE ? GN_CELL_LIT : verdict(cell, slot, &p);
+        int one = placed == PLACED_NOWHERE ? GN_CELL_LIT : verdict(cell, slot, p);
         if (one == GN_CELL_SPLIT) return GN_CELL_SPLIT;
         if (one == GN_CELL_EDGE || (all >= 0 && all != one)) break;
         all = one;
     }
     if (!left) return all;
-    if (views & (views - 1)) added = add_of_several(cell, slot, light, views, &p);
-    else if (places_hold(cell, &p) == BEND) return GN_CELL_SPLIT;
-    else added = add_edge(cell, slot, &p, light, light->more_uq16);
+    if (views & (views - 1)) added = add_of_several(cell, slot, light, views, p);
+    else if (places_hold(cell, p) == BEND) return GN_CELL_SPLIT;
+    else added = add_edge(cell, slot, p, light, light->more_uq16);
     return added ? GN_CELL_EDGE : GN_CELL_SPLIT;
 }
 #else

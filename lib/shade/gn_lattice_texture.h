@@ -8,38 +8,6 @@
 
 #if GN_INTERPOLATES && GN_TEXTURES
 
-/* A value down the rows of a cell, t pixels from the first: from + down t + bent t (t - size). */
-typedef struct {
-    int32_t from, down, bent;
-} gn_texture_column;
-
-/* A coordinate in texels, k pixels from the left column: left + step k + bend k (k - size), as if no value were
- * rounded. Fraction bits: left 17, 21, 25; step 21, 21, 25, and a half of 2^-17; bend 25, and a half of 2^-17. */
-typedef struct {
-    gn_texture_column left, step, bend;
-} gn_texture_axis;
-
-typedef struct {
-    gn_texture_axis axis[2]; /* u, v */
-} gn_texture_patch;
-
-/* The textures of a cell. */
-typedef struct {
-    const gn_texture *texture; /* of its colours, or a level of that; NULL: none */
-    gn_texture_patch uv;
-#if GN_GLOW_TEXTURES
-    const gn_texture *glow; /* of light that it emits, or a level of that; NULL: none */
-    gn_texture_patch glow_uv;
-    gn_texture glow_level;
-#endif
-#if GN_MIPMAPS
-    uint32_t level_ends;   /* 1: two levels of the texture meet in the cell, */
-    gn_patch nearness_q30; /* by the least depth over the pixel's: */
-    int32_t end_q30;       /* the finer one's pixels are above it, and the others not; */
-    uint32_t other;        /* which are drawn now: all ones, or 0 */
-#endif
-} gn_cell_textures;
-
 /* Of the cell at hand, 2^size_log2 pixels from (x, y) on, with these corners; `texture`: the surface's, or a level. */
 void gn_lattice_texture_begin(const gn_lattice *lattice, const gn_texture *texture, int32_t x, int32_t y,
                               int32_t size_log2, gn_corner *const corner[4], gn_texture_patch *out);

@@ -73,12 +73,6 @@ GN_HOT static GN_NOINLINE void begin_window(gn_lattice *l, const gn_frame *frame
     if (window->planar && !stays_planar(l, s, slot)) window->planar = -1;
 }
 
-/* Tile coordinates of places of the part, and one of them. */
-typedef struct {
-    int32_t lo[2], hi[2];
-    gn_window_place place;
-} seen_box;
-
 /* View depth of the surface's plane at a pixel; 0: it is not seen there, or far beyond the surface. */
 GN_HOT static int32_t seen_depth(const gn_lattice *l, const gn_frame *frame, const gn_surface *s, int32_t x, int32_t y)
 {
@@ -98,8 +92,8 @@ GN_HOT static int32_t seen_depth(const gn_lattice *l, const gn_frame *frame, con
 
 /* Where a directional view sees a flat surface at a pixel: what corners say, without its depth if `uv`. Returns 0 if it
  * is not to be told so. */
-GN_HOT static int see_flat(gn_lattice *l, const gn_frame *frame, const gn_surface *s, uint32_t slot,
-                           const gn_light_view *view, int32_t x, int32_t y, int uv, gn_window_place *out)
+GN_HOT static GN_SHARED int see_flat(gn_lattice *l, const gn_frame *frame, const gn_surface *s, uint32_t slot,
+                                     const gn_light_view *view, int32_t x, int32_t y, int uv, gn_window_place *out)
 {
     int32_t z = seen_depth(l, frame, s, x, y);
     gn_corner_ray at;
@@ -124,11 +118,12 @@ GN_HOT static int see_flat(gn_lattice *l, const gn_frame *frame, const gn_surfac
     return 1;
 }
 
-/* Widens the box to a pixel. The place in it is that of the last one that was seen without `uv`. Returns 0 if the
- * surface is not seen there, or beyond what windows hold. */
-GN_HOT static int see(gn_lattice *l, const gn_frame *frame, const gn_surface *s, uint32_t slot, uint32_t view_idx,
-                      int32_t x, int32_t y, int uv, seen_box *box)
+/* Widens the box to a pixel, as the view sees it that a window is made of. The place in it is that of the last one that
+ * was seen without `uv`. Returns 0 if the surface is not seen there, or beyond what windows hold. */
+GN_HOT static int see(gn_lattice *l, const gn_frame *frame, const gn_surface *s, int32_t x, int32_t y, int uv,
+                      gn_seen_box *box)
 {
+    const uint32_t slot = l->row.seen.slot, view_idx = l->row.seen.view_idx;
     const gn_light_view *view = &frame->view[s->light[slot].state->view_idx + (int32_t)view_idx];
     gn_window_place *place = &box->place;
     if (view->perspective || !see_flat(l, frame, s, slot, view, x, y, uv, place)) {
@@ -146,17 +141,15 @@ GN_HOT static int see(gn_lattice *l, const gn_frame *frame, const gn_surface *s,
 }
 
 /* The ends of all rows of pixels, where corners of the part lie off the surface. */
-GN_HOT static GN_NOINLINE int see_rows(gn_lattice *l, const gn_frame *frame, const gn_surface *s, uint32_t slot,
-                                       uint32_t view_idx, int32_t x, int32_t x_end, seen_box *box)
+GN_HOT static GN_NOINLINE int see_rows(gn_lattice *l, const gn_frame *frame, const gn_surface *s, int32_t x,
+                                       int32_t x_end, gn_seen_box *box)
 {
     int any = 0;
     for (int32_t i = 0; i < l->n_spans; i++) {
         const gn_run_span *span = &l->span[i];
         int32_t from = gn_max32(span->x, x), to = gn_min32(span->x + span->n_px, x_end);
         if (span->y < l->y || span->y >= l->y + l->n_rows || from >= to) continue;
-        if (!see(l, frame, s, slot, view_idx, from, span->y, 1, box) ||
-            !see(l, frame, s, slot, view_idx, to - 1, span->y, 0, box))
-            return 0;
+        if (!see(l, frame, s, from, span->y, 1, box) || !see(l, frame, s, to - 1, span->y, 0, box)) return 0;
         any = 1;
     }
     return any;
@@ -170,37 +163,36 @@ GN_HOT static void light_up(gn_window *window)
     window->any = window->all = window->doubts = 0;
 }
 
-/* Of nothing. */
-GN_HOT static seen_box empty_box(void)
+GN_HOT static void empty(gn_seen_box *box)
 {
-    return (seen_box){{INT32_MAX, INT32_MAX}, {INT32_MIN, INT32_MIN}, {0, 0, 0, 0}};
+    *box = (gn_seen_box){{INT32_MAX, INT32_MAX}, {INT32_MIN, INT32_MIN}, {0, 0, 0, 0}};
 }
 
-/* Makes it for columns x .. x_end - 1, whose left corners are in `left`, NULL if they are not seen: of cells up to the
- * corners at x_end and y_end, or of `pixels` before them. Returns 0 if that is too much. */
-GN_HOT static int make_window(gn_lattice *l, const gn_frame *frame, const gn_surface *s, uint32_t slot,
-                              uint32_t view_idx, int32_t x, int32_t x_end, int32_t y_end, int pixels,
-                              const seen_box *left, gn_window *window)
+/* Makes it for columns x .. x_end - 1, of which the left corners may be seen (`left`): of cells up to the corners at
+ * x_end and y_end, or of `pixels` before them. Returns 0 if that is too much. */
+GN_HOT static int make_window(gn_lattice *l, const gn_frame *frame, const gn_surface *s, int32_t x, int32_t x_end,
+                              int32_t y_end, int pixels, int left, gn_window *window)
 {
-    seen_box box = left ? *left : empty_box();
+    gn_seen_box *box = &l->row.seen.all;
     int32_t first[2], n[2];
-    if (!left || !see(l, frame, s, slot, view_idx, x_end - pixels, l->y, 1, &box) ||
-        !see(l, frame, s, slot, view_idx, x_end - pixels, y_end - pixels, 0, &box)) {
-        if (left) box = empty_box();
-        if (!pixels || !see_rows(l, frame, s, slot, view_idx, x, x_end, &box)) return 0;
+    if (left) *box = l->row.seen.left;
+    if (!left || !see(l, frame, s, x_end - pixels, l->y, 1, box) ||
+        !see(l, frame, s, x_end - pixels, y_end - pixels, 0, box)) {
+        empty(box);
+        if (!pixels || !see_rows(l, frame, s, x, x_end, box)) return 0;
     }
-    if (gn_beyond_tile(window->view, box.lo[0], box.hi[0], box.lo[1], box.hi[1])) {
+    if (gn_beyond_tile(window->view, box->lo[0], box->hi[0], box->lo[1], box->hi[1])) {
         light_up(window);
         return 1;
     }
     for (int i = 0; i < 2; i++) { /* and what steps over cells are off by */
-        if ((gn_abs32(box.lo[i]) | gn_abs32(box.hi[i])) >> 27) return 0;
-        gn_window_reads(window->view, GN_VIEW_EDGE(frame, window->view), box.lo[i] - 64, box.hi[i] + 1088, &first[i],
+        if ((gn_abs32(box->lo[i]) | gn_abs32(box->hi[i])) >> 27) return 0;
+        gn_window_reads(window->view, GN_VIEW_EDGE(frame, window->view), box->lo[i] - 64, box->hi[i] + 1088, &first[i],
                         &n[i]);
         if (n[i] > GN_WINDOW_TEXELS) return 0;
     }
     GN_COUNT(windows, 1);
-    gn_window_compare(window, &box.place, first[0], first[1], n[0], n[1]);
+    gn_window_compare(window, &box->place, first[0], first[1], n[0], n[1]);
     return 1;
 }
 
@@ -217,12 +209,15 @@ GN_HOT gn_window *gn_lattice_window(gn_lattice *l, const gn_frame *frame, const 
     int32_t columns = (gn_min32(GN_PART_WIDTH - (x - l->x), l->x_end - x) + size - 1) >> log2;
     const int32_t few = at ? 2 : 0; /* for one or two cells their own corners tell as much */
     if (!pixels) y_end = l->y + rows * size;
-    seen_box left = empty_box();
-    int seen = columns * rows > few && see(l, frame, s, slot, view_idx, x, l->y, 1, &left) &&
-               see(l, frame, s, slot, view_idx, x, y_end - pixels, 1, &left);
-    while (columns * rows > few && !make_window(l, frame, s, slot, view_idx, x,
-                                                pixels ? gn_min32(x + columns * size, l->x_end) : x + columns * size,
-                                                y_end, pixels, seen ? &left : NULL, window))
+    gn_seen_places *places = &l->row.seen;
+    places->slot = slot;
+    places->view_idx = view_idx;
+    empty(&places->left);
+    int left = columns * rows > few && see(l, frame, s, x, l->y, 1, &places->left) &&
+               see(l, frame, s, x, y_end - pixels, 1, &places->left);
+    while (columns * rows > few &&
+           !make_window(l, frame, s, x, pixels ? gn_min32(x + columns * size, l->x_end) : x + columns * size, y_end,
+                        pixels, left, window))
         columns = columns > 1 ? (columns + 1) >> 1 : 0;
     window->until_x = x + columns * size;
     return window;

@@ -141,6 +141,19 @@ GN_HOT GN_NOINLINE void gn_light_modulate(const gn_frame *frame, const gn_surfac
     add_glow(frame, surface, sample, sum_q20);
 }
 
+/* Adds the highlight of a light of the list. */
+GN_HOT static GN_SHARED void add_highlight(const gn_frame *frame, const gn_surface *surface, const gn_sample *sample,
+                                           uint32_t slot, uint32_t shadow_uq16, uint64_t sum_q20[3])
+{
+    const gn_light_state *light = surface->light[slot].state;
+    uint32_t colour[3];
+    int32_t lobe[3];
+    GN_COUNT(highlights, 1);
+    GN_UNROLL
+    for (int c = 0; c < 3; c++) colour[c] = gn_mul_uq16(light->colour_uq16[c], surface->object->specular_uq16[c]);
+    add(sum_q20, colour, gn_mul_uq16(gn_light_highlight(frame, surface, sample, slot, lobe), shadow_uq16));
+}
+
 /* Baked light and all lights; a shadow is looked up only where light arrives. [P10] [M9] */
 GN_HOT void gn_light_radiance(const gn_frame *frame, const gn_surface *surface, const gn_sample *sample,
                               uint32_t radiance_q20[3])
@@ -162,15 +175,7 @@ GN_HOT void gn_light_radiance(const gn_frame *frame, const gn_surface *surface, 
         GN_COUNT(lights, 1);
         if (!shadow) continue;
         add(sum, light->radiance_uq16, shadow == 65536 ? diffuse : gn_mul_uq16(diffuse, shadow));
-        if (GN_SPECULAR && surface->specular) {
-            GN_COUNT(highlights, 1);
-            uint32_t colour[3];
-            int32_t lobe[3];
-            GN_UNROLL
-            for (int c = 0; c < 3; c++)
-                colour[c] = gn_mul_uq16(light->state->colour_uq16[c], surface->object->specular_uq16[c]);
-            add(highlights, colour, gn_mul_uq16(gn_light_highlight(frame, surface, sample, i, lobe), shadow));
-        }
+        if (GN_SPECULAR && surface->specular) add_highlight(frame, surface, sample, i, shadow, highlights);
     }
     gn_light_modulate(frame, surface, sample, sum);
     GN_UNROLL

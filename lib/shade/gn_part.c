@@ -32,7 +32,7 @@ GN_HOT static uint32_t views_of_part(const gn_lattice *l, int cascaded)
 }
 
 /* What a light's windows say of the whole part, and each of them. */
-GN_HOT static GN_NOINLINE int windows_of_part(gn_shading *s, uint32_t slot, part_view *view)
+GN_HOT static GN_NOINLINE int windows_of_part(gn_shading *s, uint32_t slot, gn_part_view *view)
 {
     gn_lattice *l = &s->lattice;
     const gn_light_view *first = &s->frame->view[s->surface.light[slot].state->view_idx];
@@ -40,7 +40,7 @@ GN_HOT static GN_NOINLINE int windows_of_part(gn_shading *s, uint32_t slot, part
     uint32_t views = views_of_part(l, !first->border_lit);
     for (uint32_t i = 0; i < 4; i++) {
         int said = GN_WINDOW_MIXED;
-        if (view) view[i] = (part_view){first + i, NULL, GN_WINDOW_MIXED, {0, 0, 0}};
+        if (view) view[i] = (gn_part_view){first + i, NULL, GN_WINDOW_MIXED, {0, 0, 0}};
         if (!(views >> i & 1U)) continue;
         const gn_window *w = gn_lattice_window(l, s->frame, &s->surface, slot, i, l->x, NULL);
         if (w && w->w) {
@@ -56,38 +56,38 @@ GN_HOT static GN_NOINLINE int windows_of_part(gn_shading *s, uint32_t slot, part
 }
 
 /* Sets what is to be known of the light whose shadow has an edge in the part. */
-GN_HOT static void begin_edge(gn_shading *s, uint32_t slot, part_look *look)
+GN_HOT static void begin_edge(gn_shading *s, uint32_t slot, gn_part *part)
 {
     const gn_light_view *first = &s->frame->view[s->surface.light[slot].state->view_idx];
-    look->mixed = 1;
-    look->slot = (uint8_t)slot;
-    look->cascaded = !first->border_lit;
+    part->mixed = 1;
+    part->slot = (uint8_t)slot;
+    part->cascaded = !first->border_lit;
     for (uint32_t i = 0; i < 4; i++)
-        if (look->view[i].window)
+        if (part->view[i].window)
             gn_sample_offset(s->frame, &s->surface, slot, first + i, s->surface.normal_q30[0],
-                             look->view[i].offset_q16);
+                             part->view[i].offset_q16);
 }
 #else
-GN_HOT static int windows_of_part(gn_shading *s, uint32_t slot, part_view *view)
+GN_HOT static int windows_of_part(gn_shading *s, uint32_t slot, gn_part_view *view)
 {
     (void)s, (void)slot, (void)view;
     return GN_WINDOW_LIT;
 }
 
-GN_HOT static void begin_edge(gn_shading *s, uint32_t slot, part_look *look)
+GN_HOT static void begin_edge(gn_shading *s, uint32_t slot, gn_part *part)
 {
-    (void)s, (void)slot, (void)look;
+    (void)s, (void)slot, (void)part;
 }
 #endif
 
 /* Returns 0 if the shadows of several lights have edges in the part. */
-GN_HOT static GN_NOINLINE int find_lights(gn_shading *s, part_look *look)
+GN_HOT static GN_NOINLINE int find_lights(gn_shading *s, gn_part *part)
 {
     const gn_surface *surface = &s->surface;
-    look->mixed = 0;
+    part->mixed = 0;
     for (int c = 0; c < 3; c++) {
-        look->dark_q20[c] = surface->base_q20[c];
-        look->more_q20[c] = 0;
+        part->dark_q20[c] = surface->base_q20[c];
+        part->more_q20[c] = 0;
     }
     for (uint32_t i = 0; i < surface->n_lights; i++) {
         const gn_surface_light *light = &surface->light[i];
@@ -95,16 +95,16 @@ GN_HOT static GN_NOINLINE int find_lights(gn_shading *s, part_look *look)
         int said = GN_WINDOW_LIT;
         int32_t e = gn_max32(light->cosine_q24[0], 0);
         if (surface->shadowed && gn_shadow_is_realtime(light->state, 65536))
-            said = windows_of_part(s, i, look->mixed ? NULL : look->view);
-        if (said == GN_WINDOW_MIXED && look->mixed) return 0;
+            said = windows_of_part(s, i, part->mixed ? NULL : part->view);
+        if (said == GN_WINDOW_MIXED && part->mixed) return 0;
         if (said != GN_WINDOW_LIT) share = 65536 - light->state->strength_uq16;
         for (int c = 0; c < 3; c++) {
             uint32_t all = (uint32_t)gn_corner_times(light->radiance_uq16[c], e) >> 4,
                      dark = share == 65536 ? all : gn_mul_uq16(all, share);
-            look->dark_q20[c] += dark;
-            if (said == GN_WINDOW_MIXED) look->more_q20[c] = all - dark;
+            part->dark_q20[c] += dark;
+            if (said == GN_WINDOW_MIXED) part->more_q20[c] = all - dark;
         }
-        if (said == GN_WINDOW_MIXED) begin_edge(s, i, look);
+        if (said == GN_WINDOW_MIXED) begin_edge(s, i, part);
     }
     return 1;
 }
@@ -125,7 +125,7 @@ GN_HOT static void store_row(gn_shading *s, int32_t x, int32_t y, int32_t n, con
 
 /* Attenuations of n pixels in a row, `ahead` of them from its first place to its last: sets them where what is known of
  * all of them is GN_WINDOW_MIXED. */
-GN_HOT static GN_SHARED int attenuations(const gn_shading *s, const part_view *view, const row_ends *row, int32_t n,
+GN_HOT static GN_SHARED int attenuations(const gn_shading *s, const gn_part_view *view, const row_ends *row, int32_t n,
                                          int32_t ahead, uint32_t *out)
 {
     gn_receiver_step from = {row->at[0], row->at[1], 0}, step = {0, 0, 0};
@@ -146,25 +146,25 @@ GN_HOT static void shade_row_by_pixels(gn_shading *s, int32_t x, int32_t y, int3
 }
 
 /* Pixels of one row between two places. */
-GN_HOT static GN_NOINLINE void mixed_chunk(gn_shading *s, const part_look *look, const part_view *view,
+GN_HOT static GN_NOINLINE void mixed_chunk(gn_shading *s, const gn_part *part, const gn_part_view *view,
                                            const row_ends *row, int32_t x, int32_t y, int32_t n, int32_t ahead)
 {
-    uint32_t attenuation[CHUNK];
+    uint32_t *attenuation = s->lattice.from.part.attenuation[0];
     int said = attenuations(s, view, row, n, ahead, attenuation);
     if (said == GN_WINDOW_MIXED) store_row(s, x, y, n, attenuation);
     else if (said == GN_WINDOW_MISSED) shade_row_by_pixels(s, x, y, n);
-    else gn_pixel_fill(s->frame, &s->rows, x, y, n, said == GN_WINDOW_LIT ? look->lit : look->dark);
+    else gn_pixel_fill(s->frame, &s->rows, x, y, n, said == GN_WINDOW_LIT ? part->lit : part->dark);
 }
 
 /* Pixels of one row in a view, in chunks that are in or out of the shadow, or between places at their ends. */
-GN_HOT static GN_NOINLINE void mixed_span(gn_shading *s, const part_look *look, const part_view *view, int32_t x,
+GN_HOT static GN_NOINLINE void mixed_span(gn_shading *s, const gn_part *part, const gn_part_view *view, int32_t x,
                                           int32_t y, int32_t end)
 {
     row_ends row;
     begin_row(s, view, x, y, &row);
     for (int32_t n, ahead; x < end; x += n) {
         n = next_chunk(s, view, x, y, end, &row, &ahead);
-        mixed_chunk(s, look, view, &row, x, y, n, ahead);
+        mixed_chunk(s, part, view, &row, x, y, n, ahead);
     }
 }
 
@@ -199,14 +199,33 @@ GN_HOT static int place_pixel(gn_shading *s, uint32_t slot, uint32_t view_idx, i
            !((gn_abs32(at->u_q16) | gn_abs32(at->v_q16)) >> 27);
 }
 
-/* One lookup per pixel of a row, between places at its ends. Returns 0 if they cannot be told. */
-GN_HOT static GN_NOINLINE int look_up_pixels(gn_shading *s, const part_look *look, uint32_t view_idx, int32_t x,
+/* One lookup per pixel of a row, from a place on by steps. */
+GN_HOT static GN_NOINLINE void look_up_steps(gn_shading *s, const gn_light_view *view, gn_receiver_step at,
+                                             const gn_receiver_step *step, int32_t x, int32_t y, int32_t n,
+                                             uint32_t *out)
+{
+    gn_receiver r;
+    GN_COUNT(edge_lookups, n);
+    gn_corner_slopes(&s->lattice, s->frame, &s->surface, &s->lattice.corner, view, r.slope_q28);
+    r.pixel_y = y;
+    for (const uint32_t *end = out + n; out < end; x++) {
+        r.u_q16 = at.u_q16;
+        r.v_q16 = at.v_q16;
+        r.depth_q32 = (uint32_t)gn_max32(at.depth_q31, 0) << 2;
+        r.pixel_x = x;
+        *out++ = gn_filter_attenuation(s->frame, view, &r);
+        at.u_q16 += step->u_q16;
+        at.v_q16 += step->v_q16;
+        at.depth_q31 += step->depth_q31;
+    }
+}
+
+/* The same between places at the row's ends. Returns 0 if they cannot be told. */
+GN_HOT static GN_NOINLINE int look_up_pixels(gn_shading *s, const gn_part *part, uint32_t view_idx, int32_t x,
                                              int32_t y, int32_t n, uint32_t *out)
 {
-    const gn_light_view *view = look->view[view_idx].view;
     gn_receiver_step at, last, step = {0, 0, 0};
-    gn_receiver r;
-    if (!place_pixel(s, look->slot, view_idx, x + n - 1, y, &last) || !place_pixel(s, look->slot, view_idx, x, y, &at))
+    if (!place_pixel(s, part->slot, view_idx, x + n - 1, y, &last) || !place_pixel(s, part->slot, view_idx, x, y, &at))
         return 0;
     if ((gn_abs32(last.u_q16 - at.u_q16) | gn_abs32(last.v_q16 - at.v_q16)) >> 20) return 0; /* half a window */
     if (n > 1) {
@@ -214,25 +233,13 @@ GN_HOT static GN_NOINLINE int look_up_pixels(gn_shading *s, const part_look *loo
         step.v_q16 = gn_step_of(at.v_q16, last.v_q16, n - 1);
         step.depth_q31 = gn_step_of(at.depth_q31, last.depth_q31, n - 1);
     }
-    GN_COUNT(edge_lookups, n);
-    gn_corner_slopes(&s->lattice, s->frame, &s->surface, &s->lattice.corner, view, r.slope_q28);
-    for (const uint32_t *end = out + n; out < end; x++) {
-        r.u_q16 = at.u_q16;
-        r.v_q16 = at.v_q16;
-        r.depth_q32 = (uint32_t)gn_max32(at.depth_q31, 0) << 2;
-        r.pixel_x = x;
-        r.pixel_y = y;
-        *out++ = gn_filter_attenuation(s->frame, view, &r);
-        at.u_q16 += step.u_q16;
-        at.v_q16 += step.v_q16;
-        at.depth_q31 += step.depth_q31;
-    }
+    look_up_steps(s, part->view[view_idx].view, at, &step, x, y, n, out);
     return 1;
 }
 
 /* Attenuations of a row by a window. Returns what is known of all of it; -1: nothing can be told. */
-GN_HOT static int attenuations_by_window(const gn_shading *s, const part_view *view, int32_t x, int32_t y, int32_t n,
-                                         uint32_t *out)
+GN_HOT static GN_NOINLINE int attenuations_by_window(const gn_shading *s, const gn_part_view *view, int32_t x,
+                                                     int32_t y, int32_t n, uint32_t *out)
 {
     const int32_t end = x + n;
     int all = -1;
@@ -249,13 +256,13 @@ GN_HOT static int attenuations_by_window(const gn_shading *s, const part_view *v
 }
 
 /* Attenuations of a row in one view, with what is known of all of it. Returns what that is; -1: nothing can be told. */
-GN_HOT static int attenuations_in(gn_shading *s, const part_look *look, uint32_t view_idx, int32_t x, int32_t y,
+GN_HOT static int attenuations_in(gn_shading *s, const gn_part *part, uint32_t view_idx, int32_t x, int32_t y,
                                   int32_t n, uint32_t *out)
 {
-    const part_view *view = &look->view[view_idx];
+    const gn_part_view *view = &part->view[view_idx];
     int said = view->said;
     if (said == GN_WINDOW_MIXED && !view->window)
-        return look_up_pixels(s, look, view_idx, x, y, n, out) ? GN_WINDOW_MIXED : -1;
+        return look_up_pixels(s, part, view_idx, x, y, n, out) ? GN_WINDOW_MIXED : -1;
     if (said == GN_WINDOW_MIXED) return attenuations_by_window(s, view, x, y, n, out);
     for (int32_t i = 0; i < n; i++) out[i] = said == GN_WINDOW_LIT ? 65536 : 0;
     return said;
@@ -263,21 +270,21 @@ GN_HOT static int attenuations_in(gn_shading *s, const part_look *look, uint32_t
 
 /* Pixels of one row where shadows fade, or cascades blend: shares are linear along chunks. Returns 0 if they are to be
  * shaded each for itself. */
-GN_HOT static GN_NOINLINE int fading_chunk(gn_shading *s, const part_look *look, int32_t x, int32_t y, int32_t n,
+GN_HOT static GN_NOINLINE int fading_chunk(gn_shading *s, const gn_part *part, int32_t x, int32_t y, int32_t n,
                                            const row_end *a, const row_end *b)
 {
-    uint32_t here[CHUNK], next[CHUNK];
-    int blends = look->cascaded && (a->fade_uq16 & b->fade_uq16) != 65536 && GN_BLENDED_CASCADES &&
+    uint32_t *here = s->lattice.from.part.attenuation[0], *next = s->lattice.from.part.attenuation[1];
+    int blends = part->cascaded && (a->fade_uq16 & b->fade_uq16) != 65536 && GN_BLENDED_CASCADES &&
                  s->frame->scene->shadow.blend != GN_BLEND_HARD && a->cascade != GN_LAST_CASCADE(s->frame);
     if (!(a->g_uq16 | b->g_uq16)) {
-        gn_pixel_fill(s->frame, &s->rows, x, y, n, look->lit);
+        gn_pixel_fill(s->frame, &s->rows, x, y, n, part->lit);
         return 1;
     }
-    int said = attenuations_in(s, look, look->cascaded ? (uint32_t)a->cascade : 0, x, y, n, here), there = said;
-    if (blends) there = attenuations_in(s, look, (uint32_t)s->frame->cascade[a->cascade].next, x, y, n, next);
+    int said = attenuations_in(s, part, part->cascaded ? (uint32_t)a->cascade : 0, x, y, n, here), there = said;
+    if (blends) there = attenuations_in(s, part, (uint32_t)s->frame->cascade[a->cascade].next, x, y, n, next);
     if (said < 0 || there < 0) return 0;
     if (said == there && said == GN_WINDOW_LIT) {
-        gn_pixel_fill(s->frame, &s->rows, x, y, n, look->lit);
+        gn_pixel_fill(s->frame, &s->rows, x, y, n, part->lit);
         return 1;
     }
     int32_t fade = (int32_t)a->fade_uq16, g = (int32_t)a->g_uq16, fade_step = 0, g_step = 0;
@@ -291,13 +298,13 @@ GN_HOT static GN_NOINLINE int fading_chunk(gn_shading *s, const part_look *look,
     return 1;
 }
 
-GN_HOT static GN_NOINLINE void fading_span(gn_shading *s, const part_look *look, int32_t x, int32_t y, int32_t end)
+GN_HOT static GN_NOINLINE void fading_span(gn_shading *s, const gn_part *part, int32_t x, int32_t y, int32_t end)
 {
     row_end a = cascade_at(s, x, y), b;
     for (int32_t n; x < end; x += n, a = b) {
-        n = gn_min32(end - x, CHUNK);
+        n = gn_min32(end - x, GN_CHUNK);
         b = n > 1 ? cascade_at(s, x + n - 1, y) : a;
-        while (look->cascaded && a.cascade != b.cascade) { /* up to the border of the two */
+        while (part->cascaded && a.cascade != b.cascade) { /* up to the border of the two */
             n >>= 1;
             b = cascade_at(s, x + n - 1, y);
             if (n == 1) a = b;
@@ -306,67 +313,67 @@ GN_HOT static GN_NOINLINE void fading_span(gn_shading *s, const part_look *look,
             n >>= 1;
             b = cascade_at(s, x + n - 1, y);
         }
-        if (!fading_chunk(s, look, x, y, n, &a, &b)) shade_row_by_pixels(s, x, y, n);
+        if (!fading_chunk(s, part, x, y, n, &a, &b)) shade_row_by_pixels(s, x, y, n);
     }
 }
 
-GN_HOT static void shade_span(gn_shading *s, const part_look *look, int32_t x, int32_t y, int32_t end)
+GN_HOT static void shade_span(gn_shading *s, const gn_part *part, int32_t x, int32_t y, int32_t end)
 {
-    if (s->lattice.cascade < 0) fading_span(s, look, x, y, end);
-    else mixed_span(s, look, &look->view[look->cascaded ? s->lattice.cascade : 0], x, y, end);
+    if (s->lattice.cascade < 0) fading_span(s, part, x, y, end);
+    else mixed_span(s, part, &part->view[part->cascaded ? s->lattice.cascade : 0], x, y, end);
 }
 #else
-GN_HOT static void shade_span(gn_shading *s, const part_look *look, int32_t x, int32_t y, int32_t end)
+GN_HOT static void shade_span(gn_shading *s, const gn_part *part, int32_t x, int32_t y, int32_t end)
 {
-    (void)s, (void)look, (void)x, (void)y, (void)end;
+    (void)s, (void)part, (void)x, (void)y, (void)end;
 }
 #endif
 
 /* ---- Parts ------------------------------------------------------------------------------------------------------- */
 
-GN_HOT static GN_NOINLINE uint32_t pack_sum(gn_shading *s, const part_look *look, int with_more)
+GN_HOT static GN_NOINLINE uint32_t pack_sum(gn_shading *s, const gn_part *part, int with_more)
 {
     uint32_t q20[3];
-    for (int c = 0; c < 3; c++) q20[c] = look->dark_q20[c] + (with_more ? look->more_q20[c] : 0);
+    for (int c = 0; c < 3; c++) q20[c] = part->dark_q20[c] + (with_more ? part->more_q20[c] : 0);
     return gn_exact_pack(s, q20);
 }
 
 /* Sets what rows of two colours need. */
-GN_HOT static GN_NOINLINE void begin_rows(gn_shading *s, const part_look *look)
+GN_HOT static GN_NOINLINE void begin_rows(gn_shading *s, const gn_part *part)
 {
     int32_t dark[3], more[3];
     for (int c = 0; c < 3; c++) {
-        dark[c] = (int32_t)(look->dark_q20[c] > 1U << 23 ? 1U << 23 : look->dark_q20[c]) * 16;
-        more[c] = (int32_t)look->more_q20[c] * 16;
+        dark[c] = (int32_t)(part->dark_q20[c] > 1U << 23 ? 1U << 23 : part->dark_q20[c]) * 16;
+        more[c] = (int32_t)part->more_q20[c] * 16;
     }
     gn_levels_use(&s->lattice, dark, more);
 }
 
 #if GN_SHADOWS
 /* Windows of other views may have taken their place. */
-GN_HOT static void drop_windows(part_look *look)
+GN_HOT static void drop_windows(gn_part *part)
 {
-    for (int i = 0; look->mixed && i < 4; i++)
-        if (look->view[i].window && look->view[i].window->view != look->view[i].view) look->view[i].window = NULL;
+    for (int i = 0; part->mixed && i < 4; i++)
+        if (part->view[i].window && part->view[i].window->view != part->view[i].view) part->view[i].window = NULL;
 }
 
 /* Whether the rows' windows are there. */
-GN_HOT static int has_windows(const gn_lattice *l, const part_look *look)
+GN_HOT static int has_windows(const gn_lattice *l, const gn_part *part)
 {
-    if (l->cascade >= 0) return look->view[look->cascaded ? l->cascade : 0].window != NULL;
+    if (l->cascade >= 0) return part->view[part->cascaded ? l->cascade : 0].window != NULL;
     int any = 0;
-    for (int i = 0; i < 4; i++) any |= look->view[i].window != NULL;
+    for (int i = 0; i < 4; i++) any |= part->view[i].window != NULL;
     return any;
 }
 #else
-GN_HOT static void drop_windows(part_look *look)
+GN_HOT static void drop_windows(gn_part *part)
 {
-    (void)look;
+    (void)part;
 }
 
-GN_HOT static int has_windows(const gn_lattice *l, const part_look *look)
+GN_HOT static int has_windows(const gn_lattice *l, const gn_part *part)
 {
-    (void)l, (void)look;
+    (void)l, (void)part;
     return 0;
 }
 #endif
@@ -375,22 +382,22 @@ GN_HOT static int has_windows(const gn_lattice *l, const part_look *look)
 GN_HOT static int shade_rows(gn_shading *s, int any)
 {
     gn_lattice *l = &s->lattice;
-    part_look look;
-    if (!find_lights(s, &look)) return 0;
-    drop_windows(&look);
-    if (look.mixed && !any && !has_windows(l, &look)) return 0;
-    look.dark = look.lit = pack_sum(s, &look, 0);
+    gn_part *part = &l->from.part;
+    if (!find_lights(s, part)) return 0;
+    drop_windows(part);
+    if (part->mixed && !any && !has_windows(l, part)) return 0;
+    part->dark = part->lit = pack_sum(s, part, 0);
     GN_COUNT(parts, 1);
-    if (look.mixed) {
-        look.lit = pack_sum(s, &look, 1);
-        begin_rows(s, &look);
+    if (part->mixed) {
+        part->lit = pack_sum(s, part, 1);
+        begin_rows(s, part);
     }
     for (int32_t i = 0; i < l->n_spans; i++) {
         const gn_run_span *span = &l->span[i];
         int32_t x = gn_max32(span->x, l->x), end = gn_min32(span->x + span->n_px, l->part_end);
         if (span->y < l->y || span->y >= l->y + l->n_rows || x >= end) continue;
-        if (look.mixed) shade_span(s, &look, x, span->y, end);
-        else gn_pixel_fill(s->frame, &s->rows, x, span->y, end - x, look.lit);
+        if (part->mixed) shade_span(s, part, x, span->y, end);
+        else gn_pixel_fill(s->frame, &s->rows, x, span->y, end - x, part->lit);
     }
     return 1;
 }

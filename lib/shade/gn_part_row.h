@@ -1,4 +1,4 @@
-/* What falls on a part, and rows of its pixels. Part of gn_part. */
+/* Rows of a part's pixels. Part of gn_part. */
 #ifndef GN_PART_ROW_H
 #define GN_PART_ROW_H
 
@@ -8,25 +8,6 @@
 #include "shade/gn_lattice_cell.h"
 
 #if GN_INTERPOLATES
-
-enum { CHUNK_LOG2 = 4, CHUNK = 1 << CHUNK_LOG2 };
-
-/* A view of the light whose shadow has an edge in the part. */
-typedef struct {
-    const gn_light_view *view;
-    const gn_window *window; /* NULL: none */
-    int said;                /* of the whole part */
-    int32_t offset_q16[3];   /* of receivers */
-} part_view;
-
-/* What falls on the part. */
-typedef struct {
-    uint32_t dark_q20[3], more_q20[3]; /* without and with the light whose shadow has an edge */
-    uint32_t lit, dark;                /* their pixels */
-    uint8_t mixed;                     /* whether there is such a light, */
-    uint8_t slot, cascaded;            /* which one, and whether it has cascades: */
-    part_view view[4];                 /* of them those that the part looks into */
-} part_look;
 
 #if GN_SHADOWS
 /* Where a row of pixels is seen: between two of them. */
@@ -48,7 +29,7 @@ GN_HOT static inline int bends(const gn_frame *frame, const row_ends *row)
 }
 
 /* The first place of a row. */
-GN_HOT static inline void begin_row(const gn_shading *s, const part_view *view, int32_t x, int32_t y, row_ends *row)
+GN_HOT static inline void begin_row(const gn_shading *s, const gn_part_view *view, int32_t x, int32_t y, row_ends *row)
 {
     row->last_z_q16 =
         gn_corner_uv(&s->lattice, s->frame, &s->surface, view->window->view, x, y, view->offset_q16, row->last);
@@ -56,10 +37,10 @@ GN_HOT static inline void begin_row(const gn_shading *s, const part_view *view, 
 
 /* The next chunk of a row up to `end`, which begins where the last one ended. Returns its pixels; *ahead: those to its
  * last place, the next chunk's first pixel, or its own last. */
-GN_HOT static inline int32_t next_chunk(const gn_shading *s, const part_view *view, int32_t x, int32_t y, int32_t end,
-                                        row_ends *row, int32_t *ahead)
+GN_HOT static inline int32_t next_chunk(const gn_shading *s, const gn_part_view *view, int32_t x, int32_t y,
+                                        int32_t end, row_ends *row, int32_t *ahead)
 {
-    int32_t n = gn_min32(end - x, CHUNK);
+    int32_t n = gn_min32(end - x, GN_CHUNK);
     row->at[0] = row->last[0];
     row->at[1] = row->last[1];
     row->z_q16 = row->last_z_q16;

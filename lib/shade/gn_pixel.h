@@ -20,21 +20,6 @@ size_t gn_pixel_bytes(const gn_frame *frame, int32_t width, int32_t height);
 /* Stores a packed pixel n times from (x, y) of the picture on, within one row. */
 void gn_pixel_fill(const gn_frame *frame, const gn_pixel_rows *rows, int32_t x, int32_t y, int32_t n, uint32_t packed);
 
-/* Part of a row of pixels. Its colours are known at nodes, 2^spacing_log2 pixels apart, and linear in between; a
- * textured surface multiplies each by the colour of a texel, 65535: 1. */
-typedef struct {
-    const int32_t (*node)[3]; /* Q24, from -5 2^27 to 9 2^27: the row's first pixel, and 2^spacing_log2 pixels on */
-    int32_t spacing_log2;
-    const gn_texel_rgb *texel; /* of each pixel; NULL: no texture */
-    int inside;                /* with a texture: all nodes are in 2^-18 .. 1, so that nothing needs a clamp */
-#if GN_GLOW_APART
-#if GN_GLOW_TEXTURES
-    const gn_texel_rgb *glow; /* what that is multiplied by, pixel by pixel, or NULL */
-#endif
-    int32_t glow_q24[3]; /* textured: what is added to the product, 0 .. 2^27 */
-#endif
-} gn_pixel_line;
-
 /* Stores a line's pixels from (x, y) of the picture on: those whose bit in `bits` is set, bit i for pixel i; at
  * most 16.
  */

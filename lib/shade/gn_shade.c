@@ -78,63 +78,66 @@ GN_HOT static inline void shade_those(gn_shading *s, int32_t n_spans)
 }
 
 /* Takes the triangle's runs as spans, so many at a time, and shades them. */
-GN_HOT static void shade_spans(gn_shading *s, gn_run_taker *taker, uint32_t first, int32_t n_px)
+GN_HOT static void shade_spans(gn_shading *s, gn_run_taker *taker)
 {
     gn_lattice *l = &s->lattice;
     uint32_t stride = (uint32_t)GN_K(s->frame, tile_width);
     gn_part_begin(s); /* the views of shadows are drawn as the picture is */
     if (GN_RAW_VIEWS && s->frame->picture.format == GN_FORMAT_RAW32)
         show_one_light(&s->surface, s->frame->picture.view_light);
-    gn_run_span *span = l->span, *const end = span + GN_SPANS;
-    const int32_t x0 = s->rect.x0, y0 = s->rect.y0;
+    gn_run_span *span = l->span;
+    int more;
     do {
         GN_COUNT(runs, 1);
-        span->x = (int16_t)(x0 + (int32_t)(first % stride));
-        span->y = (int16_t)(y0 + (int32_t)(first / stride));
-        span->n_px = (int16_t)n_px;
-        if (++span < end) continue;
-        shade_those(s, GN_SPANS);
+        span->x = (int16_t)(s->rect.x0 + (int32_t)(taker->first % stride));
+        span->y = (int16_t)(s->rect.y0 + (int32_t)(taker->first / stride));
+        span->n_px = (int16_t)taker->n_px;
+        more = gn_runs_take(taker, stride);
+        if (++span < l->span + GN_SPANS && more) continue;
+        shade_those(s, (int32_t)(span - l->span));
         span = l->span;
-    } while (gn_runs_take(taker, stride, &first, &n_px));
-    if (span > l->span) shade_those(s, (int32_t)(span - l->span));
+    } while (more);
 }
 #else
-GN_HOT static void shade_spans(gn_shading *s, gn_run_taker *taker, uint32_t first, int32_t n_px)
+GN_HOT static void shade_spans(gn_shading *s, gn_run_taker *taker)
 {
-    (void)s, (void)taker, (void)first, (void)n_px;
+    (void)s, (void)taker;
 }
 #endif
 
-GN_HOT static void shade_triangle(gn_shading *s, const char *sources, uint32_t id)
+/* The triangle's runs from the one on that is taken, of one colour or pixel by pixel. */
+GN_HOT static GN_SHARED void shade_runs(gn_shading *s, gn_run_taker *taker, int constant)
 {
-    const gn_frame *frame = s->frame;
-    uint32_t stride = (uint32_t)GN_K(frame, tile_width), first, packed = 0;
-    int32_t n_px;
-    int constant;
-    gn_run_taker taker;
-    gn_runs_begin(&taker, s->scratch, id);
-    if (!gn_runs_take(&taker, stride, &first, &n_px)) return;
-    s->tri = gn_cell_source(frame, sources, id);
-    gn_surface_begin(frame, s->scratch, &s->cache, &s->surface, s->tri);
-    constant = gn_surface_is_constant(&s->surface) && frame->picture.format != GN_FORMAT_RAW32;
+    const uint32_t stride = (uint32_t)GN_K(s->frame, tile_width);
+    uint32_t packed = 0;
     if (constant) packed = constant_pixel(s);
-    else if (!is_exact(s)) {
-        shade_spans(s, &taker, first, n_px);
-        return;
-    } else gn_surface_use_bary(frame, &s->surface);
+    else gn_surface_use_bary(s->frame, &s->surface);
     do {
-        int32_t x = s->rect.x0 + (int32_t)(first % stride), y = s->rect.y0 + (int32_t)(first / stride);
+        const int32_t x = s->rect.x0 + (int32_t)(taker->first % stride),
+                      y = s->rect.y0 + (int32_t)(taker->first / stride), n_px = taker->n_px;
         GN_COUNT(runs, 1);
         if (constant) {
             GN_COUNT(filled, n_px);
-            gn_pixel_fill(frame, &s->rows, x, y, n_px, packed);
+            gn_pixel_fill(s->frame, &s->rows, x, y, n_px, packed);
         } else shade_run_exactly(s, x, y, n_px);
         if (GN_MIXES(s)) gn_mix_run(s, x, y, n_px);
-    } while (gn_runs_take(&taker, stride, &first, &n_px));
+    } while (gn_runs_take(taker, stride));
+}
+
+GN_HOT static void shade_triangle(gn_shading *s, const char *sources, uint32_t id)
+{
+    gn_run_taker taker;
+    gn_runs_begin(&taker, s->scratch, id);
+    if (!gn_runs_take(&taker, (uint32_t)GN_K(s->frame, tile_width))) return;
+    s->tri = gn_cell_source(s->frame, sources, id);
+    gn_surface_begin(s->frame, s->scratch, &s->cache, &s->surface, s->tri);
+    const int constant = gn_surface_is_constant(&s->surface) && s->frame->picture.format != GN_FORMAT_RAW32;
+    if (constant || is_exact(s)) shade_runs(s, &taker, constant);
+    else shade_spans(s, &taker);
 }
 
 /* Those of the tile, in the order of the scene. */
-GN_HOT static void shade_triangles(gn_shading *s, uint32_t tile_idx)
+GN_HOT static GN_NOINLINE void shade_triangles(gn_shading *s, uint32_t tile_idx)
 {
     const gn_frame *frame = s->frame;
     const char *sources = gn_cell_sources(frame, s->scratch);

@@ -13,7 +13,7 @@
 GN_HOT static inline uint32_t stored_depth(int64_t z, int32_t bits)
 {
     const int32_t drop = 32 - bits;
-    return (uint32_t)gn_clamp64((z + ((int64_t)1 << drop >> 1)) >> drop, 0, UINT32_MAX >> drop);
+    return (uint32_t)gn_clamp64((z + (1U << drop >> 1)) >> drop, 0, UINT32_MAX >> drop);
 }
 
 /* Depth of a caster in 16-bit texels, if it is nowhere limited, nor so steep that it could leave its range by half of
@@ -66,21 +66,41 @@ GN_HOT static caster_depth16 depth16_begin(const gn_light_view *view, const gn_c
     return d;
 }
 
-/* At most 32 texels of any row, one at a time: the smaller depth is kept, unless alpha cuts the texel. */
-GN_HOT static void some_texels(const gn_caster *caster, gn_texels row, int32_t bits, int32_t u, int32_t n, int64_t z,
-                               gn_alpha_cut *alpha)
+/* Depth of a texel, limited to that of the caster, as it is stored. */
+GN_HOT static inline uint32_t texel_depth(const gn_caster *caster, int64_t z, int32_t bits)
 {
-    uint32_t v[32], nearer = 0;
-    for (int32_t i = 0; i < n; i++, z += caster->dz_du) {
-        v[i] = stored_depth(gn_clamp64(z, caster->lo, caster->hi) + caster->bias, bits);
-        if (v[i] << (32 - bits) < gn_texel_load(row, bits, (size_t)(uint32_t)(u + i))) nearer |= 1U << i;
+    return stored_depth(gn_clamp64(z, caster->lo, caster->hi) + caster->bias, bits);
+}
+
+GN_HOT static inline void store_depth(gn_texels row, int32_t bits, int32_t u, uint32_t depth)
+{
+    if (bits == 16) row.d16[u] = (uint16_t)depth;
+    else if (bits == 8) row.d8[u] = (uint8_t)depth;
+    else row.d32[u] = depth;
+}
+
+/* Texels of any row, one at a time: the smaller depth is kept. */
+GN_HOT static void all_texels(const gn_caster *caster, gn_texels row, int32_t bits, int32_t u, int32_t u_end, int64_t z)
+{
+    for (; u < u_end; u++, z += caster->dz_du) {
+        const uint32_t depth = texel_depth(caster, z, bits);
+        if (depth << (32 - bits) < gn_texel_load(row, bits, (size_t)(uint32_t)u)) store_depth(row, bits, u, depth);
     }
+}
+
+/* At most 32 of them, unless alpha cuts the texel. */
+GN_HOT static void cut_texels(const gn_caster *caster, gn_texels row, int32_t bits, int32_t u, int32_t n, int64_t z,
+                              gn_alpha_cut *alpha)
+{
+    uint32_t nearer = 0;
+    int64_t at = z;
+    for (int32_t i = 0; i < n; i++, at += caster->dz_du)
+        if (texel_depth(caster, at, bits) << (32 - bits) < gn_texel_load(row, bits, (size_t)(uint32_t)(u + i)))
+            nearer |= 1U << i;
     if (GN_CASTER_ALPHA && alpha) nearer = gn_alpha_keeps(alpha, u, nearer);
-    for (int32_t i = 0; i < n; i++) {
-        if (!(nearer >> i & 1U)) continue;
-        if (bits == 16) row.d16[u + i] = (uint16_t)v[i];
-        else if (bits == 8) row.d8[u + i] = (uint8_t)v[i];
-        else row.d32[u + i] = v[i];
+    for (; nearer; nearer &= nearer - 1) {
+        const int32_t i = 31 - gn_clz32(nearer & (0U - nearer));
+        store_depth(row, bits, u + i, texel_depth(caster, z + i * caster->dz_du, bits));
     }
 }
 
@@ -92,8 +112,12 @@ GN_HOT static GN_NOINLINE void span(const gn_light_view *view, const gn_caster *
     gn_texels row = gn_texels_at(view->depth, bits, (size_t)(uint32_t)(v * view->tile_texels));
     GN_COUNT(texels_cut, alpha ? u_end - u : 0);
     GN_COUNT(texels_wide, alpha ? 0 : u_end - u);
+    if (!GN_SIZE_FIRST && !alpha) {
+        all_texels(caster, row, bits, u, u_end, z);
+        return;
+    }
     for (; u < u_end; u += 32, z += 32 * caster->dz_du)
-        some_texels(caster, row, bits, u, gn_min32(u_end - u, 32), z, alpha);
+        cut_texels(caster, row, bits, u, gn_min32(u_end - u, 32), z, alpha);
 }
 
 GN_HOT int32_t gn_caster_begin(const gn_frame *frame, const gn_light_view *view, gn_walk *walk, const int32_t x[3],

@@ -17,28 +17,36 @@ GN_HOT static uint16_t rotation_turn(int32_t pixel_x, int32_t pixel_y)
     return (uint16_t)(v >> 16);
 }
 
-/* Offsets have 27 fraction bits: a radius and a rotation in Q12 (|.| <= 2^15 + 1) times a point in Q15 (|.| <= 2^15 +
- * 1) stay below 2^30.1, plus a fraction of a texel. They err by at most 2^-12.5 texels by the rotation's rounding and
- * radius * 2^-15.5 by the table's: below 2^-11 together. The footprint is widened by that before its bounds are read.
- * [F4] */
+/* Samples of the disk that are lit. Offsets have 27 fraction bits: a radius and a rotation in Q12 (|.| <= 2^15 + 1)
+ * times a point in Q15 (|.| <= 2^15 + 1) stay below 2^30.1, plus a fraction of a texel. They err by at most 2^-12.5
+ * texels by the rotation's rounding and radius * 2^-15.5 by the table's: below 2^-11 together. */
+GN_HOT static GN_NOINLINE uint32_t count_lit(const gn_lookup *l, uint32_t n_samples, int32_t radius_q16,
+                                             const gn_receiver *receiver)
+{
+    const uint16_t turn = rotation_turn(receiver->pixel_x, receiver->pixel_y);
+    int32_t c_q12 = gn_mul_shr(radius_q16, gn_cos_q30(turn), 34), s_q12 = gn_mul_shr(radius_q16, gn_sin_q30(turn), 34);
+    int32_t u = l->u_q16 >> 16, fu_q27 = (l->u_q16 & 0xFFFF) << 11;
+    int32_t v = l->v_q16 >> 16, fv_q27 = (l->v_q16 & 0xFFFF) << 11;
+    const int16_t *point_q15 = gn_disk_table_q15;
+    uint32_t n_lit = 0;
+    for (uint32_t i = 0; i < n_samples; i++, point_q15 += 2) {
+        int32_t x = point_q15[0], y = point_q15[1];
+        n_lit += gn_lookup_tap(l, u + ((fu_q27 + c_q12 * x - s_q12 * y) >> 27),
+                               v + ((fv_q27 + s_q12 * x + c_q12 * y) >> 27));
+    }
+    return n_lit;
+}
+
+/* The footprint is widened by what samples err before its bounds are read. [F4] */
 GN_HOT uint32_t gn_disk_attenuation(const gn_frame *frame, const gn_lookup *l, const gn_receiver *receiver)
 {
-    uint32_t n_samples = frame->scene->shadow.disk_samples, n_lit = 0, answer;
+    const uint32_t n_samples = frame->scene->shadow.disk_samples;
+    uint32_t answer;
     int32_t radius_q16 = gn_max32(0, gn_min32(l->view->disk_radius_q16, DISK_RADIUS_MAX_Q16)),
             reach_q16 = radius_q16 + 32;
     if (GN_DEPTH_BLOCKS && gn_lookup_decided(l, (l->u_q16 - reach_q16) >> 16, (l->v_q16 - reach_q16) >> 16,
                                              (2 * reach_q16 >> 16) + 2, &answer))
         return answer;
     GN_COUNT(undecided, 1);
-    uint16_t turn = rotation_turn(receiver->pixel_x, receiver->pixel_y);
-    int32_t c_q12 = gn_mul_shr(radius_q16, gn_cos_q30(turn), 34), s_q12 = gn_mul_shr(radius_q16, gn_sin_q30(turn), 34);
-    int32_t u = l->u_q16 >> 16, fu_q27 = (l->u_q16 & 0xFFFF) << 11;
-    int32_t v = l->v_q16 >> 16, fv_q27 = (l->v_q16 & 0xFFFF) << 11;
-    const int16_t *point_q15 = gn_disk_table_q15;
-    for (uint32_t i = 0; i < n_samples; i++, point_q15 += 2) {
-        int32_t x = point_q15[0], y = point_q15[1];
-        n_lit += gn_lookup_tap(l, u + ((fu_q27 + c_q12 * x - s_q12 * y) >> 27),
-                               v + ((fv_q27 + s_q12 * x + c_q12 * y) >> 27));
-    }
-    return ((n_lit << 16) + n_samples / 2) / n_samples;
+    return ((count_lit(l, n_samples, radius_q16, receiver) << 16) + n_samples / 2) / n_samples;
 }

@@ -83,7 +83,7 @@ static void widen(gn_seen_job *job, const int32_t at[6])
 }
 
 /* What the whole box adds to the bounds of a directional view, which then has it if `whole`. Returns 0 if nothing. */
-static int box_adds(gn_seen_job *job, int whole)
+static GN_NOINLINE int box_adds(gn_seen_job *job, int whole)
 {
     int32_t lo[GN_SEEN_DIRECTIONS], hi[GN_SEEN_DIRECTIONS];
     int adds = 0;
@@ -323,6 +323,18 @@ static void see_face(const gn_seen_job *job, const face_box *box, uint64_t pixel
     seen->lo_q16[2] = gn_min32(seen->lo_q16[2], gn_sat32(first));
 }
 
+/* An object that shows so many pixels, in the view of a spot or in the faces of a point light. */
+static GN_NOINLINE void see_faces(const gn_seen_job *job, uint64_t pixels_q16, const int32_t light_q16[3],
+                                  uint32_t n_views, gn_view_seen *seen)
+{
+    for (uint32_t f = 0; f < n_views; f++) {
+        face_box box;
+        face_bounds(job, n_views > 1 ? f : 4, &box);
+        box.nearest = n_views > 1 ? 0 : nearest_in_spot(job, light_q16);
+        see_face(job, &box, pixels_q16, &seen[f]);
+    }
+}
+
 static void see_punctual(gn_seen_job *job, gn_view_seen *seen, uint32_t light_idx, uint32_t n_views)
 {
     const gn_frame *frame = job->frame;
@@ -330,12 +342,7 @@ static void see_punctual(gn_seen_job *job, gn_view_seen *seen, uint32_t light_id
         if (!gn_light_reaches(frame, light_idx, o) || !see_object(job, o)) continue;
         uint64_t pixels = pixels_q16(frame, (int64_t)job->hi[0] - job->lo[0], (int64_t)job->hi[1] - job->lo[1],
                                      (int64_t)job->lo[2] + job->hi[2]);
-        for (uint32_t f = 0; f < n_views; f++) {
-            face_box box;
-            face_bounds(job, n_views > 1 ? f : 4, &box);
-            box.nearest = n_views > 1 ? 0 : nearest_in_spot(job, frame->scene->lights[light_idx].position_q16);
-            see_face(job, &box, pixels, &seen[f]);
-        }
+        see_faces(job, pixels, frame->scene->lights[light_idx].position_q16, n_views, seen);
     }
 }
 

@@ -62,6 +62,8 @@ typedef struct {
     uint32_t id;
     uint32_t at, prev; /* GN_RUN_NONE: at its end, at its beginning */
     uint32_t head;     /* of what is left of the list */
+    uint32_t first;    /* the run that was taken last: n_px pixels from this cell on */
+    int32_t n_px;
 } gn_run_taker;
 
 GN_HOT static inline void gn_runs_begin(gn_run_taker *taker, gn_scratch *scratch, uint32_t id)
@@ -73,8 +75,8 @@ GN_HOT static inline void gn_runs_begin(gn_run_taker *taker, gn_scratch *scratch
     taker->prev = GN_RUN_NONE;
 }
 
-/* The next run: *n_px pixels from cell *first on. Returns 0 if there is none. */
-GN_HOT static inline int gn_runs_take(gn_run_taker *taker, uint32_t stride, uint32_t *first, int32_t *n_px)
+/* The next run. Returns 0 if there is none. */
+GN_HOT static inline int gn_runs_take(gn_run_taker *taker, uint32_t stride)
 {
     while (taker->at != GN_RUN_NONE) {
         uint32_t *cell = taker->cell, i = taker->at, next = cell[i] >> 16;
@@ -86,9 +88,9 @@ GN_HOT static inline int gn_runs_take(gn_run_taker *taker, uint32_t stride, uint
         }
         if (taker->prev == GN_RUN_NONE) taker->head = next;
         else cell[taker->prev] = (next == GN_RUN_NONE ? taker->prev : next) << 16 | (cell[taker->prev] & 0xFFFFU);
-        *first = i;
+        taker->first = i;
         /* one pixel, or a second whose cell names the same triangle: what begins there otherwise is another's */
-        *n_px = (i + 1) % stride && (cell[i + 1] & 0xFFFFU) == taker->id ? (int32_t)(cell[i + 1] >> 16) : 1;
+        taker->n_px = (i + 1) % stride && (cell[i + 1] & 0xFFFFU) == taker->id ? (int32_t)(cell[i + 1] >> 16) : 1;
         return 1;
     }
     *taker->list = (gn_run_idx)taker->head;

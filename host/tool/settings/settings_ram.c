@@ -74,7 +74,7 @@ static long casting_bytes(const settings *s)
     return 808 + cut_bytes(s);
 }
 
-/* gn_corner of lib/shade/gn_shade_types.h */
+/* gn_corner of lib/shade/gn_lattice_types.h */
 static long corner_bytes(const settings *s)
 {
     layout light = {0, 4}, all = {0, 4};
@@ -99,7 +99,7 @@ static long corner_bytes(const settings *s)
 /* gn_facet of lib/shade/gn_facet_types.h */
 static long facet_bytes(const settings *s)
 {
-    return 508 + (s->feature.textures ? 48 : 0) + (s->feature.punctual_lights ? 84 : 0);
+    return 612 + (s->feature.textures ? 48 : 0) + (s->feature.punctual_lights ? 84 : 0);
 }
 
 static int has_glow(const settings *s)
@@ -112,7 +112,15 @@ static int has_levels(const settings *s)
     return s->feature.textures && s->feature.texture_levels;
 }
 
-/* gn_lattice of lib/shade/gn_shade_types.h */
+/* gn_drawing of lib/shade/gn_lattice_types.h */
+static long drawing_bytes(const settings *s)
+{
+    const int glows = s->feature.emissive && (s->feature.textures || s->feature.vertex_colours);
+    return 88 + (glows ? 12 : 0) + (has_glow(s) ? 4 + 92 : 0) + (s->feature.textures ? 76 : 0) +
+           (has_levels(s) ? 28 : 0);
+}
+
+/* gn_lattice of lib/shade/gn_lattice_types.h */
 static long lattice_bytes(const settings *s)
 {
     layout all = {0, 4};
@@ -126,13 +134,14 @@ static long lattice_bytes(const settings *s)
     const long corners = 12 * corner_bytes(s), facet = facet_bytes(s);
     put(&all, 1, corners > facet ? corners : facet, 4); /* from */
     put(&all, 1, corner_bytes(s), 4);
-    put(&all, 1, 180, 4);                                                                     /* corner_key to split */
+    put(&all, 1, 196, 4); /* corner_key to cell_corner */
     if (s->feature.shadows) put(&all, n_views(s) >= 4 ? 4 : n_views(s) >= 2 ? 2 : 1, 344, 4); /* windows */
     put(&all, 1, 572, 4);                                                                     /* look */
     if (has_levels(s)) put(&all, 1, 4, 4); /* of that: level and level_ends */
-    put(&all, 1, 616, 8);                  /* by */
-    put(&all, 1, 136, 4);                  /* attenuation */
-    if (has_glow(s)) put(&all, 16, 8, 4);  /* glow */
+    put(&all, 1, drawing_bytes(s), 4);
+    put(&all, 1, 616, 8);                 /* by */
+    put(&all, 1, 136, 4);                 /* attenuation */
+    if (has_glow(s)) put(&all, 16, 8, 4); /* glow */
     pad(&all, 8);
     return all.size;
 }

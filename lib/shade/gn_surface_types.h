@@ -1,0 +1,180 @@
+/* Surfaces, and exact samples of them. */
+#ifndef GN_SURFACE_TYPES_H
+#define GN_SURFACE_TYPES_H
+
+#include "visible/gn_visible_types.h"
+
+/* n . L of a directional light at the vertices, for Gouraud shading; otherwise at the first. */
+#define GN_VERTEX_COSINES (GN_RUNTIME_KNOBS || GN_VERTEX_LIGHT ? 3 : 1)
+
+/* A light of the surface's list. */
+typedef struct {
+    const gn_light_state *state;
+    uint32_t idx;
+    uint32_t radiance_uq16[3];             /* albedo times colour */
+    int32_t cosine_q24[GN_VERTEX_COSINES]; /* directional: n . L at vertex 0, then differences of vertices 1 and 2 to
+                                              it; smooth surfaces: only for Gouraud shading */
+    int32_t flat_offset_q16[3]; /* directional, if the normal is constant: the receiver's offset in texels; automatic
+                                   bias: the result of gn_bias_auto_face */
+} gn_surface_light;
+
+/* Attributes that a surface interpolates between its vertices, Q16: colour, shadow masks or coordinates of the mask
+ * image, baked irradiance. Attributes that are not built take no memory. */
+enum {
+    GN_ATTRIBUTE_RGB = 0,
+    GN_ATTRIBUTE_MASK = GN_ATTRIBUTE_RGB + 3,
+    GN_ATTRIBUTE_BAKED = GN_ATTRIBUTE_MASK + (GN_MASKS ? 4 : 0),
+    GN_ATTRIBUTE_COUNT = GN_ATTRIBUTE_BAKED + (GN_BAKED_LIGHT ? 3 : 0)
+};
+
+typedef struct {
+    const gn_object *object;
+    uint8_t has_bary, coloured, textured, masked, baked, specular;
+#if GN_GLOW_APART
+    uint8_t glows; /* its own light is not part of base_q20: colours of vertices or a texture, which would dim it, come
+                      between */
+#endif
+    uint8_t smooth;   /* its vertices' normals differ, */
+    uint8_t curved;   /* by 2^-10 or more: automatic bias uses the interpolated normal */
+    uint8_t bent;     /* a corner's normal points away from the face's: automatic bias uses only lift_q30 */
+    uint8_t shadowed; /* some light's shadow may fall on it */
+    uint16_t n_lights, n_punctual; /* not bytes: the compiler would reload those after every store */
+    int16_t first_value, n_values;
+    uint32_t albedo_uq16[3]; /* times the vertices' colours, where all three are equal; at most 2^16 */
+    uint32_t base_q20[3]; /* albedo times ambient, its own light: with the lights' radiance_uq16, weighted, it sums up
+                             to radiance */
+    gn_plane plane;
+#if GN_ORTHOGRAPHIC
+    gn_plane screen;      /* orthographic: the triangle at the camera's flat depth */
+    int32_t depth_q16[3]; /* and its view depth: vertex 0, then differences of vertices 1 and 2 to it */
+#endif
+    gn_bfloat depth_scale; /* det * 2F: Z = depth_scale / (n . ray) */
+    int32_t z_min_q16, z_max_q16;
+    gn_bary bary;
+#if GN_INTERPOLATES
+    int32_t v_q16[3][3]; /* vertices in view space */
+#endif
+    /* vertex 0, then differences of vertices 1 and 2 to it */
+    int32_t normal_q30[3][3]; /* flat: the face normal and zeros */
+    int32_t attribute_q16[3][GN_ATTRIBUTE_COUNT];
+#if GN_TEXTURES
+    gn_texture_triangle uv;
+#endif
+#if GN_MIPMAPS
+    uint64_t level_depth2_q32; /* gn_texture_level_depth2(), of textures that have levels */
+    gn_texture level;          /* the one that was used last */
+    uint32_t level_idx;
+#endif
+#if GN_GLOW_TEXTURES
+    const gn_texture *glow; /* of light that it emits, or NULL */
+#if GN_MIPMAPS
+    uint64_t glow_depth2_q32; /* the same of it */
+#endif
+#endif
+#if GN_PLANES || GN_AUTO_BIAS
+    int32_t face_q30[3]; /* normal of the face in the world; only if some light of the list needs it */
+#define GN_FACE_Q30(surface) ((surface)->face_q30)
+#else
+#define GN_FACE_Q30(surface) ((surface)->normal_q30[0])
+#endif
+#if GN_AUTO_BIAS
+    int32_t lift_q30[3]; /* curved: correction of the normal for automatic bias; likewise */
+#endif
+    gn_surface_light light[GN_SURFACE_LIGHTS]; /* lights that can affect it */
+} gn_surface;
+
+/* Properties of a surface: 0 in builds that cannot have them. */
+#define GN_SMOOTH(s)   (GN_VERTEX_NORMALS && (s)->smooth)
+#define GN_CURVED(s)   (GN_VERTEX_NORMALS && (s)->curved)
+#define GN_BENT(s)     (GN_VERTEX_NORMALS && (s)->bent)
+#define GN_COLOURED(s) (GN_VERTEX_COLOURS && (s)->coloured)
+#if GN_GLOW_APART
+#define GN_GLOWS(s) ((s)->glows)
+#else
+#define GN_GLOWS(s) ((void)(s), 0)
+#endif
+/* The texture that tells where the light is emitted; that whose coordinates the surface has, which both share. */
+#if GN_GLOW_TEXTURES
+#define GN_GLOW_TEXTURE(s)    ((s)->glow)
+#define GN_SURFACE_TEXTURE(s) ((s)->object->texture ? (s)->object->texture : (s)->glow)
+#else
+#define GN_GLOW_TEXTURE(s)    ((void)(s), (const gn_texture *)NULL)
+#define GN_SURFACE_TEXTURE(s) ((s)->object->texture)
+#endif
+#if GN_MIPMAPS
+#define GN_LEVEL_DEPTH2(s) ((s)->level_depth2_q32)
+#define GN_GLOW_DEPTH2(s)  ((s)->glow_depth2_q32)
+#else
+#define GN_LEVEL_DEPTH2(s) UINT64_MAX
+#define GN_GLOW_DEPTH2(s)  UINT64_MAX
+#endif
+#define GN_HAS_BARY(s)                                                                                                 \
+    ((GN_VERTEX_NORMALS || GN_VERTEX_COLOURS || GN_TEXTURES || GN_MASKS || GN_BAKED_LIGHT) && (s)->has_bary)
+
+/* Cache of values that neighbouring triangles of a screen tile have in common. */
+typedef struct {
+    const gn_object *object;
+    union {
+        gn_xform to_view; /* with GN_SIZE_FIRST, and of skinned objects */
+        gn_xform_fast fast;
+    } by; /* of the current object */
+    int32_t normal_matrix[3][3];
+    uint64_t lights; /* a bit per light that can affect the screen tile */
+} gn_surface_cache;
+
+/* Values sampled at a pixel. The first groups only where a surface has them. */
+enum {
+    GN_VALUE_UV = 0,                                     /* 2: texture coordinates, Q20 */
+    GN_VALUE_MASK = GN_VALUE_UV + (GN_TEXTURES ? 2 : 0), /* 4: shadow masks, Q16; or 2: coordinates of the mask image */
+    GN_VALUE_BAKED = GN_VALUE_MASK + (GN_MASKS ? 4 : 0), /* 3: irradiance, Q16 */
+    GN_VALUE_Z = GN_VALUE_BAKED + (GN_BAKED_LIGHT ? 3 : 0), /* view depth, Q16 */
+    GN_VALUE_FADE,                                          /* fade factor of the last cascade, Q16 */
+    GN_VALUE_RGB,                                           /* 3: interpolated vertex colour, Q16 */
+    GN_VALUE_LIGHT = GN_VALUE_RGB + 3,                      /* the lights of the surface's list */
+    GN_VALUES_PER_LIGHT = (GN_SHADOWS && GN_BLENDED_CASCADES) || GN_PUNCTUAL_LIGHTS ? 7
+                          : GN_SHADOWS                                              ? 4
+                                                                                    : 1,
+    GN_VALUE_COUNT = GN_VALUE_LIGHT + GN_VALUES_PER_LIGHT * GN_SURFACE_LIGHTS
+};
+
+/* Values of a light. Directional: n . L in Q24, tile coordinates U, V, D in Q16 texels, and those of the next cascade.
+ * Spot and point: n . (light - point), the point from the light, and the receiver's offset, all in world axes and Q16
+ * units. */
+enum { GN_LIGHT_FACING, GN_LIGHT_POINT_AT, GN_LIGHT_OFFSET = 4 };
+
+/* How a light arrives at a point: not at all; through the rim of a cone; fully. */
+enum { GN_ARRIVES_NOT, GN_ARRIVES_RIM, GN_ARRIVES_FULLY };
+
+/* Incident light of a spot or point light at a sample: gn_arrival.h. */
+typedef struct {
+    uint32_t irradiance_q24; /* of a light whose colour is 1 */
+#if GN_SHADOWS
+    int32_t u_q16, v_q16;
+    uint32_t depth_q32;
+#endif
+    uint8_t reaches; /* 0: no light arrives, the other fields are undefined */
+#if GN_SHADOWS
+    uint8_t face; /* of the light's views */
+#endif
+} gn_arrival;
+
+/* How a view sees a point: automatic bias along the normal leaves the tile there. */
+#define GN_SEEN_OUTSIDE 2
+
+#define GN_CASCADE_NONE 4
+
+typedef struct {
+    int32_t cascade;             /* of the surface point, GN_CASCADE_NONE: none */
+    int32_t in_reach;            /* near enough to the camera for shadows */
+    int32_t x, y;                /* the pixel */
+    int32_t interpolated_q30[3]; /* normal, not renormalised; lit smooth surfaces only */
+    int32_t value[GN_VALUE_COUNT];
+#if GN_PUNCTUAL_LIGHTS
+    gn_arrival arrival[GN_SURFACE_LIGHTS]; /* of spot and point lights */
+#endif
+#if GN_SPECULAR
+    int32_t normal_q30[3], to_eye_q30[3]; /* unit; surfaces with highlights only */
+#endif
+} gn_sample;
+
+#endif
