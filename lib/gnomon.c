@@ -141,6 +141,7 @@
 #include "shade/gn_exact.c"
 #include "shade/gn_facet.c"
 #include "shade/gn_facet_draw.c"
+#include "shade/gn_join.c"
 #include "shade/gn_facet_punctual.c"
 #include "shade/gn_facet_screen.c"
 #include "shade/gn_facet_shadow.c"

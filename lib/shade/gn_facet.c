@@ -196,7 +196,7 @@ GN_HOT int gn_facet_shade(gn_shading *s, const gn_rect *box, int32_t n_px)
     gn_facet *f = &s->lattice.from.facet;
     const int32_t most = gn_facet_most_px(surface);
     if (box->x1 - box->x0 > most || box->y1 - box->y0 > most) return 0;
-    if (surface->masked | surface->baked || GN_GLOWS(surface)) return 0;
+    if (surface->masked | surface->baked | surface->joined || GN_GLOWS(surface)) return 0;
     f->s = s;
     f->screen.found = f->screen.steep = 0;
     if (surface->plane.det <= 0 || !find_turns(f)) return 0;

@@ -36,6 +36,7 @@ GN_HOT static GN_NOINLINE void intersect_flat(const gn_frame *frame, const gn_su
         gn_bary_at(h->b_q30, &s->bary, &r, px, py, focal2);
         /* depth is that of the plane beyond the edges, too: else the point would lie off it */
         if (!gn_bary_beyond(b_q30, &s->bary, &r, px, py, focal2)) b_q30[0] = h->b_q30[0], b_q30[1] = h->b_q30[1];
+        else if (GN_JOINED(s)) h->b_q30[0] = b_q30[0], h->b_q30[1] = b_q30[1];
     }
     int64_t z = s->depth_q16[0]; /* |b| < 2^31, |depth| < 2^31 */
     for (int i = 0; i < 2; i++) z += gn_shr64((int64_t)b_q30[i] * s->depth_q16[i + 1], 30);
@@ -60,7 +61,11 @@ GN_HOT static void intersect(const gn_frame *frame, const gn_surface *s, int32_t
         return;
     }
     h->z_q16 = (int32_t)gn_clamp64((int64_t)depth_at(s, &r), s->z_min_q16, s->z_max_q16);
-    if (GN_HAS_BARY(s)) gn_bary_at(h->b_q30, &s->bary, &r, px, py, frame->cam.focal2_px_q16);
+    if (!GN_HAS_BARY(s)) return;
+#if GN_INTERPOLATES
+    if (s->joined && gn_bary_beyond(h->b_q30, &s->bary, &r, px, py, frame->cam.focal2_px_q16)) return;
+#endif
+    gn_bary_at(h->b_q30, &s->bary, &r, px, py, frame->cam.focal2_px_q16);
 }
 
 /* a0 + b1 * a1 + b2 * a2 */

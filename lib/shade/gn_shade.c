@@ -13,6 +13,7 @@
 #include "shade/gn_light.h"
 #include "shade/gn_mix.h"
 #include "shade/gn_part.h"
+#include "shade/gn_join.h"
 #include "shade/gn_pixel.h"
 #include "visible/gn_cell.h"
 #include "visible/gn_layers.h"
@@ -77,25 +78,66 @@ GN_HOT static inline void shade_those(gn_shading *s, int32_t n_spans)
     for (int32_t i = 0; i < l->n_spans; i++) gn_mix_run(s, l->span[i].x, l->span[i].y, l->span[i].n_px);
 }
 
-/* Takes the triangle's runs as spans, so many at a time, and shades them. */
+/* A run as a span; where it goes on from the last one, that is longer. Returns the next span. */
+GN_HOT static inline gn_run_span *add_span(const gn_shading *s, gn_run_span *span, uint32_t first, int32_t n_px)
+{
+    const uint32_t stride = (uint32_t)GN_K(s->frame, tile_width);
+    GN_COUNT(runs, 1);
+    span->x = (int16_t)(s->rect.x0 + (int32_t)(first % stride));
+    span->y = (int16_t)(s->rect.y0 + (int32_t)(first / stride));
+    span->n_px = (int16_t)n_px;
+    return span + 1;
+}
+
+/* The one of the surface's triangles whose run comes first, NULL: none has one. */
+GN_HOT static inline gn_run_taker *next_taker(gn_shading *s, gn_run_taker *taker)
+{
+    gn_run_taker *next = taker->n_px ? taker : NULL;
+    for (uint32_t i = 0; i < s->n_joined; i++)
+        if (s->joined[i].n_px && (!next || s->joined[i].first < next->first)) next = &s->joined[i];
+    return next;
+}
+
+/* Runs of several triangles, top down and left to right, up to so many spans. Returns their end. */
+GN_HOT static GN_NOINLINE gn_run_span *take_joined(gn_shading *s, gn_run_taker *taker, gn_run_span *const end)
+{
+    const uint32_t stride = (uint32_t)GN_K(s->frame, tile_width);
+    gn_run_span *span = s->lattice.span;
+    uint32_t goes_on = UINT32_MAX; /* where the last span would */
+    for (gn_run_taker *next; (next = next_taker(s, taker)) != NULL;) {
+        if (next->first == goes_on && goes_on % stride) span[-1].n_px = (int16_t)(span[-1].n_px + next->n_px);
+        else {
+            if (span == end) break;
+            span = add_span(s, span, next->first, next->n_px);
+        }
+        goes_on = next->first + (uint32_t)next->n_px;
+        if (!gn_runs_take(next, stride)) next->n_px = 0;
+    }
+    return span;
+}
+
+/* Takes the surface's runs as spans, so many at a time, and shades them. */
 GN_HOT static void shade_spans(gn_shading *s, gn_run_taker *taker)
 {
     gn_lattice *l = &s->lattice;
-    uint32_t stride = (uint32_t)GN_K(s->frame, tile_width);
+    const uint32_t stride = (uint32_t)GN_K(s->frame, tile_width);
     gn_part_begin(s); /* the views of shadows are drawn as the picture is */
     if (GN_RAW_VIEWS && s->frame->picture.format == GN_FORMAT_RAW32)
         show_one_light(&s->surface, s->frame->picture.view_light);
-    gn_run_span *span = l->span;
+    gn_run_span *span, *const end = l->span + GN_SPANS;
     int more;
     do {
-        GN_COUNT(runs, 1);
-        span->x = (int16_t)(s->rect.x0 + (int32_t)(taker->first % stride));
-        span->y = (int16_t)(s->rect.y0 + (int32_t)(taker->first / stride));
-        span->n_px = (int16_t)taker->n_px;
-        more = gn_runs_take(taker, stride);
-        if (++span < l->span + GN_SPANS && more) continue;
+        if (s->surface.joined) {
+            span = take_joined(s, taker, end);
+            more = next_taker(s, taker) != NULL;
+        } else {
+            span = l->span;
+            do {
+                span = add_span(s, span, taker->first, taker->n_px);
+                more = gn_runs_take(taker, stride);
+            } while (more && span < end);
+        }
         shade_those(s, (int32_t)(span - l->span));
-        span = l->span;
     } while (more);
 }
 #else
@@ -124,16 +166,72 @@ GN_HOT static GN_SHARED void shade_runs(gn_shading *s, gn_run_taker *taker, int 
     } while (gn_runs_take(taker, stride));
 }
 
-GN_HOT static void shade_triangle(gn_shading *s, const char *sources, uint32_t id)
+/* The triangle that is k behind the one at hand in the tile's list, which is at `at`. 0: there is none. */
+GN_HOT static inline uint32_t id_behind(const gn_frame *frame, uint32_t at, uint32_t end, uint32_t k)
 {
+    if (GN_K(frame, triangle_groups)) return at > k ? at - k : 0;
+    return at + k < end ? gn_cell_id(frame, frame->tile_ref[at + k]) : 0;
+}
+
+#if GN_INTERPOLATES
+/* Large enough on the screen for cells: small triangles are quicker each for itself. */
+GN_HOT static int is_large(const gn_frame *frame, const gn_surface *s)
+{
+    const uint32_t w = (uint32_t)s->hi_q16[0] - (uint32_t)s->lo_q16[0],
+                   h = (uint32_t)s->hi_q16[1] - (uint32_t)s->lo_q16[1];
+    const uint64_t z = (uint32_t)(GN_FLAT_Q16(frame) ? GN_FLAT_Q16(frame) : s->hi_q16[2]);
+    return (uint64_t)(w > h ? w : h) * (frame->cam.focal2_px_q16 >> 8) >> 9 > z * GN_JOIN_PX;
+}
+
+/* Finds the triangles behind it in the tile's list that are one surface with it. */
+GN_HOT static GN_NOINLINE void join(gn_shading *s, const char *sources, uint32_t at, uint32_t end)
+{
+    const gn_frame *frame = s->frame;
+    const gn_tri_source *last = s->tri;
+    s->n_joined = 0;
+    if (is_exact(s) || !is_large(frame, &s->surface) || !gn_join_may(frame, last)) return;
+    for (uint32_t k = 1, id; s->n_joined < GN_JOINED_MAX && (id = id_behind(frame, at, end, k)) != 0; k++) {
+        gn_run_taker *taker = &s->joined[s->n_joined];
+        if (!gn_runs_any(s->scratch, id)) continue;
+        const gn_tri_source *next = gn_cell_source(frame, sources, id);
+        const int32_t vertex = gn_join_vertex(frame, s->tri, last, next);
+        if (vertex == GN_JOIN_NONE) return;
+        if (vertex >= 0) gn_surface_extend(frame, s->scratch, &s->cache, &s->surface, next, (uint32_t)vertex);
+        gn_runs_begin(taker, s->scratch, id);
+        gn_runs_take(taker, (uint32_t)GN_K(frame, tile_width));
+        s->n_joined++;
+        s->surface.joined = 1;
+        last = next;
+    }
+}
+#else
+GN_HOT static void join(gn_shading *s, const char *sources, uint32_t at, uint32_t end)
+{
+    (void)s, (void)sources, (void)at, (void)end;
+}
+#endif
+
+/* The triangle at `at` of the tile's list, and those that are one surface with it. */
+GN_HOT static void shade_triangle(gn_shading *s, const char *sources, uint32_t at, uint32_t end)
+{
+    const gn_frame *frame = s->frame;
     gn_run_taker taker;
+    uint32_t id = id_behind(frame, at, end, 0);
     gn_runs_begin(&taker, s->scratch, id);
-    if (!gn_runs_take(&taker, (uint32_t)GN_K(s->frame, tile_width))) return;
-    s->tri = gn_cell_source(s->frame, sources, id);
-    gn_surface_begin(s->frame, s->scratch, &s->cache, &s->surface, s->tri);
-    const int constant = gn_surface_is_constant(&s->surface) && s->frame->picture.format != GN_FORMAT_RAW32;
-    if (constant || is_exact(s)) shade_runs(s, &taker, constant);
-    else shade_spans(s, &taker);
+    if (!gn_runs_take(&taker, (uint32_t)GN_K(frame, tile_width))) return;
+    s->tri = gn_cell_source(frame, sources, id);
+    gn_surface_place(frame, s->scratch, &s->cache, &s->surface, s->tri);
+    join(s, sources, at, end);
+    gn_surface_begin(frame, s->scratch, &s->cache, &s->surface, s->tri);
+    const int constant = gn_surface_is_constant(&s->surface) && frame->picture.format != GN_FORMAT_RAW32;
+    if (!constant && !is_exact(s)) {
+        shade_spans(s, &taker);
+        return;
+    }
+    shade_runs(s, &taker, constant);
+#if GN_INTERPOLATES
+    for (uint32_t i = 0; i < s->n_joined; i++) shade_runs(s, &s->joined[i], constant);
+#endif
 }
 
 /* Those of the tile, in the order of the scene. */
@@ -141,11 +239,12 @@ GN_HOT static GN_NOINLINE void shade_triangles(gn_shading *s, uint32_t tile_idx)
 {
     const gn_frame *frame = s->frame;
     const char *sources = gn_cell_sources(frame, s->scratch);
-    uint32_t first = frame->tile_first[tile_idx];
-    for (uint32_t id = GN_K(frame, triangle_groups) ? first : 0; id > 0; id--) shade_triangle(s, sources, id);
-    if (GN_K(frame, triangle_groups)) return;
-    for (; first < frame->tile_first[tile_idx + 1]; first++)
-        shade_triangle(s, sources, gn_cell_id(frame, frame->tile_ref[first]));
+    uint32_t at = frame->tile_first[tile_idx];
+    if (GN_K(frame, triangle_groups)) {
+        for (; at > 0; at--) shade_triangle(s, sources, at, 0);
+        return;
+    }
+    for (const uint32_t end = frame->tile_first[tile_idx + 1]; at < end; at++) shade_triangle(s, sources, at, end);
 }
 
 /* ---- Runs -------------------------------------------------------------------------------------------------------- */

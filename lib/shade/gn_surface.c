@@ -297,7 +297,7 @@ GN_HOT static void emitted_light(const gn_frame *frame, gn_surface *s)
 }
 
 /* Albedo times ambient and light colours, and everything that a constant normal lets precompute. */
-GN_HOT static void begin_lighting(const gn_frame *frame, const gn_surface_cache *cache, gn_surface *s, int32_t v[3][3])
+GN_HOT static void begin_lighting(const gn_frame *frame, const gn_surface_cache *cache, gn_surface *s)
 {
     const gn_scene *scene = frame->scene;
     int unlit = without_light(frame, s);
@@ -312,7 +312,7 @@ GN_HOT static void begin_lighting(const gn_frame *frame, const gn_surface_cache 
     s->n_lights = s->n_punctual = 0;
     s->n_values = GN_VALUE_LIGHT;
     if (unlit) return;
-    gn_surface_list_lights(frame, cache, s, v);
+    gn_surface_list_lights(frame, cache, s);
     s->n_values = (int16_t)(GN_VALUE_LIGHT + GN_VALUES_PER_LIGHT * s->n_lights);
     for (uint32_t i = 0; i < s->n_lights; i++)
         for (int c = 0; c < 3; c++)
@@ -348,7 +348,7 @@ GN_HOT static GN_NOINLINE void slow_vertex(int32_t out_q16[3], const gn_frame *f
 #if GN_ORTHOGRAPHIC
 /* Barycentrics are linear on the screen, and so is depth. The face turns its back where n does, wherever the eye. [R10]
  */
-GN_HOT static void flat_plane(const gn_frame *frame, gn_surface *s, int32_t v[3][3])
+GN_HOT static void flat_plane(const gn_frame *frame, gn_surface *s, int32_t (*v)[3])
 {
     int32_t flat[3][3];
     gn_plane *plane = &s->plane;
@@ -366,7 +366,7 @@ GN_HOT static void flat_plane(const gn_frame *frame, gn_surface *s, int32_t v[3]
 #endif
 
 /* Depth and barycentrics of pixels. */
-GN_HOT static void find_depth(const gn_frame *frame, gn_surface *s, int32_t v[3][3])
+GN_HOT static void find_depth(const gn_frame *frame, gn_surface *s, int32_t (*v)[3])
 {
     if (GN_FLAT_Q16(frame)) return;
     if (s->plane.det > 0)
@@ -375,35 +375,64 @@ GN_HOT static void find_depth(const gn_frame *frame, gn_surface *s, int32_t v[3]
     (void)v;
 }
 
-GN_HOT void gn_surface_begin(const gn_frame *frame, gn_scratch *scratch, gn_surface_cache *cache, gn_surface *s,
+/* A vertex in view space. */
+GN_HOT static inline void find_vertex(const gn_frame *frame, gn_scratch *scratch, const gn_surface_cache *cache,
+                                      const gn_surface *s, const gn_tri_source *tri, uint32_t vertex_idx,
+                                      int32_t out_q16[3])
+{
+    if (GN_SIZE_FIRST || GN_SKIN(s->object))
+        gn_setup_vertex(out_q16, scratch->vertex, &cache->by.to_view, s->object, tri->object_idx, vertex_idx);
+    else if (!gn_xform_fast_vertex(out_q16, &cache->by.fast, s->object->mesh->pos + 3 * (size_t)vertex_idx))
+        slow_vertex(out_q16, frame, scratch, tri, vertex_idx);
+}
+
+GN_HOT void gn_surface_place(const gn_frame *frame, gn_scratch *scratch, gn_surface_cache *cache, gn_surface *s,
                              const gn_tri_source *tri)
 {
     GN_COUNT(surfaces, 1);
     s->object = &frame->scene->objects[tri->object_idx];
     use_object(frame, cache, s->object);
-    const gn_mesh *mesh = s->object->mesh;
-    const uint16_t *idx = mesh->idx + 3 * (size_t)tri->triangle_idx;
-#if GN_INTERPOLATES
+    const uint16_t *idx = s->object->mesh->idx + 3 * (size_t)tri->triangle_idx;
     int32_t(*v)[3] = s->v_q16;
-#else
-    int32_t v[3][3];
+    GN_UNROLL
+    for (int i = 0; i < 3; i++) find_vertex(frame, scratch, cache, s, tri, idx[i], v[i]);
+    GN_UNROLL
+    for (int k = 0; k < 3; k++) {
+        s->lo_q16[k] = gn_min32(v[0][k], gn_min32(v[1][k], v[2][k]));
+        s->hi_q16[k] = gn_max32(v[0][k], gn_max32(v[1][k], v[2][k]));
+    }
+#if GN_INTERPOLATES
+    s->joined = 0;
 #endif
+}
+
+#if GN_INTERPOLATES
+GN_HOT void gn_surface_extend(const gn_frame *frame, gn_scratch *scratch, const gn_surface_cache *cache, gn_surface *s,
+                              const gn_tri_source *tri, uint32_t vertex_idx)
+{
+    int32_t v[3];
+    find_vertex(frame, scratch, cache, s, tri, vertex_idx, v);
+    for (int k = 0; k < 3; k++) {
+        s->lo_q16[k] = gn_min32(s->lo_q16[k], v[k]);
+        s->hi_q16[k] = gn_max32(s->hi_q16[k], v[k]);
+    }
+}
+#endif
+
+GN_HOT void gn_surface_begin(const gn_frame *frame, gn_scratch *scratch, const gn_surface_cache *cache, gn_surface *s,
+                             const gn_tri_source *tri)
+{
+    const uint16_t *idx = s->object->mesh->idx + 3 * (size_t)tri->triangle_idx;
+    int32_t(*v)[3] = s->v_q16;
 #if GN_GLOW_TEXTURES
     s->glow = NULL;
 #endif
     s->smooth = s->curved = s->bent = s->has_bary = s->textured = s->masked = s->baked = s->specular = 0;
     s->first_value = GN_VALUE_Z;
     vertex_colours(s, idx);
-    GN_UNROLL
-    for (int i = 0; i < 3; i++) {
-        if (GN_SIZE_FIRST || GN_SKIN(s->object))
-            gn_setup_vertex(v[i], scratch->vertex, &cache->by.to_view, s->object, tri->object_idx, idx[i]);
-        else if (!gn_xform_fast_vertex(v[i], &cache->by.fast, mesh->pos + 3 * (size_t)idx[i]))
-            slow_vertex(v[i], frame, scratch, tri, idx[i]);
-    }
     gn_plane_setup(&s->plane, v[0], v[1], v[2]);
-    s->z_min_q16 = gn_max32(gn_min32(v[0][2], gn_min32(v[1][2], v[2][2])), frame->cam.near_q16);
-    s->z_max_q16 = gn_max32(v[0][2], gn_max32(v[1][2], v[2][2]));
+    s->z_min_q16 = gn_max32(s->lo_q16[2], frame->cam.near_q16);
+    s->z_max_q16 = s->hi_q16[2];
 #if GN_ORTHOGRAPHIC
     if (frame->cam.flat_q16) flat_plane(frame, s, v);
 #endif
@@ -411,7 +440,7 @@ GN_HOT void gn_surface_begin(const gn_frame *frame, gn_scratch *scratch, gn_surf
 #if !GN_INTERPOLATES
     find_depth(frame, s, v);
 #endif
-    begin_lighting(frame, cache, s, v);
+    begin_lighting(frame, cache, s);
 }
 
 #if GN_INTERPOLATES

@@ -8,7 +8,16 @@
 #include "geometry/gn_xform.h"
 #include "gnomon.h"
 
-void gn_surface_begin(const gn_frame *frame, gn_scratch *scratch, gn_surface_cache *cache, gn_surface *surface,
+/* Finds the vertices of a triangle. */
+void gn_surface_place(const gn_frame *frame, gn_scratch *scratch, gn_surface_cache *cache, gn_surface *surface,
+                      const gn_tri_source *tri);
+
+/* Another vertex of its plane belongs to it, too. */
+void gn_surface_extend(const gn_frame *frame, gn_scratch *scratch, const gn_surface_cache *cache, gn_surface *surface,
+                       const gn_tri_source *tri, uint32_t vertex_idx);
+
+/* All that shading needs of it, then. */
+void gn_surface_begin(const gn_frame *frame, gn_scratch *scratch, const gn_surface_cache *cache, gn_surface *surface,
                       const gn_tri_source *tri);
 
 #if GN_INTERPOLATES
@@ -24,8 +33,8 @@ GN_HOT static inline void gn_surface_use_bary(const gn_frame *frame, gn_surface 
 /* The face's normal in the world, towards the viewer. */
 void gn_surface_face(const gn_frame *frame, const gn_surface *surface, int32_t out_q30[3]);
 
-/* Lists the lights that can affect a surface whose vertices are v, in view space: directional ones first. */
-void gn_surface_list_lights(const gn_frame *frame, const gn_surface_cache *cache, gn_surface *surface, int32_t v[3][3]);
+/* Lists the lights that can affect a surface: directional ones first. */
+void gn_surface_list_lights(const gn_frame *frame, const gn_surface_cache *cache, gn_surface *surface);
 
 /* Which of their shadows its object receives, if any. [M2] */
 void gn_surface_shadows(const gn_frame *frame, gn_surface *surface);

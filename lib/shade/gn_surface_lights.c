@@ -14,19 +14,20 @@ GN_HOT static void list_light(const gn_frame *frame, gn_surface *s, uint32_t lig
 
 #if GN_PUNCTUAL_LIGHTS
 /* Whether a light can affect the triangle: not from behind a flat one, and not from beyond the light's range. */
-GN_HOT static int reaches(const gn_surface *s, const gn_light_state *light, int32_t v[3][3])
+GN_HOT static int reaches(const gn_surface *s, const gn_light_state *light)
 {
     if (!GN_SMOOTH(s)) {
         int64_t side = 0; /* n points away from the viewer: negative is in front */
         GN_UNROLL
-        for (int k = 0; k < 3; k++) side += (int64_t)s->plane.n[k] * (((int64_t)light->eye_q16[k] - v[0][k]) >> 2);
+        for (int k = 0; k < 3; k++)
+            side += (int64_t)s->plane.n[k] * (((int64_t)light->eye_q16[k] - s->v_q16[0][k]) >> 2);
         if (side >= 0 && s->plane.det > 0) return 0;
     }
     if (light->range2_q32 == UINT64_MAX) return 1;
     uint64_t d2 = 0;
     GN_UNROLL
     for (int k = 0; k < 3; k++) {
-        int64_t lo = gn_min32(v[0][k], gn_min32(v[1][k], v[2][k])), hi = gn_max32(v[0][k], gn_max32(v[1][k], v[2][k]));
+        const int64_t lo = s->lo_q16[k], hi = s->hi_q16[k];
         int64_t d = light->eye_q16[k] < lo   ? lo - light->eye_q16[k]
                     : light->eye_q16[k] > hi ? light->eye_q16[k] - hi
                                              : 0;
@@ -37,30 +38,29 @@ GN_HOT static int reaches(const gn_surface *s, const gn_light_state *light, int3
     return d2 < light->range2_q32;
 }
 
-GN_HOT static void add_punctual(const gn_frame *frame, const gn_surface_cache *cache, gn_surface *s, int32_t v[3][3],
-                                uint32_t light_idx)
+GN_HOT static void add_punctual(const gn_frame *frame, const gn_surface_cache *cache, gn_surface *s, uint32_t light_idx)
 {
     if (GN_TILE_LIGHTS && !(cache->lights >> light_idx & 1U)) return;
-    if (s->n_lights == GN_SURFACE_LIGHTS || !reaches(s, &frame->light[light_idx], v)) return;
+    if (s->n_lights == GN_SURFACE_LIGHTS || !reaches(s, &frame->light[light_idx])) return;
     list_light(frame, s, light_idx);
     s->n_punctual++;
 }
 
 /* The object's light list, or all lights if it has none. [P9] */
-GN_HOT static void punctual_lights(const gn_frame *frame, const gn_surface_cache *cache, gn_surface *s, int32_t v[3][3])
+GN_HOT static void punctual_lights(const gn_frame *frame, const gn_surface_cache *cache, gn_surface *s)
 {
     const gn_object_state *object = &frame->object[s->object - frame->scene->objects];
     if (object->n_lights != GN_OBJECT_LIGHTS_ALL) {
-        for (uint32_t i = 0; i < object->n_lights; i++) add_punctual(frame, cache, s, v, object->light[i]);
+        for (uint32_t i = 0; i < object->n_lights; i++) add_punctual(frame, cache, s, object->light[i]);
         return;
     }
     for (uint32_t l = 0; l < frame->scene->n_lights; l++)
-        if (frame->light[l].kind != GN_LIGHT_DIRECTIONAL && !frame->light[l].off) add_punctual(frame, cache, s, v, l);
+        if (frame->light[l].kind != GN_LIGHT_DIRECTIONAL && !frame->light[l].off) add_punctual(frame, cache, s, l);
 }
 #else
-GN_HOT static void punctual_lights(const gn_frame *frame, const gn_surface_cache *cache, gn_surface *s, int32_t v[3][3])
+GN_HOT static void punctual_lights(const gn_frame *frame, const gn_surface_cache *cache, gn_surface *s)
 {
-    (void)frame, (void)cache, (void)s, (void)v;
+    (void)frame, (void)cache, (void)s;
 }
 #endif
 
@@ -100,10 +100,10 @@ GN_HOT static void directional_lights(const gn_frame *frame, gn_surface *s)
     }
 }
 
-GN_HOT void gn_surface_list_lights(const gn_frame *frame, const gn_surface_cache *cache, gn_surface *s, int32_t v[3][3])
+GN_HOT void gn_surface_list_lights(const gn_frame *frame, const gn_surface_cache *cache, gn_surface *s)
 {
     directional_lights(frame, s);
-    punctual_lights(frame, cache, s, v);
+    punctual_lights(frame, cache, s);
 }
 
 /* ---- Shadows ----------------------------------------------------------------------------------------------------- */

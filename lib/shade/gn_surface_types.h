@@ -38,6 +38,9 @@ typedef struct {
     uint8_t curved;   /* by 2^-10 or more: automatic bias uses the interpolated normal */
     uint8_t bent;     /* a corner's normal points away from the face's: automatic bias uses only lift_q30 */
     uint8_t shadowed; /* some light's shadow may fall on it */
+#if GN_INTERPOLATES
+    uint8_t joined; /* several triangles */
+#endif
     uint16_t n_lights, n_punctual; /* not bytes: the compiler would reload those after every store */
     int16_t first_value, n_values;
     uint32_t albedo_uq16[3]; /* times the vertices' colours, where all three are equal; at most 2^16 */
@@ -51,9 +54,8 @@ typedef struct {
     gn_bfloat depth_scale; /* det * 2F: Z = depth_scale / (n . ray) */
     int32_t z_min_q16, z_max_q16;
     gn_bary bary;
-#if GN_INTERPOLATES
-    int32_t v_q16[3][3]; /* vertices in view space */
-#endif
+    int32_t v_q16[3][3];          /* vertices in view space, */
+    int32_t lo_q16[3], hi_q16[3]; /* and bounds of all of it */
     /* vertex 0, then differences of vertices 1 and 2 to it */
     int32_t normal_q30[3][3]; /* flat: the face normal and zeros */
     int32_t attribute_q16[3][GN_ATTRIBUTE_COUNT];
@@ -84,6 +86,11 @@ typedef struct {
 } gn_surface;
 
 /* Properties of a surface: 0 in builds that cannot have them. */
+#if GN_INTERPOLATES
+#define GN_JOINED(s) ((s)->joined)
+#else
+#define GN_JOINED(s) ((void)(s), 0)
+#endif
 #define GN_SMOOTH(s)   (GN_VERTEX_NORMALS && (s)->smooth)
 #define GN_CURVED(s)   (GN_VERTEX_NORMALS && (s)->curved)
 #define GN_BENT(s)     (GN_VERTEX_NORMALS && (s)->bent)

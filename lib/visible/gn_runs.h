@@ -55,16 +55,18 @@ GN_HOT static inline void gn_runs_drop(uint32_t *first)
     *first = 0;
 }
 
-/* Walks the runs of one triangle, top down and left to right, and takes them from their list: all of them. */
-typedef struct {
-    uint32_t *cell;
-    gn_run_idx *list;
-    uint32_t id;
-    uint32_t at, prev; /* GN_RUN_NONE: at its end, at its beginning */
-    uint32_t head;     /* of what is left of the list */
-    uint32_t first;    /* the run that was taken last: n_px pixels from this cell on */
-    int32_t n_px;
-} gn_run_taker;
+/* Whether a triangle has runs that are still linked. */
+GN_HOT static inline int gn_runs_any(gn_scratch *scratch, uint32_t id)
+{
+    const uint32_t *cell = GN_CELLS(scratch);
+    uint32_t at = scratch->run_list[id & (GN_RUN_LISTS - 1)];
+    if (at == GN_RUN_NONE) return 0;
+    while ((cell[at] & 0xFFFFU) != id) {
+        if (cell[at] >> 16 == at) return 0;
+        at = cell[at] >> 16;
+    }
+    return 1;
+}
 
 GN_HOT static inline void gn_runs_begin(gn_run_taker *taker, gn_scratch *scratch, uint32_t id)
 {

@@ -953,6 +953,7 @@ static void check_scene(const gn_knobs *knobs)
         const gn_tri *tri = &renderer.frame.tri[t];
         plane p;
         plane_of(&p, view, tri->source.triangle_idx);
+        gn_surface_place(&renderer.frame, scratch, &cache, &surface, &tri->source);
         gn_surface_begin(&renderer.frame, scratch, &cache, &surface, &tri->source);
         gn_surface_use_bary(&renderer.frame, &surface);
         const gn_rect r = gn_setup_bounds(&renderer.frame, tri);

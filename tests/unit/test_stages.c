@@ -223,6 +223,7 @@ static void check_samples(const gn_frame *frame, int32_t view[][3])
         plane p;
         gn_surface surface;
         plane_of(&p, view, tri->source.triangle_idx);
+        gn_surface_place(frame, scratch, &cache, &surface, &tri->source);
         gn_surface_begin(frame, scratch, &cache, &surface, &tri->source);
         gn_surface_use_bary(frame, &surface);
         gn_rect r = gn_setup_bounds(frame, tri);

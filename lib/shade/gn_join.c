@@ -1,0 +1,146 @@
+/* Whether triangles are of one plane, by the positions of a mesh. NUMERICS 4.13. */
+#include "gn_internal.h"
+
+#include "base/gn_math.h"
+#include "base/gn_q.h"
+#include "geometry/gn_skin.h"
+#include "shade/gn_join.h"
+
+#if GN_INTERPOLATES
+
+/* ---- Parallelograms ---------------------------------------------------------------------------------------------- */
+
+/* Four vertices: a + b is to be c + d. */
+typedef struct {
+    size_t a, b, c, d;
+} corners;
+
+/* Whether n values per vertex are those of a parallelogram. */
+GN_HOT static int holds_u16(const uint16_t *at, size_t n, const corners *v)
+{
+    for (size_t i = 0; at && i < n; i++)
+        if (at[n * v->a + i] + at[n * v->b + i] != at[n * v->c + i] + at[n * v->d + i]) return 0;
+    return 1;
+}
+
+#if GN_TEXTURES
+GN_HOT static int holds_i16(const int16_t *at, size_t n, const corners *v)
+{
+    for (size_t i = 0; at && i < n; i++)
+        if (at[n * v->a + i] + at[n * v->b + i] != at[n * v->c + i] + at[n * v->d + i]) return 0;
+    return 1;
+}
+#endif
+
+#if GN_MASKS
+GN_HOT static int holds_u8(const uint8_t *at, size_t n, const corners *v)
+{
+    for (size_t i = 0; at && i < n; i++)
+        if (at[n * v->a + i] + at[n * v->b + i] != at[n * v->c + i] + at[n * v->d + i]) return 0;
+    return 1;
+}
+#endif
+
+/* Positions: sums are equal modulo 2^32, and below 2^31. */
+GN_HOT static int positions_hold(const gn_position *at, const corners *v)
+{
+    for (size_t i = 0; i < 3; i++)
+        if ((uint32_t)at[3 * v->a + i] + (uint32_t)at[3 * v->b + i] !=
+            (uint32_t)at[3 * v->c + i] + (uint32_t)at[3 * v->d + i])
+            return 0;
+    return 1;
+}
+
+/* Whether all that vertices have goes on linearly. */
+GN_HOT static int is_parallelogram(const gn_object *object, const corners *v)
+{
+    const gn_mesh *mesh = object->mesh;
+    int holds = positions_hold(mesh->pos, v);
+#if GN_TEXTURES
+    if (object->texture || object->emissive_texture) holds = holds && holds_i16(mesh->uv, 2, v);
+#endif
+    if (GN_VERTEX_COLOURS) holds = holds && holds_u16(mesh->rgb_uq16, 3, v);
+#if GN_MASKS
+    if (object->mask_image) holds = holds && holds_u16(mesh->mask_uv_uq16, 2, v);
+    else holds = holds && holds_u8(object->mask_u8, 4, v);
+#endif
+    if (GN_BAKED_LIGHT) holds = holds && holds_u16(object->baked_uq12, 3, v);
+    return holds;
+}
+
+/* ---- Planes ------------------------------------------------------------------------------------------------------ */
+
+/* By the first 20 bits of the farthest coordinate: at most so far beside the plane, and so many times as far from the
+ * triangle as it is large. */
+enum { COORD_BITS = 20, BESIDE = 16, FAR = 4 };
+
+/* Whether a vertex is on a triangle's plane. */
+GN_HOT static int is_on_plane(const gn_mesh *mesh, const uint16_t *p, uint32_t vertex)
+{
+    const uint32_t idx[3] = {p[1], p[2], vertex};
+    const gn_position *from = mesh->pos + 3 * (size_t)p[0];
+    int32_t v[3][3];
+    int64_t n[3], beside[2][3], most = 1;
+    for (int k = 0; k < 3; k++)
+        for (int i = 0; i < 3; i++)
+            most |= (int64_t)gn_abs64((int64_t)mesh->pos[3 * (size_t)idx[k] + (size_t)i] - from[i]);
+    const int32_t up = COORD_BITS + gn_clz64((uint64_t)most) - 64;
+    for (int k = 0; k < 3; k++)
+        for (int i = 0; i < 3; i++)
+            v[k][i] = (int32_t)gn_scale64((int64_t)mesh->pos[3 * (size_t)idx[k] + (size_t)i] - from[i], -up);
+    gn_cross64(n, v[0], v[1]);
+    gn_cross64(beside[0], v[2], v[1]);
+    gn_cross64(beside[1], v[0], v[2]);
+    int i = gn_abs64(n[1]) > gn_abs64(n[0]);
+    if (gn_abs64(n[2]) > gn_abs64(n[i])) i = 2;
+    const uint64_t whole = gn_abs64(n[i]);
+    const int64_t six = v[2][0] * n[0] + v[2][1] * n[1] + v[2][2] * n[2]; /* times the tetrahedron */
+    return whole >> COORD_BITS && gn_abs64(six) <= BESIDE * whole && gn_abs64(beside[0][i]) <= FAR * whole &&
+           gn_abs64(beside[1][i]) <= FAR * whole && gn_abs64(n[i] - beside[0][i] - beside[1][i]) <= FAR * whole;
+}
+
+/* Whether vertices have anything that may differ. */
+GN_HOT static int varies(const gn_object *object)
+{
+    const int textured = GN_TEXTURES && (object->texture || object->emissive_texture),
+              masked = GN_MASKS && (object->mask_u8 || object->mask_image);
+    return textured | masked || (GN_VERTEX_COLOURS && object->mesh->rgb_uq16) || (GN_BAKED_LIGHT && object->baked_uq12);
+}
+
+GN_HOT static int same_normal(const gn_mesh *mesh, uint32_t a, uint32_t b)
+{
+    if (!GN_VERTEX_NORMALS || !mesh->nrm_q15) return 1;
+    const gn_normal *n = mesh->nrm_q15 + 3 * (size_t)a, *m = mesh->nrm_q15 + 3 * (size_t)b;
+    return n[0] == m[0] && n[1] == m[1] && n[2] == m[2];
+}
+
+GN_HOT int gn_join_may(const gn_frame *frame, const gn_tri_source *tri)
+{
+    const gn_object *object = &frame->scene->objects[tri->object_idx];
+    const uint16_t *p = object->mesh->idx + 3 * (size_t)tri->triangle_idx;
+    return object->visible_alpha == GN_ALPHA_OPAQUE && !(GN_VERTEX_JOINTS && GN_SKIN(object)) &&
+           same_normal(object->mesh, p[0], p[1]) && same_normal(object->mesh, p[0], p[2]);
+}
+
+GN_HOT int32_t gn_join_vertex(const gn_frame *frame, const gn_tri_source *first, const gn_tri_source *last,
+                              const gn_tri_source *next)
+{
+    const gn_object *object = &frame->scene->objects[first->object_idx];
+    if (next->object_idx != first->object_idx) return GN_JOIN_NONE;
+    if (next->triangle_idx == last->triangle_idx) return GN_JOIN_SAME;
+    if (next->triangle_idx != last->triangle_idx + 1U) return GN_JOIN_NONE;
+    const uint16_t *idx = object->mesh->idx, *p = idx + 3 * (size_t)last->triangle_idx, *q = p + 3;
+    for (int k = 0; k < 3; k++)
+        for (int m = 0; m < 3; m++) { /* the edge that both have, the other way round */
+            const uint16_t a = p[(k + 1) % 3], b = p[(k + 2) % 3], d = q[(m + 2) % 3];
+            const corners v = {a, b, p[k], d};
+            if (q[m] != b || q[(m + 1) % 3] != a) continue;
+            const uint16_t *root = idx + 3 * (size_t)first->triangle_idx;
+            if (!same_normal(object->mesh, root[0], d)) return GN_JOIN_NONE;
+            if (root == p && is_parallelogram(object, &v)) return d;
+            return !varies(object) && !GN_FLAT_Q16(frame) && is_on_plane(object->mesh, root, d) ? d : GN_JOIN_NONE;
+        }
+    return GN_JOIN_NONE;
+}
+
+#endif
