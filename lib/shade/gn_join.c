@@ -1,4 +1,4 @@
-/* Whether triangles are of one plane, by the positions of a mesh. NUMERICS 4.13. */
+/* Whether triangles are of one plane, by the positions of a mesh. NUMERICS 4.18. */
 #include "gn_internal.h"
 
 #include "base/gn_math.h"

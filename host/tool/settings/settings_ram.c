@@ -156,7 +156,7 @@ static void put_work(layout *out, const settings *s)
     long values = (s->feature.textures ? 2 : 0) + (s->feature.masks ? 4 : 0) + (s->feature.baked_light ? 3 : 0) + 5 +
                   (long)per_light * s->capacity.surface_lights;
     put(&surface, 1, s->feature.orthographic ? 244 : 200, 8); /* object to the colours of attribute_q16 */
-    if (s->quality.persp_step > 1) put(&surface, 9, 4, 4);    /* v_q16 */
+    put(&surface, 15, 4, 4);                                  /* v_q16 to hi_q16 */
     if (s->feature.masks) put(&surface, 12, 4, 4);
     if (s->feature.baked_light) put(&surface, 9, 4, 4);
     if (s->feature.textures) put(&surface, 6, 8, 8);
@@ -175,7 +175,10 @@ static void put_work(layout *out, const settings *s)
     incident *= s->feature.shadows ? 20 : 8;
     put(&all, 1, 28 + 4 * values + incident + (s->feature.specular ? 24 : 0), 4); /* sample */
     if (s->quality.transparent_layers) put(&all, 4, 4, 4);                        /* mixture */
-    if (s->quality.persp_step > 1) put(&all, 1, lattice_bytes(s), 8);
+    if (s->quality.persp_step > 1) {
+        put(&all, 25, 4, 4); /* n_joined, joined */
+        put(&all, 1, lattice_bytes(s), 8);
+    }
     pad(&all, all.align);
     const long casting = casting_bytes(s), clipping = 264, seen = s->feature.punctual_lights ? 1008 : 988;
     long largest = casting > clipping ? casting : clipping;
