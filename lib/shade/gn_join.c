@@ -99,12 +99,15 @@ GN_HOT static int is_on_plane(const gn_mesh *mesh, const uint16_t *p, uint32_t v
            gn_abs64(beside[1][i]) <= FAR * whole && gn_abs64(n[i] - beside[0][i] - beside[1][i]) <= FAR * whole;
 }
 
-/* Whether vertices have anything that may differ. */
-GN_HOT static int varies(const gn_object *object)
+/* Whether all vertices have the same colour, and nothing else that may differ. */
+GN_HOT static int looks_even(const gn_object *object, const uint16_t *p, uint32_t vertex)
 {
-    const int textured = GN_TEXTURES && (object->texture || object->emissive_texture),
-              masked = GN_MASKS && (object->mask_u8 || object->mask_image);
-    return textured | masked || (GN_VERTEX_COLOURS && object->mesh->rgb_uq16) || (GN_BAKED_LIGHT && object->baked_uq12);
+    const uint16_t *rgb = GN_VERTEX_COLOURS ? object->mesh->rgb_uq16 : NULL;
+    for (size_t i = 0; rgb && i < 3; i++)
+        for (int k = 0; k < 3; k++)
+            if (rgb[3 * (size_t)p[k] + i] != rgb[3 * (size_t)vertex + i]) return 0;
+    return !(GN_TEXTURES && (object->texture || object->emissive_texture)) &&
+           !(GN_MASKS && (object->mask_u8 || object->mask_image)) && !(GN_BAKED_LIGHT && object->baked_uq12);
 }
 
 GN_HOT static int same_normal(const gn_mesh *mesh, uint32_t a, uint32_t b)
@@ -138,7 +141,9 @@ GN_HOT int32_t gn_join_vertex(const gn_frame *frame, const gn_tri_source *first,
             const uint16_t *root = idx + 3 * (size_t)first->triangle_idx;
             if (!same_normal(object->mesh, root[0], d)) return GN_JOIN_NONE;
             if (root == p && is_parallelogram(object, &v)) return d;
-            return !varies(object) && !GN_FLAT_Q16(frame) && is_on_plane(object->mesh, root, d) ? d : GN_JOIN_NONE;
+            return looks_even(object, root, d) && !GN_FLAT_Q16(frame) && is_on_plane(object->mesh, root, d)
+                       ? d
+                       : GN_JOIN_NONE;
         }
     return GN_JOIN_NONE;
 }

@@ -89,13 +89,12 @@ GN_HOT static inline gn_run_span *add_span(const gn_shading *s, gn_run_span *spa
     return span + 1;
 }
 
-/* The one of the surface's triangles whose run comes first, NULL: none has one. */
+/* The one of the surface's triangles whose run comes first. */
 GN_HOT static inline gn_run_taker *next_taker(gn_shading *s, gn_run_taker *taker)
 {
-    gn_run_taker *next = taker->n_px ? taker : NULL;
-    for (uint32_t i = 0; i < s->n_joined; i++)
-        if (s->joined[i].n_px && (!next || s->joined[i].first < next->first)) next = &s->joined[i];
-    return next;
+    for (gn_run_taker *other = s->joined, *end = other + s->n_joined; other < end; other++)
+        if (other->first < taker->first) taker = other;
+    return taker;
 }
 
 /* Runs of several triangles, top down and left to right, up to so many spans. Returns their end. */
@@ -104,14 +103,14 @@ GN_HOT static GN_NOINLINE gn_run_span *take_joined(gn_shading *s, gn_run_taker *
     const uint32_t stride = (uint32_t)GN_K(s->frame, tile_width);
     gn_run_span *span = s->lattice.span;
     uint32_t goes_on = UINT32_MAX; /* where the last span would */
-    for (gn_run_taker *next; (next = next_taker(s, taker)) != NULL;) {
+    for (gn_run_taker *next; (next = next_taker(s, taker))->first != UINT32_MAX;) {
         if (next->first == goes_on && goes_on % stride) span[-1].n_px = (int16_t)(span[-1].n_px + next->n_px);
         else {
             if (span == end) break;
             span = add_span(s, span, next->first, next->n_px);
         }
         goes_on = next->first + (uint32_t)next->n_px;
-        if (!gn_runs_take(next, stride)) next->n_px = 0;
+        gn_runs_take(next, stride);
     }
     return span;
 }
@@ -129,7 +128,7 @@ GN_HOT static void shade_spans(gn_shading *s, gn_run_taker *taker)
     do {
         if (s->surface.joined) {
             span = take_joined(s, taker, end);
-            more = next_taker(s, taker) != NULL;
+            more = next_taker(s, taker)->first != UINT32_MAX;
         } else {
             span = l->span;
             do {

@@ -96,6 +96,7 @@ GN_HOT static inline int gn_runs_take(gn_run_taker *taker, uint32_t stride)
         return 1;
     }
     *taker->list = (gn_run_idx)taker->head;
+    taker->first = UINT32_MAX;
     return 0;
 }
 

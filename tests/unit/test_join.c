@@ -159,6 +159,8 @@ static void test_planes(void)
         wide e[3][3], n[3], six = 0, most = 1, largest = 0;
         begin_pair();
         for (int i = 0; i < 9; i++) pos[i] = coordinate(bits);
+        for (int i = 0; i < 12; i++) rgb[i] = (uint16_t)(1000 * (i % 3)); /* of one colour */
+        mesh.rgb_uq16 = k % 2 ? rgb : NULL;
         const int32_t s = rng_range(&random_state, -3, 3), t = rng_range(&random_state, -3, 3),
                       off = k % 3 ? 0 : coordinate(bits / 2);
         for (int i = 0; i < 3; i++) {
