@@ -260,6 +260,7 @@
 #define gn_rsqrt_norm GN_PREFIXED_(GN_PREFIX, gn_rsqrt_norm)
 #define gn_rsqrt_table GN_PREFIXED_(GN_PREFIX, gn_rsqrt_table)
 #define gn_runs_clear GN_PREFIXED_(GN_PREFIX, gn_runs_clear)
+#define gn_runs_join GN_PREFIXED_(GN_PREFIX, gn_runs_join)
 #define gn_sample_at GN_PREFIXED_(GN_PREFIX, gn_sample_at)
 #define gn_sample_cascade GN_PREFIXED_(GN_PREFIX, gn_sample_cascade)
 #define gn_sample_find_cascade GN_PREFIXED_(GN_PREFIX, gn_sample_find_cascade)

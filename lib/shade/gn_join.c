@@ -71,32 +71,55 @@ GN_HOT static int is_parallelogram(const gn_object *object, const corners *v)
 /* ---- Planes ------------------------------------------------------------------------------------------------------ */
 
 /* By the first 20 bits of the farthest coordinate: at most so far beside the plane, and so many times as far from the
- * triangle as it is large. */
-enum { COORD_BITS = 20, BESIDE = 16, FAR = 4 };
+ * triangle as it is large; faces lean by 2^-BEND_LOG2 at most. */
+enum { COORD_BITS = 20, BESIDE = 16, FAR = 4, BEND_LOG2 = 10 };
 
-/* Whether a vertex is on a triangle's plane. */
-GN_HOT static int is_on_plane(const gn_mesh *mesh, const uint16_t *p, uint32_t vertex)
+/* From one vertex to another, 2^up times as long. */
+GN_HOT static void way(const gn_mesh *mesh, uint32_t from, uint32_t to, int32_t up, int32_t out[3])
 {
-    const uint32_t idx[3] = {p[1], p[2], vertex};
-    const gn_position *from = mesh->pos + 3 * (size_t)p[0];
-    int32_t v[3][3];
-    int64_t n[3], beside[2][3], most = 1;
-    for (int k = 0; k < 3; k++)
-        for (int i = 0; i < 3; i++)
-            most |= (int64_t)gn_abs64((int64_t)mesh->pos[3 * (size_t)idx[k] + (size_t)i] - from[i]);
+    for (size_t i = 0; i < 3; i++)
+        out[i] = (int32_t)gn_scale64((int64_t)mesh->pos[3 * (size_t)to + i] - mesh->pos[3 * (size_t)from + i], -up);
+}
+
+/* Whether two normals lean by less than the limit; the first one's component i is its largest. */
+GN_HOT static int lean_alike(const int64_t n[3], const int64_t m[3], int i)
+{
+    int32_t a[3], b[3];
+    gn_norm_vec(a, n);
+    gn_norm_vec(b, m);
+    const int64_t both = (int64_t)a[i] * b[i];
+    for (int j = 0; j < 3; j++)
+        if ((int64_t)gn_abs64((int64_t)a[i] * b[j] - (int64_t)b[i] * a[j]) > both >> BEND_LOG2) return 0;
+    return both > 0;
+}
+
+/* Whether a triangle with the vertex d is on the plane of another one and faces the same way. */
+GN_HOT static int is_on_plane(const gn_mesh *mesh, const uint16_t *p, const uint16_t *q, uint32_t d)
+{
+    int32_t v[3][3], w[2][3];
+    int64_t n[3], m[3], beside[2][3], most = 1;
+    for (size_t i = 0; i < 3; i++) {
+        const int64_t from = mesh->pos[3 * (size_t)p[0] + i];
+        most |=
+            (int64_t)(gn_abs64(mesh->pos[3 * (size_t)p[1] + i] - from) |
+                      gn_abs64(mesh->pos[3 * (size_t)p[2] + i] - from) | gn_abs64(mesh->pos[3 * (size_t)d + i] - from));
+    }
     const int32_t up = COORD_BITS + gn_clz64((uint64_t)most) - 64;
-    for (int k = 0; k < 3; k++)
-        for (int i = 0; i < 3; i++)
-            v[k][i] = (int32_t)gn_scale64((int64_t)mesh->pos[3 * (size_t)idx[k] + (size_t)i] - from[i], -up);
+    way(mesh, p[0], p[1], up, v[0]);
+    way(mesh, p[0], p[2], up, v[1]);
+    way(mesh, p[0], d, up, v[2]);
+    for (int k = 0; k < 2; k++) way(mesh, q[0], q[k + 1], up, w[k]);
     gn_cross64(n, v[0], v[1]);
+    gn_cross64(m, w[0], w[1]);
     gn_cross64(beside[0], v[2], v[1]);
     gn_cross64(beside[1], v[0], v[2]);
     int i = gn_abs64(n[1]) > gn_abs64(n[0]);
     if (gn_abs64(n[2]) > gn_abs64(n[i])) i = 2;
     const uint64_t whole = gn_abs64(n[i]);
     const int64_t six = v[2][0] * n[0] + v[2][1] * n[1] + v[2][2] * n[2]; /* times the tetrahedron */
-    return whole >> COORD_BITS && gn_abs64(six) <= BESIDE * whole && gn_abs64(beside[0][i]) <= FAR * whole &&
-           gn_abs64(beside[1][i]) <= FAR * whole && gn_abs64(n[i] - beside[0][i] - beside[1][i]) <= FAR * whole;
+    return whole >> COORD_BITS && lean_alike(n, m, i) && gn_abs64(six) <= BESIDE * whole &&
+           gn_abs64(beside[0][i]) <= FAR * whole && gn_abs64(beside[1][i]) <= FAR * whole &&
+           gn_abs64(n[i] - beside[0][i] - beside[1][i]) <= FAR * whole;
 }
 
 /* Whether all vertices have the same colour, and nothing else that may differ. */
@@ -141,7 +164,7 @@ GN_HOT int32_t gn_join_vertex(const gn_frame *frame, const gn_tri_source *first,
             const uint16_t *root = idx + 3 * (size_t)first->triangle_idx;
             if (!same_normal(object->mesh, root[0], d)) return GN_JOIN_NONE;
             if (root == p && is_parallelogram(object, &v)) return d;
-            return looks_even(object, root, d) && !GN_FLAT_Q16(frame) && is_on_plane(object->mesh, root, d)
+            return looks_even(object, root, d) && !GN_FLAT_Q16(frame) && is_on_plane(object->mesh, root, q, d)
                        ? d
                        : GN_JOIN_NONE;
         }

@@ -78,43 +78,6 @@ GN_HOT static inline void shade_those(gn_shading *s, int32_t n_spans)
     for (int32_t i = 0; i < l->n_spans; i++) gn_mix_run(s, l->span[i].x, l->span[i].y, l->span[i].n_px);
 }
 
-/* A run as a span; where it goes on from the last one, that is longer. Returns the next span. */
-GN_HOT static inline gn_run_span *add_span(const gn_shading *s, gn_run_span *span, uint32_t first, int32_t n_px)
-{
-    const uint32_t stride = (uint32_t)GN_K(s->frame, tile_width);
-    GN_COUNT(runs, 1);
-    span->x = (int16_t)(s->rect.x0 + (int32_t)(first % stride));
-    span->y = (int16_t)(s->rect.y0 + (int32_t)(first / stride));
-    span->n_px = (int16_t)n_px;
-    return span + 1;
-}
-
-/* The one of the surface's triangles whose run comes first. */
-GN_HOT static inline gn_run_taker *next_taker(gn_shading *s, gn_run_taker *taker)
-{
-    for (gn_run_taker *other = s->joined, *end = other + s->n_joined; other < end; other++)
-        if (other->first < taker->first) taker = other;
-    return taker;
-}
-
-/* Runs of several triangles, top down and left to right, up to so many spans. Returns their end. */
-GN_HOT static GN_NOINLINE gn_run_span *take_joined(gn_shading *s, gn_run_taker *taker, gn_run_span *const end)
-{
-    const uint32_t stride = (uint32_t)GN_K(s->frame, tile_width);
-    gn_run_span *span = s->lattice.span;
-    uint32_t goes_on = UINT32_MAX; /* where the last span would */
-    for (gn_run_taker *next; (next = next_taker(s, taker))->first != UINT32_MAX;) {
-        if (next->first == goes_on && goes_on % stride) span[-1].n_px = (int16_t)(span[-1].n_px + next->n_px);
-        else {
-            if (span == end) break;
-            span = add_span(s, span, next->first, next->n_px);
-        }
-        goes_on = next->first + (uint32_t)next->n_px;
-        gn_runs_take(next, stride);
-    }
-    return span;
-}
-
 /* Takes the surface's runs as spans, so many at a time, and shades them. */
 GN_HOT static void shade_spans(gn_shading *s, gn_run_taker *taker)
 {
@@ -126,16 +89,14 @@ GN_HOT static void shade_spans(gn_shading *s, gn_run_taker *taker)
     gn_run_span *span, *const end = l->span + GN_SPANS;
     int more;
     do {
-        if (s->surface.joined) {
-            span = take_joined(s, taker, end);
-            more = next_taker(s, taker)->first != UINT32_MAX;
-        } else {
-            span = l->span;
-            do {
-                span = add_span(s, span, taker->first, taker->n_px);
-                more = gn_runs_take(taker, stride);
-            } while (more && span < end);
-        }
+        span = l->span;
+        do {
+            GN_COUNT(runs, 1);
+            span->x = (int16_t)(s->rect.x0 + (int32_t)(taker->first % stride));
+            span->y = (int16_t)(s->rect.y0 + (int32_t)(taker->first / stride));
+            span->n_px = (int16_t)taker->n_px;
+            more = gn_runs_take(taker, stride);
+        } while (++span < end && more);
         shade_those(s, (int32_t)(span - l->span));
     } while (more);
 }
@@ -182,23 +143,20 @@ GN_HOT static int is_large(const gn_frame *frame, const gn_surface *s)
     return (uint64_t)(w > h ? w : h) * (frame->cam.focal2_px_q16 >> 8) >> 9 > z * GN_JOIN_PX;
 }
 
-/* Finds the triangles behind it in the tile's list that are one surface with it. */
+/* Takes the runs of triangles behind it in the tile's list that are one surface with it. */
 GN_HOT static GN_NOINLINE void join(gn_shading *s, const char *sources, uint32_t at, uint32_t end)
 {
     const gn_frame *frame = s->frame;
     const gn_tri_source *last = s->tri;
-    s->n_joined = 0;
     if (is_exact(s) || !is_large(frame, &s->surface) || !gn_join_may(frame, last)) return;
-    for (uint32_t k = 1, id; s->n_joined < GN_JOINED_MAX && (id = id_behind(frame, at, end, k)) != 0; k++) {
-        gn_run_taker *taker = &s->joined[s->n_joined];
+    for (uint32_t k = 1, id; (id = id_behind(frame, at, end, k)) != 0; k++) {
         if (!gn_runs_any(s->scratch, id)) continue;
         const gn_tri_source *next = gn_cell_source(frame, sources, id);
         const int32_t vertex = gn_join_vertex(frame, s->tri, last, next);
-        if (vertex == GN_JOIN_NONE) return;
+        if (vertex == GN_JOIN_NONE ||
+            !gn_runs_join(s->scratch, id_behind(frame, at, end, 0), id, (uint32_t)GN_K(frame, tile_width)))
+            return;
         if (vertex >= 0) gn_surface_extend(frame, s->scratch, &s->cache, &s->surface, next, (uint32_t)vertex);
-        gn_runs_begin(taker, s->scratch, id);
-        gn_runs_take(taker, (uint32_t)GN_K(frame, tile_width));
-        s->n_joined++;
         s->surface.joined = 1;
         last = next;
     }
@@ -214,23 +172,22 @@ GN_HOT static void join(gn_shading *s, const char *sources, uint32_t at, uint32_
 GN_HOT static void shade_triangle(gn_shading *s, const char *sources, uint32_t at, uint32_t end)
 {
     const gn_frame *frame = s->frame;
+    const uint32_t id = id_behind(frame, at, end, 0);
+    const uint32_t stride = (uint32_t)GN_K(frame, tile_width);
     gn_run_taker taker;
-    uint32_t id = id_behind(frame, at, end, 0);
     gn_runs_begin(&taker, s->scratch, id);
-    if (!gn_runs_take(&taker, (uint32_t)GN_K(frame, tile_width))) return;
+    if (GN_INTERPOLATES ? !gn_runs_any(s->scratch, id) : !gn_runs_take(&taker, stride)) return;
     s->tri = gn_cell_source(frame, sources, id);
     gn_surface_place(frame, s->scratch, &s->cache, &s->surface, s->tri);
     join(s, sources, at, end);
     gn_surface_begin(frame, s->scratch, &s->cache, &s->surface, s->tri);
-    const int constant = gn_surface_is_constant(&s->surface) && frame->picture.format != GN_FORMAT_RAW32;
-    if (!constant && !is_exact(s)) {
-        shade_spans(s, &taker);
-        return;
+    if (GN_INTERPOLATES) { /* with those that were joined */
+        gn_runs_begin(&taker, s->scratch, id);
+        if (!gn_runs_take(&taker, stride)) return; /* not so */
     }
-    shade_runs(s, &taker, constant);
-#if GN_INTERPOLATES
-    for (uint32_t i = 0; i < s->n_joined; i++) shade_runs(s, &s->joined[i], constant);
-#endif
+    const int constant = gn_surface_is_constant(&s->surface) && frame->picture.format != GN_FORMAT_RAW32;
+    if (constant || is_exact(s)) shade_runs(s, &taker, constant);
+    else shade_spans(s, &taker);
 }
 
 /* Those of the tile, in the order of the scene. */

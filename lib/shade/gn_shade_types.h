@@ -9,9 +9,6 @@ typedef struct {
     uint32_t front, behind, alpha_uq16, packed;
 } gn_mixture;
 
-/* Triangles that may be one surface with the first of them. */
-enum { GN_JOINED_MAX = 3 };
-
 /* The tile, and the triangle at hand. */
 typedef struct gn_shading {
     const struct gn_frame *frame;
@@ -29,8 +26,6 @@ typedef struct gn_shading {
     gn_mixture mixture;
 #endif
 #if GN_INTERPOLATES
-    uint32_t n_joined; /* other triangles of the surface that have runs, and those: */
-    gn_run_taker joined[GN_JOINED_MAX];
     gn_lattice lattice;
 #endif
 } gn_shading;

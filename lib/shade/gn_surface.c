@@ -393,13 +393,15 @@ GN_HOT void gn_surface_place(const gn_frame *frame, gn_scratch *scratch, gn_surf
     s->object = &frame->scene->objects[tri->object_idx];
     use_object(frame, cache, s->object);
     const uint16_t *idx = s->object->mesh->idx + 3 * (size_t)tri->triangle_idx;
-    int32_t(*v)[3] = s->v_q16;
     GN_UNROLL
-    for (int i = 0; i < 3; i++) find_vertex(frame, scratch, cache, s, tri, idx[i], v[i]);
-    GN_UNROLL
-    for (int k = 0; k < 3; k++) {
-        s->lo_q16[k] = gn_min32(v[0][k], gn_min32(v[1][k], v[2][k]));
-        s->hi_q16[k] = gn_max32(v[0][k], gn_max32(v[1][k], v[2][k]));
+    for (int i = 0; i < 3; i++) {
+        int32_t *v = s->v_q16[i];
+        find_vertex(frame, scratch, cache, s, tri, idx[i], v);
+        GN_UNROLL
+        for (int k = 0; k < 3; k++) {
+            s->lo_q16[k] = i ? gn_min32(s->lo_q16[k], v[k]) : v[k];
+            s->hi_q16[k] = i ? gn_max32(s->hi_q16[k], v[k]) : v[k];
+        }
     }
 #if GN_INTERPOLATES
     s->joined = 0;

@@ -8,3 +8,65 @@ GN_HOT void gn_runs_clear(gn_scratch *scratch)
 {
     for (uint32_t i = 0; i < GN_RUN_LISTS; i++) scratch->run_list[i] = GN_RUN_NONE;
 }
+
+#if GN_INTERPOLATES
+/* The list that runs are joined to. */
+typedef struct {
+    uint32_t *cell, id, stride;
+    uint32_t head;
+    uint32_t at, mine; /* the last run before the one at hand, and the last of the triangle; GN_RUN_NONE: none */
+} run_list;
+
+GN_HOT static inline uint32_t run_behind(const run_list *l, uint32_t at)
+{
+    const uint32_t next = at == GN_RUN_NONE ? l->head : l->cell[at] >> 16;
+    return next == at ? GN_RUN_NONE : next;
+}
+
+GN_HOT static inline void set_behind(run_list *l, uint32_t at, uint32_t next)
+{
+    if (at == GN_RUN_NONE) l->head = next;
+    else l->cell[at] = (next == GN_RUN_NONE ? at : next) << 16 | (l->cell[at] & 0xFFFFU);
+}
+
+GN_HOT static inline uint32_t length_of(const run_list *l, uint32_t at)
+{
+    return (at + 1) % l->stride && (l->cell[at + 1] & 0xFFFFU) == l->id ? l->cell[at + 1] >> 16 : 1;
+}
+
+/* Puts a run where it belongs: a part of the one that it goes on from, and of it the one that goes on from it. Two runs
+ * of a triangle never touch. */
+GN_HOT static void insert(run_list *l, uint32_t first, uint32_t n_px)
+{
+    uint32_t next;
+    while ((next = run_behind(l, l->at)) != GN_RUN_NONE && next < first) {
+        if ((l->cell[next] & 0xFFFFU) == l->id) l->mine = next;
+        l->at = next;
+    }
+    if (l->mine != GN_RUN_NONE && first % l->stride && l->mine + length_of(l, l->mine) == first)
+        n_px += length_of(l, l->mine);
+    else {
+        l->cell[first] = l->id;
+        set_behind(l, first, next);
+        set_behind(l, l->at, first);
+        l->at = l->mine = first;
+    }
+    if (next != GN_RUN_NONE && (l->cell[next] & 0xFFFFU) == l->id && next % l->stride && next == l->mine + n_px) {
+        n_px += length_of(l, next);
+        set_behind(l, l->at, run_behind(l, next));
+    }
+    if (n_px > 1) l->cell[l->mine + 1] = n_px << 16 | l->id;
+}
+
+GN_HOT int gn_runs_join(gn_scratch *scratch, uint32_t id, uint32_t other, uint32_t stride)
+{
+    gn_run_idx *list = &scratch->run_list[id & (GN_RUN_LISTS - 1)];
+    run_list to = {GN_CELLS(scratch), id, stride, *list, GN_RUN_NONE, GN_RUN_NONE};
+    gn_run_taker taker;
+    gn_runs_begin(&taker, scratch, other);
+    if (taker.list == list) return 0;
+    while (gn_runs_take(&taker, stride)) insert(&to, taker.first, (uint32_t)taker.n_px);
+    *list = (gn_run_idx)to.head;
+    return 1;
+}
+#endif

@@ -38,6 +38,12 @@ GN_HOT static inline uint32_t *gn_runs_first(uint32_t *last, uint32_t id_mask)
     return last + 1;
 }
 
+#if GN_INTERPOLATES
+/* Makes runs of a triangle those of another one, in order; where one goes on from the other they become one. Returns 0
+ * if both are in one list, and nothing is done. */
+int gn_runs_join(gn_scratch *scratch, uint32_t id, uint32_t other, uint32_t stride);
+#endif
+
 /* Links a run at the head of its list: runs come from the tile's last to its first, so that each list begins with what
  * comes first. */
 GN_HOT static inline void gn_runs_link(gn_scratch *scratch, uint32_t id, uint32_t *first, uint32_t n_px)
@@ -54,6 +60,17 @@ GN_HOT static inline void gn_runs_drop(uint32_t *first)
 {
     *first = 0;
 }
+
+/* Walks the runs of one triangle, top down and left to right, and takes them from their list: all of them. */
+typedef struct {
+    uint32_t *cell;
+    gn_run_idx *list;
+    uint32_t id;
+    uint32_t at, prev; /* GN_RUN_NONE: at its end, at its beginning */
+    uint32_t head;     /* of what is left of the list */
+    uint32_t first;    /* the run that was taken last: n_px pixels from this cell on */
+    int32_t n_px;
+} gn_run_taker;
 
 /* Whether a triangle has runs that are still linked. */
 GN_HOT static inline int gn_runs_any(gn_scratch *scratch, uint32_t id)
@@ -96,7 +113,6 @@ GN_HOT static inline int gn_runs_take(gn_run_taker *taker, uint32_t stride)
         return 1;
     }
     *taker->list = (gn_run_idx)taker->head;
-    taker->first = UINT32_MAX;
     return 0;
 }
 

@@ -86,15 +86,4 @@ typedef uint32_t gn_run_idx;
 typedef uint16_t gn_run_idx;
 #endif
 
-/* Walks the runs of one triangle, top down and left to right, and takes them from their list: all of them. */
-typedef struct {
-    uint32_t *cell;
-    gn_run_idx *list;
-    uint32_t id;
-    uint32_t at, prev; /* GN_RUN_NONE: at its end, at its beginning */
-    uint32_t head;     /* of what is left of the list */
-    uint32_t first;    /* the run that was taken last: n_px pixels from this cell on; UINT32_MAX: it was the last */
-    int32_t n_px;
-} gn_run_taker;
-
 #endif

@@ -175,10 +175,7 @@ static void put_work(layout *out, const settings *s)
     incident *= s->feature.shadows ? 20 : 8;
     put(&all, 1, 28 + 4 * values + incident + (s->feature.specular ? 24 : 0), 4); /* sample */
     if (s->quality.transparent_layers) put(&all, 4, 4, 4);                        /* mixture */
-    if (s->quality.persp_step > 1) {
-        put(&all, 25, 4, 4); /* n_joined, joined */
-        put(&all, 1, lattice_bytes(s), 8);
-    }
+    if (s->quality.persp_step > 1) put(&all, 1, lattice_bytes(s), 8);
     pad(&all, all.align);
     const long casting = casting_bytes(s), clipping = 264, seen = s->feature.punctual_lights ? 1008 : 988;
     long largest = casting > clipping ? casting : clipping;
