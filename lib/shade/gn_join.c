@@ -16,7 +16,7 @@ typedef struct {
 } corners;
 
 /* Whether n values per vertex are those of a parallelogram. */
-GN_HOT static int holds_u16(const uint16_t *at, size_t n, const corners *v)
+static int holds_u16(const uint16_t *at, size_t n, const corners *v)
 {
     for (size_t i = 0; at && i < n; i++)
         if (at[n * v->a + i] + at[n * v->b + i] != at[n * v->c + i] + at[n * v->d + i]) return 0;
@@ -24,7 +24,7 @@ GN_HOT static int holds_u16(const uint16_t *at, size_t n, const corners *v)
 }
 
 #if GN_TEXTURES
-GN_HOT static int holds_i16(const int16_t *at, size_t n, const corners *v)
+static int holds_i16(const int16_t *at, size_t n, const corners *v)
 {
     for (size_t i = 0; at && i < n; i++)
         if (at[n * v->a + i] + at[n * v->b + i] != at[n * v->c + i] + at[n * v->d + i]) return 0;
@@ -33,7 +33,7 @@ GN_HOT static int holds_i16(const int16_t *at, size_t n, const corners *v)
 #endif
 
 #if GN_MASKS
-GN_HOT static int holds_u8(const uint8_t *at, size_t n, const corners *v)
+static int holds_u8(const uint8_t *at, size_t n, const corners *v)
 {
     for (size_t i = 0; at && i < n; i++)
         if (at[n * v->a + i] + at[n * v->b + i] != at[n * v->c + i] + at[n * v->d + i]) return 0;
@@ -42,7 +42,7 @@ GN_HOT static int holds_u8(const uint8_t *at, size_t n, const corners *v)
 #endif
 
 /* Positions: sums are equal modulo 2^32, and below 2^31. */
-GN_HOT static int positions_hold(const gn_position *at, const corners *v)
+static int positions_hold(const gn_position *at, const corners *v)
 {
     for (size_t i = 0; i < 3; i++)
         if ((uint32_t)at[3 * v->a + i] + (uint32_t)at[3 * v->b + i] !=
@@ -52,7 +52,7 @@ GN_HOT static int positions_hold(const gn_position *at, const corners *v)
 }
 
 /* Whether all that vertices have goes on linearly. */
-GN_HOT static int is_parallelogram(const gn_object *object, const corners *v)
+static int is_parallelogram(const gn_object *object, const corners *v)
 {
     const gn_mesh *mesh = object->mesh;
     int holds = positions_hold(mesh->pos, v);
@@ -75,14 +75,14 @@ GN_HOT static int is_parallelogram(const gn_object *object, const corners *v)
 enum { COORD_BITS = 20, BESIDE = 16, FAR = 4, BEND_LOG2 = 10 };
 
 /* From one vertex to another, 2^up times as long. */
-GN_HOT static void way(const gn_mesh *mesh, uint32_t from, uint32_t to, int32_t up, int32_t out[3])
+static void way(const gn_mesh *mesh, uint32_t from, uint32_t to, int32_t up, int32_t out[3])
 {
     for (size_t i = 0; i < 3; i++)
         out[i] = (int32_t)gn_scale64((int64_t)mesh->pos[3 * (size_t)to + i] - mesh->pos[3 * (size_t)from + i], -up);
 }
 
 /* Whether two normals lean by less than the limit; the first one's component i is its largest. */
-GN_HOT static int lean_alike(const int64_t n[3], const int64_t m[3], int i)
+static int lean_alike(const int64_t n[3], const int64_t m[3], int i)
 {
     int32_t a[3], b[3];
     gn_norm_vec(a, n);
@@ -94,7 +94,7 @@ GN_HOT static int lean_alike(const int64_t n[3], const int64_t m[3], int i)
 }
 
 /* Whether a triangle with the vertex d is on the plane of another one and faces the same way. */
-GN_HOT static int is_on_plane(const gn_mesh *mesh, const uint16_t *p, const uint16_t *q, uint32_t d)
+static int is_on_plane(const gn_mesh *mesh, const uint16_t *p, const uint16_t *q, uint32_t d)
 {
     int32_t v[3][3], w[2][3];
     int64_t n[3], m[3], beside[2][3], most = 1;
@@ -123,7 +123,7 @@ GN_HOT static int is_on_plane(const gn_mesh *mesh, const uint16_t *p, const uint
 }
 
 /* Whether all vertices have the same colour, and nothing else that may differ. */
-GN_HOT static int looks_even(const gn_object *object, const uint16_t *p, uint32_t vertex)
+static int looks_even(const gn_object *object, const uint16_t *p, uint32_t vertex)
 {
     const uint16_t *rgb = GN_VERTEX_COLOURS ? object->mesh->rgb_uq16 : NULL;
     for (size_t i = 0; rgb && i < 3; i++)
@@ -133,14 +133,14 @@ GN_HOT static int looks_even(const gn_object *object, const uint16_t *p, uint32_
            !(GN_MASKS && (object->mask_u8 || object->mask_image)) && !(GN_BAKED_LIGHT && object->baked_uq12);
 }
 
-GN_HOT static int same_normal(const gn_mesh *mesh, uint32_t a, uint32_t b)
+static int same_normal(const gn_mesh *mesh, uint32_t a, uint32_t b)
 {
     if (!GN_VERTEX_NORMALS || !mesh->nrm_q15) return 1;
     const gn_normal *n = mesh->nrm_q15 + 3 * (size_t)a, *m = mesh->nrm_q15 + 3 * (size_t)b;
     return n[0] == m[0] && n[1] == m[1] && n[2] == m[2];
 }
 
-GN_HOT int gn_join_may(const gn_frame *frame, const gn_tri_source *tri)
+int gn_join_may(const gn_frame *frame, const gn_tri_source *tri)
 {
     const gn_object *object = &frame->scene->objects[tri->object_idx];
     const uint16_t *p = object->mesh->idx + 3 * (size_t)tri->triangle_idx;
@@ -148,8 +148,8 @@ GN_HOT int gn_join_may(const gn_frame *frame, const gn_tri_source *tri)
            same_normal(object->mesh, p[0], p[1]) && same_normal(object->mesh, p[0], p[2]);
 }
 
-GN_HOT int32_t gn_join_vertex(const gn_frame *frame, const gn_tri_source *first, const gn_tri_source *last,
-                              const gn_tri_source *next)
+int32_t gn_join_vertex(const gn_frame *frame, const gn_tri_source *first, const gn_tri_source *last,
+                       const gn_tri_source *next)
 {
     const gn_object *object = &frame->scene->objects[first->object_idx];
     if (next->object_idx != first->object_idx) return GN_JOIN_NONE;

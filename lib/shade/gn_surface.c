@@ -16,7 +16,7 @@
 #define GN_ONE_Q30 (1 << 30)
 
 /* An unlit surface gets no light; only the shadow view needs the lights that it faces. [M2] */
-GN_HOT static int without_light(const gn_frame *frame, const gn_surface *s)
+static int without_light(const gn_frame *frame, const gn_surface *s)
 {
     if (!(s->object->flags & GN_OBJECT_UNLIT)) return 0;
     return !GN_RAW_VIEWS || frame->picture.format != GN_FORMAT_RAW32 || frame->picture.view != GN_VIEW_SHADOW;
@@ -25,7 +25,7 @@ GN_HOT static int without_light(const gn_frame *frame, const gn_surface *s)
 /* ---- Once per triangle: attributes ------------------------------------------------------------------------------- */
 
 /* The plane's n points away from the viewer, in view space. */
-GN_HOT static GN_NOINLINE void find_face(const gn_frame *frame, const gn_surface *s, int32_t out_q30[3])
+static GN_NOINLINE void find_face(const gn_frame *frame, const gn_surface *s, int32_t out_q30[3])
 {
     int64_t world[3];
     GN_UNROLL
@@ -39,7 +39,7 @@ GN_HOT static GN_NOINLINE void find_face(const gn_frame *frame, const gn_surface
 }
 
 /* It is the surface's normal where vertices have none. */
-GN_HOT void gn_surface_face(const gn_frame *frame, const gn_surface *s, int32_t out_q30[3])
+void gn_surface_face(const gn_frame *frame, const gn_surface *s, int32_t out_q30[3])
 {
     if (GN_VERTEX_NORMALS && s->object->mesh->nrm_q15) find_face(frame, s, out_q30);
     else
@@ -47,26 +47,26 @@ GN_HOT void gn_surface_face(const gn_frame *frame, const gn_surface *s, int32_t 
 }
 
 /* Bits s .. s + 31 below the sign of 64, rounded to 31. */
-GN_HOT static inline int32_t rounded_high(int64_t v, int32_t s)
+static inline int32_t rounded_high(int64_t v, int32_t s)
 {
     uint32_t high = (uint32_t)((uint64_t)v >> 32) << s | (uint32_t)v >> (32 - s);
     return (int32_t)(((int32_t)high >> 1) + (int32_t)(high & 1U));
 }
 
 /* 31 bits times root_q32, which has 2^31 set, over 2^32: as gn_normalise_q30() does it. */
-GN_HOT static inline int32_t normalised(int32_t n, uint32_t root)
+static inline int32_t normalised(int32_t n, uint32_t root)
 {
     int64_t p = (int64_t)n * (int32_t)(root - 0x80000000U - 0x80000000U);
     int32_t v = (int32_t)(p >> 32) + n + (int32_t)((uint32_t)p >> 31);
     return gn_max32(-(1 << 30), gn_min32(v, 1 << 30));
 }
 
-GN_HOT static inline int64_t row_times(const int32_t row[3], int32_t x, int32_t y, int32_t z)
+static inline int64_t row_times(const int32_t row[3], int32_t x, int32_t y, int32_t z)
 {
     return (int64_t)row[0] * x + (int64_t)row[1] * y + (int64_t)row[2] * z;
 }
 
-GN_HOT void gn_surface_normal(int32_t out_q30[3], const int32_t matrix[3][3], const gn_normal nrm_q15[3])
+void gn_surface_normal(int32_t out_q30[3], const int32_t matrix[3][3], const gn_normal nrm_q15[3])
 {
     const int32_t x = nrm_q15[0], y = nrm_q15[1], z = nrm_q15[2];
     const int64_t a = row_times(matrix[0], x, y, z), b = row_times(matrix[1], x, y, z),
@@ -91,8 +91,8 @@ GN_HOT void gn_surface_normal(int32_t out_q30[3], const int32_t matrix[3][3], co
 }
 
 /* Of a vertex, by way of the cache, whose entries are not used for positions here. */
-GN_HOT static void vertex_normal(int32_t out_q30[3], const gn_surface_cache *cache, gn_vertex_entry *vertex,
-                                 const gn_object *object, uint32_t object_idx, uint32_t vertex_idx)
+static void vertex_normal(int32_t out_q30[3], const gn_surface_cache *cache, gn_vertex_entry *vertex,
+                          const gn_object *object, uint32_t object_idx, uint32_t vertex_idx)
 {
     const gn_normal *nrm_q15 = object->mesh->nrm_q15 + 3 * (size_t)vertex_idx;
     if (GN_VERTEX_JOINTS && GN_SKIN(object)) {
@@ -115,8 +115,8 @@ GN_HOT static void vertex_normal(int32_t out_q30[3], const gn_surface_cache *cac
 }
 
 /* Of the vertices, or of the face where they have none. [M3] */
-GN_HOT static void normals(const gn_frame *frame, const gn_surface_cache *cache, gn_vertex_entry *vertex, gn_surface *s,
-                           const uint16_t *idx)
+static void normals(const gn_frame *frame, const gn_surface_cache *cache, gn_vertex_entry *vertex, gn_surface *s,
+                    const uint16_t *idx)
 {
     const gn_mesh *mesh = s->object->mesh;
     const int unlit = s->object->flags & GN_OBJECT_UNLIT && !GN_RAW_VIEWS;
@@ -151,7 +151,7 @@ GN_HOT static void normals(const gn_frame *frame, const gn_surface_cache *cache,
 }
 
 /* Attribute i of the surface, by its values at the three vertices: 65535 means 1. */
-GN_HOT static void set_attribute(gn_surface *s, int i, const int32_t at[3])
+static void set_attribute(gn_surface *s, int i, const int32_t at[3])
 {
     int32_t first = at[0] + (at[0] >> 15);
     s->attribute_q16[0][i] = first;
@@ -160,7 +160,7 @@ GN_HOT static void set_attribute(gn_surface *s, int i, const int32_t at[3])
 }
 
 /* Colours of the vertices: where all three are equal, part of the albedo. */
-GN_HOT static void vertex_colours(gn_surface *s, const uint16_t *idx)
+static void vertex_colours(gn_surface *s, const uint16_t *idx)
 {
     const gn_mesh *mesh = s->object->mesh;
     int32_t differs = 0;
@@ -184,7 +184,7 @@ GN_HOT static void vertex_colours(gn_surface *s, const uint16_t *idx)
 }
 
 /* Whether the object has light of its own. */
-GN_HOT static int emits(const gn_frame *frame, const gn_object *object)
+static int emits(const gn_frame *frame, const gn_object *object)
 {
     const uint32_t *emissive = object->emissive_uq16;
     if (GN_RAW_VIEWS && frame->picture.format == GN_FORMAT_RAW32) return 0;
@@ -192,7 +192,7 @@ GN_HOT static int emits(const gn_frame *frame, const gn_object *object)
     return GN_EMISSIVE && !(object->flags & GN_OBJECT_UNLIT) && (emissive[0] | emissive[1] | emissive[2]);
 }
 
-GN_HOT static void texture_coords(const gn_frame *frame, gn_surface *s, const uint16_t *idx)
+static void texture_coords(const gn_frame *frame, gn_surface *s, const uint16_t *idx)
 {
 #if GN_GLOW_TEXTURES
     s->glow = emits(frame, s->object) ? s->object->emissive_texture : NULL;
@@ -207,7 +207,7 @@ GN_HOT static void texture_coords(const gn_frame *frame, gn_surface *s, const ui
 }
 
 #if GN_MIPMAPS
-GN_HOT static uint64_t level_depth2(const gn_frame *frame, const gn_surface *s, const gn_texture *texture)
+static uint64_t level_depth2(const gn_frame *frame, const gn_surface *s, const gn_texture *texture)
 {
 #if GN_ORTHOGRAPHIC
     const gn_plane *screen = frame->cam.flat_q16 ? &s->screen : &s->plane;
@@ -219,7 +219,7 @@ GN_HOT static uint64_t level_depth2(const gn_frame *frame, const gn_surface *s, 
 #endif
 
 /* Where levels of the textures begin. */
-GN_HOT static void texture_levels(const gn_frame *frame, gn_surface *s)
+static void texture_levels(const gn_frame *frame, gn_surface *s)
 {
 #if GN_MIPMAPS
     const gn_texture *texture = s->object->texture;
@@ -236,7 +236,7 @@ GN_HOT static void texture_levels(const gn_frame *frame, gn_surface *s)
 }
 
 /* Shadow masks at the corners: coordinates of an image, or four channels. [M5] */
-GN_HOT static void masks(const gn_frame *frame, gn_surface *s, const uint16_t *idx)
+static void masks(const gn_frame *frame, gn_surface *s, const uint16_t *idx)
 {
     const gn_object *object = s->object;
     s->masked = GN_MASKS && frame->scene->shadow.mixing != GN_MIXING_NONE && (object->flags & GN_OBJECT_RECEIVES) &&
@@ -253,7 +253,7 @@ GN_HOT static void masks(const gn_frame *frame, gn_surface *s, const uint16_t *i
 }
 
 /* Baked irradiance at the corners. [M9] */
-GN_HOT static void baked_light(gn_surface *s, const uint16_t *idx)
+static void baked_light(gn_surface *s, const uint16_t *idx)
 {
     s->baked = GN_BAKED_LIGHT && s->object->baked_uq12 != NULL && !(s->object->flags & GN_OBJECT_UNLIT);
     for (int i = 0; s->baked && i < 3; i++) {
@@ -263,8 +263,8 @@ GN_HOT static void baked_light(gn_surface *s, const uint16_t *idx)
     }
 }
 
-GN_HOT static void attributes(const gn_frame *frame, const gn_surface_cache *cache, gn_vertex_entry *vertex,
-                              gn_surface *s, const uint16_t *idx)
+static void attributes(const gn_frame *frame, const gn_surface_cache *cache, gn_vertex_entry *vertex, gn_surface *s,
+                       const uint16_t *idx)
 {
     texture_coords(frame, s, idx);
     texture_levels(frame, s);
@@ -281,7 +281,7 @@ GN_HOT static void attributes(const gn_frame *frame, const gn_surface_cache *cac
 /* ---- Once per triangle: light ------------------------------------------------------------------------------------ */
 
 /* Light of its own, of which the texture and the vertices' colours take nothing away. [M10] */
-GN_HOT static void emitted_light(const gn_frame *frame, gn_surface *s)
+static void emitted_light(const gn_frame *frame, gn_surface *s)
 {
     const uint32_t *emissive = s->object->emissive_uq16;
 #if GN_GLOW_APART
@@ -297,7 +297,7 @@ GN_HOT static void emitted_light(const gn_frame *frame, gn_surface *s)
 }
 
 /* Albedo times ambient and light colours, and everything that a constant normal lets precompute. */
-GN_HOT static void begin_lighting(const gn_frame *frame, const gn_surface_cache *cache, gn_surface *s)
+static void begin_lighting(const gn_frame *frame, const gn_surface_cache *cache, gn_surface *s)
 {
     const gn_scene *scene = frame->scene;
     int unlit = without_light(frame, s);
@@ -320,7 +320,7 @@ GN_HOT static void begin_lighting(const gn_frame *frame, const gn_surface_cache 
     gn_surface_shadows(frame, s);
 }
 
-GN_HOT static void use_object(const gn_frame *frame, gn_surface_cache *cache, const gn_object *object)
+static void use_object(const gn_frame *frame, gn_surface_cache *cache, const gn_object *object)
 {
     if (cache->object == object) return;
     cache->object = object;
@@ -333,8 +333,8 @@ GN_HOT static void use_object(const gn_frame *frame, gn_surface_cache *cache, co
 }
 
 /* A vertex whose transform or position is too large for the fast path. The cache's entry may be a normal. */
-GN_HOT static GN_NOINLINE void slow_vertex(int32_t out_q16[3], const gn_frame *frame, gn_scratch *scratch,
-                                           const gn_tri_source *tri, uint32_t vertex_idx)
+static GN_NOINLINE void slow_vertex(int32_t out_q16[3], const gn_frame *frame, gn_scratch *scratch,
+                                    const gn_tri_source *tri, uint32_t vertex_idx)
 {
     const gn_object *object = &frame->scene->objects[tri->object_idx];
     gn_vertex_entry *entry = &scratch->vertex[gn_vertex_slot(vertex_idx, GN_VERTEX_CACHE - 1)];
@@ -348,7 +348,7 @@ GN_HOT static GN_NOINLINE void slow_vertex(int32_t out_q16[3], const gn_frame *f
 #if GN_ORTHOGRAPHIC
 /* Barycentrics are linear on the screen, and so is depth. The face turns its back where n does, wherever the eye. [R10]
  */
-GN_HOT static void flat_plane(const gn_frame *frame, gn_surface *s, int32_t (*v)[3])
+static void flat_plane(const gn_frame *frame, gn_surface *s, int32_t (*v)[3])
 {
     int32_t flat[3][3];
     gn_plane *plane = &s->plane;
@@ -366,7 +366,7 @@ GN_HOT static void flat_plane(const gn_frame *frame, gn_surface *s, int32_t (*v)
 #endif
 
 /* Depth and barycentrics of pixels. */
-GN_HOT static void find_depth(const gn_frame *frame, gn_surface *s, int32_t (*v)[3])
+static void find_depth(const gn_frame *frame, gn_surface *s, int32_t (*v)[3])
 {
     if (GN_FLAT_Q16(frame)) return;
     if (s->plane.det > 0)
@@ -376,9 +376,8 @@ GN_HOT static void find_depth(const gn_frame *frame, gn_surface *s, int32_t (*v)
 }
 
 /* A vertex in view space. */
-GN_HOT static inline void find_vertex(const gn_frame *frame, gn_scratch *scratch, const gn_surface_cache *cache,
-                                      const gn_surface *s, const gn_tri_source *tri, uint32_t vertex_idx,
-                                      int32_t out_q16[3])
+static inline void find_vertex(const gn_frame *frame, gn_scratch *scratch, const gn_surface_cache *cache,
+                               const gn_surface *s, const gn_tri_source *tri, uint32_t vertex_idx, int32_t out_q16[3])
 {
     if (GN_SIZE_FIRST || GN_SKIN(s->object))
         gn_setup_vertex(out_q16, scratch->vertex, &cache->by.to_view, s->object, tri->object_idx, vertex_idx);
@@ -386,8 +385,8 @@ GN_HOT static inline void find_vertex(const gn_frame *frame, gn_scratch *scratch
         slow_vertex(out_q16, frame, scratch, tri, vertex_idx);
 }
 
-GN_HOT void gn_surface_place(const gn_frame *frame, gn_scratch *scratch, gn_surface_cache *cache, gn_surface *s,
-                             const gn_tri_source *tri)
+void gn_surface_place(const gn_frame *frame, gn_scratch *scratch, gn_surface_cache *cache, gn_surface *s,
+                      const gn_tri_source *tri)
 {
     GN_COUNT(surfaces, 1);
     s->object = &frame->scene->objects[tri->object_idx];
@@ -409,8 +408,8 @@ GN_HOT void gn_surface_place(const gn_frame *frame, gn_scratch *scratch, gn_surf
 }
 
 #if GN_INTERPOLATES
-GN_HOT void gn_surface_extend(const gn_frame *frame, gn_scratch *scratch, const gn_surface_cache *cache, gn_surface *s,
-                              const gn_tri_source *tri, uint32_t vertex_idx)
+void gn_surface_extend(const gn_frame *frame, gn_scratch *scratch, const gn_surface_cache *cache, gn_surface *s,
+                       const gn_tri_source *tri, uint32_t vertex_idx)
 {
     int32_t v[3];
     find_vertex(frame, scratch, cache, s, tri, vertex_idx, v);
@@ -421,8 +420,8 @@ GN_HOT void gn_surface_extend(const gn_frame *frame, gn_scratch *scratch, const 
 }
 #endif
 
-GN_HOT void gn_surface_begin(const gn_frame *frame, gn_scratch *scratch, const gn_surface_cache *cache, gn_surface *s,
-                             const gn_tri_source *tri)
+void gn_surface_begin(const gn_frame *frame, gn_scratch *scratch, const gn_surface_cache *cache, gn_surface *s,
+                      const gn_tri_source *tri)
 {
     const uint16_t *idx = s->object->mesh->idx + 3 * (size_t)tri->triangle_idx;
     int32_t(*v)[3] = s->v_q16;
@@ -446,7 +445,7 @@ GN_HOT void gn_surface_begin(const gn_frame *frame, gn_scratch *scratch, const g
 }
 
 #if GN_INTERPOLATES
-GN_HOT void gn_surface_use_bary(const gn_frame *frame, gn_surface *s)
+void gn_surface_use_bary(const gn_frame *frame, gn_surface *s)
 {
     find_depth(frame, s, s->v_q16);
 }

@@ -6,7 +6,7 @@
 #include "shade/gn_surface.h"
 #include "shadow/gn_filter.h"
 
-GN_HOT static void list_light(const gn_frame *frame, gn_surface *s, uint32_t light_idx)
+static void list_light(const gn_frame *frame, gn_surface *s, uint32_t light_idx)
 {
     s->light[s->n_lights].state = &frame->light[light_idx];
     s->light[s->n_lights++].idx = light_idx;
@@ -14,7 +14,7 @@ GN_HOT static void list_light(const gn_frame *frame, gn_surface *s, uint32_t lig
 
 #if GN_PUNCTUAL_LIGHTS
 /* Whether a light can affect the triangle: not from behind a flat one, and not from beyond the light's range. */
-GN_HOT static int reaches(const gn_surface *s, const gn_light_state *light)
+static int reaches(const gn_surface *s, const gn_light_state *light)
 {
     if (!GN_SMOOTH(s)) {
         int64_t side = 0; /* n points away from the viewer: negative is in front */
@@ -38,7 +38,7 @@ GN_HOT static int reaches(const gn_surface *s, const gn_light_state *light)
     return d2 < light->range2_q32;
 }
 
-GN_HOT static void add_punctual(const gn_frame *frame, const gn_surface_cache *cache, gn_surface *s, uint32_t light_idx)
+static void add_punctual(const gn_frame *frame, const gn_surface_cache *cache, gn_surface *s, uint32_t light_idx)
 {
     if (GN_TILE_LIGHTS && !(cache->lights >> light_idx & 1U)) return;
     if (s->n_lights == GN_SURFACE_LIGHTS || !reaches(s, &frame->light[light_idx])) return;
@@ -47,7 +47,7 @@ GN_HOT static void add_punctual(const gn_frame *frame, const gn_surface_cache *c
 }
 
 /* The object's light list, or all lights if it has none. [P9] */
-GN_HOT static void punctual_lights(const gn_frame *frame, const gn_surface_cache *cache, gn_surface *s)
+static void punctual_lights(const gn_frame *frame, const gn_surface_cache *cache, gn_surface *s)
 {
     const gn_object_state *object = &frame->object[s->object - frame->scene->objects];
     if (object->n_lights != GN_OBJECT_LIGHTS_ALL) {
@@ -58,7 +58,7 @@ GN_HOT static void punctual_lights(const gn_frame *frame, const gn_surface_cache
         if (frame->light[l].kind != GN_LIGHT_DIRECTIONAL && !frame->light[l].off) add_punctual(frame, cache, s, l);
 }
 #else
-GN_HOT static void punctual_lights(const gn_frame *frame, const gn_surface_cache *cache, gn_surface *s)
+static void punctual_lights(const gn_frame *frame, const gn_surface_cache *cache, gn_surface *s)
 {
     (void)frame, (void)cache, (void)s;
 }
@@ -69,7 +69,7 @@ GN_HOT static void punctual_lights(const gn_frame *frame, const gn_surface_cache
 #define GN_GRAZING_Q24 8
 
 /* n . L at the vertices, clamped at 0. Returns 0 if it is above 0 nowhere. */
-GN_HOT static int vertex_cosines(const gn_surface *s, const gn_light_state *light, int32_t out_q24[3])
+static int vertex_cosines(const gn_surface *s, const gn_light_state *light, int32_t out_q24[3])
 {
     int32_t any = 0, at[3];
     GN_UNROLL
@@ -85,7 +85,7 @@ GN_HOT static int vertex_cosines(const gn_surface *s, const gn_light_state *ligh
     return any;
 }
 
-GN_HOT static void directional_lights(const gn_frame *frame, gn_surface *s)
+static void directional_lights(const gn_frame *frame, gn_surface *s)
 {
     for (uint32_t l = 0; l < frame->scene->n_lights; l++) {
         const gn_light_state *light = &frame->light[l];
@@ -100,7 +100,7 @@ GN_HOT static void directional_lights(const gn_frame *frame, gn_surface *s)
     }
 }
 
-GN_HOT void gn_surface_list_lights(const gn_frame *frame, const gn_surface_cache *cache, gn_surface *s)
+void gn_surface_list_lights(const gn_frame *frame, const gn_surface_cache *cache, gn_surface *s)
 {
     directional_lights(frame, s);
     punctual_lights(frame, cache, s);
@@ -114,7 +114,7 @@ GN_HOT void gn_surface_list_lights(const gn_frame *frame, const gn_surface_cache
 
 /* Curved surfaces: with this the interpolated normal has a part of 1 or more along the face's everywhere. If a corner's
  * normal is too far from the face's, only the face's is used. [B6] */
-GN_HOT static void lift_normal(gn_surface *s)
+static void lift_normal(gn_surface *s)
 {
     int32_t least = -4; /* Q28; roundings */
     GN_UNROLL
@@ -131,7 +131,7 @@ GN_HOT static void lift_normal(gn_surface *s)
 #endif
 
 /* A light's bias over the surface, once per surface: the face's normal, a directional light's offset. */
-GN_HOT static void bias(const gn_frame *frame, gn_surface *s, uint32_t slot)
+static void bias(const gn_frame *frame, gn_surface *s, uint32_t slot)
 {
     const gn_light_state *light = s->light[slot].state;
     const gn_light_view *view = &frame->view[light->view_idx];
@@ -154,7 +154,7 @@ GN_HOT static void bias(const gn_frame *frame, gn_surface *s, uint32_t slot)
         gn_bias_directional(frame, view, s->normal_q30[0], s->light[slot].flat_offset_q16);
 }
 
-GN_HOT void gn_surface_shadows(const gn_frame *frame, gn_surface *s)
+void gn_surface_shadows(const gn_frame *frame, gn_surface *s)
 {
     if (!(s->object->flags & GN_OBJECT_RECEIVES) || s->object->flags & GN_OBJECT_UNLIT) return;
     for (uint32_t i = 0; i < s->n_lights; i++) {
@@ -164,7 +164,7 @@ GN_HOT void gn_surface_shadows(const gn_frame *frame, gn_surface *s)
     }
 }
 #else
-GN_HOT void gn_surface_shadows(const gn_frame *frame, gn_surface *s)
+void gn_surface_shadows(const gn_frame *frame, gn_surface *s)
 {
     (void)frame, (void)s;
 }

@@ -107,7 +107,7 @@ figures() { # figures CORE CONFIGURATION
         awk -v f="fault $1 $2 $fault" -v fault="$fault" '$1 == fault { n++ } END { print f, n + 0 }' "$dir/graph"
     done
     # what calls through a pointer, but for the callbacks of the caller
-    awk -v f="fault $1 $2 pointers" '$1 == "indirect" && $2 !~ /^(flush_tile|draw_tile|draw_behind|clear_background|screen_tile|gn_shade_tile|gn_screen_tile|gn_render)/ { n++ } END { print f, n + 0 }' "$dir/graph"
+    awk -v f="fault $1 $2 pointers" '$1 == "indirect" && $2 !~ /^(flush_tile|draw_tile|draw_over|draw_behind|clear_background|screen_tile|gn_shade_tile|gn_screen_tile|gn_render)/ { n++ } END { print f, n + 0 }' "$dir/graph"
     awk -v f="fault $1 $2 soft-float" '$3 ~ /^__(aeabi_[fd]|[a-z]*[sd]f[23]?$|[a-z]*(add|sub|mul|div|neg|cmp)[sd]f)/ { n++ } END { print f, n + 0 }' "$dir/symbols"
     awk -v f="fault $1 $2 malloc" '$3 ~ /^(malloc|calloc|realloc|free|_sbrk|sbrk)$/ { n++ } END { print f, n + 0 }' "$dir/symbols"
     slow_divisions "$1" "$2"
