@@ -183,7 +183,7 @@ GN_HOT static void shade_triangle(gn_shading *s, const char *sources, uint32_t a
     gn_surface_begin(frame, s->scratch, &s->cache, &s->surface, s->tri);
     if (GN_INTERPOLATES) { /* with those that were joined */
         gn_runs_begin(&taker, s->scratch, id);
-        if (!gn_runs_take(&taker, stride)) return; /* not so */
+        if (!gn_runs_take(&taker, stride)) return; /* does not happen: it has some */
     }
     const int constant = gn_surface_is_constant(&s->surface) && frame->picture.format != GN_FORMAT_RAW32;
     if (constant || is_exact(s)) shade_runs(s, &taker, constant);
