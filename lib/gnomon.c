@@ -141,12 +141,12 @@
 #include "shade/gn_exact.c"
 #include "shade/gn_facet.c"
 #include "shade/gn_facet_draw.c"
-#include "shade/gn_join.c"
 #include "shade/gn_facet_punctual.c"
 #include "shade/gn_facet_screen.c"
 #include "shade/gn_facet_shadow.c"
 #include "shade/gn_facet_specular.c"
 #include "shade/gn_facet_texture.c"
+#include "shade/gn_join.c"
 #if GN_INTERPOLATES
 #include "shade/gn_corner.c"
 #include "shade/gn_corner_cascade.c"

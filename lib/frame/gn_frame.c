@@ -205,9 +205,8 @@ static GN_NOINLINE gn_status flush_tile(const gn_frame *frame, gn_scratch *scrat
     return frame->stage == stage ? GN_OK : GN_ERR_REENTERED;
 }
 
-/* The finished tile, with the caller's drawing over it. [R11] */
 #if GN_TILE_DRAWING
-/* What the caller draws over the scene. */
+/* What the caller draws over the scene. [R11] */
 static GN_NOINLINE void draw_over(const gn_frame *frame, gn_scratch *scratch, uint32_t tile_idx)
 {
     const gn_scene *scene = frame->scene;
@@ -218,6 +217,7 @@ static GN_NOINLINE void draw_over(const gn_frame *frame, gn_scratch *scratch, ui
 }
 #endif
 
+/* The finished tile, with that. */
 static void draw_tile(const gn_frame *frame, gn_scratch *scratch, uint32_t tile_idx)
 {
     gn_shade_tile(frame, scratch, tile_idx);

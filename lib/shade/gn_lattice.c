@@ -139,13 +139,11 @@ GN_HOT static int next_quarter(gn_shading *s, gn_split_cell *split, int32_t *x, 
 GN_HOT static void shade_cell(gn_shading *s, int32_t x, int32_t y, int32_t size_log2)
 {
     gn_split_cell *split = s->lattice.split;
-    gn_corner *const *corner = s->lattice.cell_corner;
     int depth = 0;
     find_corners(s, x, y, size_log2);
     for (;;) {
         GN_COUNT(cells, 1);
-        if (gn_lattice_look_at(&s->lattice, s->frame, &s->surface, corner, size_log2))
-            gn_lattice_draw(s, x, y, size_log2, corner);
+        if (gn_lattice_look_at(&s->lattice, s->frame, &s->surface, size_log2)) gn_lattice_draw(s, x, y, size_log2);
         else if (size_log2 > GN_SMALLEST_CELL_LOG2) {
             GN_COUNT(cells_split, 1);
             split[depth++] = (gn_split_cell){(int16_t)x, (int16_t)y, (uint8_t)size_log2, 0};

@@ -14,7 +14,7 @@ void gn_lattice_shade(gn_shading *s);
 void gn_lattice_begin_tile(gn_shading *s);
 
 /* Draws the pixels of a cell that its look is known of: gn_lattice_draw.c. */
-void gn_lattice_draw(gn_shading *s, int32_t x, int32_t y, int32_t size_log2, gn_corner *const corner[4]);
+void gn_lattice_draw(gn_shading *s, int32_t x, int32_t y, int32_t size_log2);
 
 /* Pixels of the part in a row of a cell. */
 GN_HOT static inline uint32_t gn_lattice_bits(const gn_lattice *l, int32_t x, int32_t y, int32_t size_log2)

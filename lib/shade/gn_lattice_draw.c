@@ -458,7 +458,7 @@ GN_HOT static void draw_nodes(gn_drawing *d)
     gn_levels_forget(l); /* nodes took their place */
 }
 
-GN_HOT void gn_lattice_draw(gn_shading *s, int32_t x, int32_t y, int32_t size_log2, gn_corner *const corner[4])
+GN_HOT void gn_lattice_draw(gn_shading *s, int32_t x, int32_t y, int32_t size_log2)
 {
     gn_lattice *l = &s->lattice;
     const gn_lattice_look *look = &l->look;
@@ -479,12 +479,10 @@ GN_HOT void gn_lattice_draw(gn_shading *s, int32_t x, int32_t y, int32_t size_lo
     d->n = ((31 - gn_clz32(any) - d->first) >> spacing_log2) + 1 + (spacing_log2 > 0);
 #if GN_TEXTURES
     if (s->surface.textured) {
-        for (int32_t next = 0; gn_lattice_textures_begin(s, x, y, size_log2, corner, next, &d->textures); next++)
-            draw_nodes(d);
+        for (int32_t next = 0; gn_lattice_textures_begin(s, x, y, size_log2, next, &d->textures); next++) draw_nodes(d);
         return;
     }
 #endif
-    (void)corner;
     draw_nodes(d);
 }
 

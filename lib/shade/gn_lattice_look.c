@@ -349,13 +349,13 @@ GN_HOT static int fading_of(const gn_frame *frame, gn_corner *const corner[4])
 
 /* Returns 0 if the cell is too steep or its textures too uneven. */
 GN_HOT static GN_NOINLINE int begin_look(gn_lattice *lattice, const gn_frame *frame, const gn_surface *surface,
-                                         gn_corner *const corner[4], int32_t size_log2)
+                                         int32_t size_log2)
 {
+    gn_corner *const *corner = lattice->cell_corner;
     gn_lattice_look *look = &lattice->look;
     gn_lattice_cell *cell = &lattice->by.look.cell;
-    gn_wanted_window *ask = &lattice->by.look.ask;
-    *ask = (gn_wanted_window){-1, 0, 0};
-    *cell = (gn_lattice_cell){lattice, frame, surface, corner, size_log2, {0, 0}, 1, 0, 0, 0, look, ask};
+    lattice->by.look.ask = (gn_wanted_window){-1, 0, 0};
+    *cell = (gn_lattice_cell){lattice, frame, surface, corner, size_log2, {0, 0}, 1, 0, 0, 0, look};
     if (!gn_cell_find_bend(cell) || !gn_cell_textures_hold(cell) || !gn_cell_masks_hold(cell)) return 0;
     if (surface->n_lights) cell->near = fading_of(frame, corner);
 #if GN_SHADOWS
@@ -393,16 +393,16 @@ GN_HOT static GN_NOINLINE int end_look(const gn_lattice_cell *cell)
 }
 
 /* Windows are made here, where there is more stack. */
-GN_HOT int gn_lattice_look_at(gn_lattice *lattice, const gn_frame *frame, const gn_surface *surface,
-                              gn_corner *const corner[4], int32_t size_log2)
+GN_HOT int gn_lattice_look_at(gn_lattice *lattice, const gn_frame *frame, const gn_surface *surface, int32_t size_log2)
 {
     gn_lattice_cell *cell = &lattice->by.look.cell;
     gn_wanted_window *ask = &lattice->by.look.ask;
-    if (!begin_look(lattice, frame, surface, corner, size_log2)) return 0;
+    if (!begin_look(lattice, frame, surface, size_log2)) return 0;
     for (uint32_t slot = 0; (slot = add_lights(cell, slot)) < surface->n_lights; ask->slot = -1) {
         if (ask->slot < 0) return 0;
 #if GN_SHADOWS
-        gn_lattice_window(lattice, frame, surface, (uint32_t)ask->slot, ask->view_idx, corner[0]->x, corner[0]);
+        const gn_corner *first = lattice->cell_corner[0];
+        gn_lattice_window(lattice, frame, surface, (uint32_t)ask->slot, ask->view_idx, first->x, first);
 #endif
     }
     return end_look(cell);

@@ -6,10 +6,9 @@
 
 #if GN_INTERPOLATES
 
-/* Corners: upper left, upper right, lower left, lower right, 2^size_log2 pixels apart. Fills lattice->look; returns 0
- * if the cell is too uneven to be interpolated: it is to be split. */
-int gn_lattice_look_at(gn_lattice *lattice, const gn_frame *frame, const gn_surface *surface,
-                       gn_corner *const corner[4], int32_t size_log2);
+/* Looks at the cell whose corners, 2^size_log2 pixels apart, are in cell_corner. Fills lattice->look; returns 0 if the
+ * cell is too uneven to be interpolated: it is to be split. */
+int gn_lattice_look_at(gn_lattice *lattice, const gn_frame *frame, const gn_surface *surface, int32_t size_log2);
 
 /* Where the pixels of an edge are seen: between the cell's corners; between the ends of each row; each for itself, in
  * its own face of a point light. And a flag: pixels that are not in this face are in that of the next edge. */

@@ -120,10 +120,11 @@ GN_HOT static int find_window(const gn_lattice_cell *cell, uint32_t slot, const 
         return 1;
     }
     int taken = window->view && x < window->until_x; /* by that of another view */
-    if (taken || cell->ask->asked & asked) return 1;
-    cell->ask->asked |= asked;
-    cell->ask->slot = (int32_t)slot;
-    cell->ask->view_idx = p->view_idx;
+    gn_wanted_window *ask = &cell->lattice->by.look.ask;
+    if (taken || ask->asked & asked) return 1;
+    ask->asked |= asked;
+    ask->slot = (int32_t)slot;
+    ask->view_idx = p->view_idx;
     return 0;
 }
 
@@ -411,7 +412,7 @@ GN_HOT static int add_of_several(const gn_lattice_cell *cell, uint32_t slot, con
     if (blend != GN_BLEND_HARD) return 0; /* each pixel has its own */
 #if GN_PUNCTUAL_LIGHTS || GN_MANY_CASCADES
     if (add_two(cell, slot, light, views, p)) return 1;
-    if (cascaded || cell->size_log2 > 2 || cell->ask->slot >= 0) return 0;
+    if (cascaded || cell->size_log2 > 2 || cell->lattice->by.look.ask.slot >= 0) return 0;
     p->bent = GN_PLACES_LONE;
     return add_edge(cell, slot, p, light, light->more_uq16);
 #else

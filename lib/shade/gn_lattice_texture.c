@@ -185,9 +185,10 @@ GN_HOT static void begin_glow(gn_shading *s, int32_t x, int32_t y, int32_t size_
 }
 #endif
 
-GN_HOT int gn_lattice_textures_begin(gn_shading *s, int32_t x, int32_t y, int32_t size_log2, gn_corner *const corner[4],
-                                     int32_t pass, gn_cell_textures *out)
+GN_HOT int gn_lattice_textures_begin(gn_shading *s, int32_t x, int32_t y, int32_t size_log2, int32_t pass,
+                                     gn_cell_textures *out)
 {
+    gn_corner *const *corner = s->lattice.cell_corner;
     uint32_t last = 0;
 #if GN_MIPMAPS
     last = out->level_ends = s->lattice.look.level_ends;

@@ -17,8 +17,8 @@ void gn_lattice_texture_line(const gn_texture_patch *patch, const gn_texture *te
                              int32_t first, gn_texture_line *line);
 
 /* The same of all textures, pass by pass from 0 on: one per level that the cell shows. Returns 0 beyond the last. */
-int gn_lattice_textures_begin(gn_shading *shading, int32_t x, int32_t y, int32_t size_log2, gn_corner *const corner[4],
-                              int32_t pass, gn_cell_textures *out);
+int gn_lattice_textures_begin(gn_shading *shading, int32_t x, int32_t y, int32_t size_log2, int32_t pass,
+                              gn_cell_textures *out);
 
 /* Where the line finds colours of the textures. */
 void gn_lattice_textures_line(gn_lattice *lattice, const gn_cell_textures *textures, gn_pixel_line *line);

@@ -162,7 +162,6 @@ typedef struct {
     uint64_t error_q24;   /* of interpolated light, at most */
     uint64_t kink_q24;    /* the part of it that comes from where a light ends */
     gn_lattice_look *out;
-    gn_wanted_window *ask;
 } gn_lattice_cell;
 
 #if GN_SHADOWS
@@ -331,7 +330,7 @@ typedef struct gn_lattice {
     uint32_t next_corner;                  /* to be replaced */
     uint8_t corner_at[8][8];               /* which of them is that of a pixel, by bits of y and x */
     gn_split_cell split[2];                /* of 16 and 8 pixels, one in the other */
-    gn_corner *cell_corner[4];             /* of the cell at hand */
+    gn_corner *cell_corner[4];             /* of the cell at hand: upper left, upper right, lower left, lower right */
 #if GN_SHADOWS
     gn_window window[GN_WINDOWS];
 #endif

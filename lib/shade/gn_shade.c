@@ -9,11 +9,11 @@
 #include "base/gn_q.h"
 #include "light/gn_punctual.h"
 #include "shade/gn_exact.h"
+#include "shade/gn_join.h"
 #include "shade/gn_lattice.h"
 #include "shade/gn_light.h"
 #include "shade/gn_mix.h"
 #include "shade/gn_part.h"
-#include "shade/gn_join.h"
 #include "shade/gn_pixel.h"
 #include "visible/gn_cell.h"
 #include "visible/gn_layers.h"
@@ -140,7 +140,7 @@ GN_HOT static int is_large(const gn_frame *frame, const gn_surface *s)
     const uint32_t w = (uint32_t)s->hi_q16[0] - (uint32_t)s->lo_q16[0],
                    h = (uint32_t)s->hi_q16[1] - (uint32_t)s->lo_q16[1];
     const uint64_t z = (uint32_t)(GN_FLAT_Q16(frame) ? GN_FLAT_Q16(frame) : s->hi_q16[2]);
-    return (uint64_t)(w > h ? w : h) * (frame->cam.focal2_px_q16 >> 8) >> 9 > z * GN_JOIN_PX;
+    return (uint64_t)(w > h ? w : h) * (frame->cam.focal2_px_q16 >> 8) >> 9 > z * GN_JOIN_PX; /* 2^31 * 2^24 */
 }
 
 /* Takes the runs of triangles behind it in the tile's list that are one surface with it. */
@@ -176,6 +176,7 @@ GN_HOT static void shade_triangle(gn_shading *s, const char *sources, uint32_t a
     const uint32_t stride = (uint32_t)GN_K(frame, tile_width);
     gn_run_taker taker;
     gn_runs_begin(&taker, s->scratch, id);
+    /* others are joined before its first run is taken */
     if (GN_INTERPOLATES ? !gn_runs_any(s->scratch, id) : !gn_runs_take(&taker, stride)) return;
     s->tri = gn_cell_source(frame, sources, id);
     gn_surface_place(frame, s->scratch, &s->cache, &s->surface, s->tri);
