@@ -55,12 +55,19 @@
 #define GN_SHARED inline
 #endif
 
-/* Whether the core has a divide instruction: the only property of the core that the library tests. */
+/* What the library asks of the core: whether it divides, and whether it multiplies two words to a double one. */
 #ifndef GN_CORE_DIVIDES
 #if defined(__ARM_FEATURE_IDIV) || defined(__riscv_div)
 #define GN_CORE_DIVIDES 1
 #else
 #define GN_CORE_DIVIDES 0
+#endif
+#endif
+#ifndef GN_CORE_LONG_PRODUCTS
+#if defined(__ARM_ARCH_6M__)
+#define GN_CORE_LONG_PRODUCTS 0
+#else
+#define GN_CORE_LONG_PRODUCTS 1
 #endif
 #endif
 

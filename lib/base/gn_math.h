@@ -42,7 +42,7 @@ uint32_t gn_recip_norm(uint32_t m, int32_t newton_steps);
  * truncation, so only x near 1/2 reaches 2^32. */
 GN_HOT static inline uint32_t gn_recip_step(uint32_t m, uint32_t y)
 {
-    uint32_t two_minus_xy = 0U - (uint32_t)(((uint64_t)m * y) >> 32); /* Q1.31, near 1: xy is within 2^-8 of 1 */
+    uint32_t two_minus_xy = 0U - gn_umul_high(m, y); /* Q1.31, near 1: xy is within 2^-8 of 1 */
     uint64_t better = (uint64_t)y * two_minus_xy;
     return better >> 63 ? UINT32_MAX : (uint32_t)(better >> 31);
 }
@@ -51,11 +51,11 @@ GN_HOT static inline uint32_t gn_recip_step(uint32_t m, uint32_t y)
 GN_HOT static inline uint32_t gn_recip_norm2_inline(uint32_t m)
 {
     uint32_t y = (uint32_t)gn_recip_table[(m >> 23) & 255U] << 16,
-             two_minus_xy = 0U - (uint32_t)(((uint64_t)m * y) >> 32);
+             two_minus_xy = 0U - gn_umul_high(m, y);
     /* the first step ends below 2^32: the entry for x next to 1/2 is too far from 2 */
     y = (uint32_t)(((uint64_t)y * two_minus_xy) >> 31);
     GN_KEEP(y); /* 32 bits, of which it knows */
-    two_minus_xy = 0U - (uint32_t)(((uint64_t)m * y) >> 32);
+    two_minus_xy = 0U - gn_umul_high(m, y);
     uint64_t better = (uint64_t)y * two_minus_xy;
     y = (uint32_t)(better >> 31) | (uint32_t)((int32_t)(better >> 32) >> 31); /* UINT32_MAX from 2^32 on */
     GN_KEEP(y);

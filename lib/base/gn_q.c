@@ -54,3 +54,19 @@ GN_HOT GN_NOINLINE uint64_t gn_far_signature_add(uint64_t signature, uint64_t wo
 {
     return gn_signature_add_inline(signature, word);
 }
+
+/* By halves: what is above the lower product's upper half carries. */
+GN_HOT GN_NOINLINE int32_t gn_far_mul_high(int32_t a, int32_t b)
+{
+    const int32_t a_low = a & 0xFFFF, b_low = b & 0xFFFF, a_high = a >> 16, b_high = b >> 16;
+    const int32_t one = a_high * b_low + (int32_t)((uint32_t)a_low * (uint32_t)b_low >> 16),
+                  other = (one & 0xFFFF) + a_low * b_high;
+    return a_high * b_high + (one >> 16) + (other >> 16);
+}
+
+GN_HOT GN_NOINLINE uint32_t gn_far_umul_high(uint32_t a, uint32_t b)
+{
+    const uint32_t a_low = a & 0xFFFFU, b_low = b & 0xFFFFU, a_high = a >> 16, b_high = b >> 16;
+    const uint32_t one = a_high * b_low + (a_low * b_low >> 16), other = (one & 0xFFFFU) + a_low * b_high;
+    return a_high * b_high + (one >> 16) + (other >> 16);
+}

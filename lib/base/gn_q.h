@@ -118,6 +118,8 @@ int64_t gn_far_scale64(int64_t v, int32_t s);
 int32_t gn_far_mul_shr(int32_t a, int32_t b, int32_t s);
 int32_t gn_far_mul_q30(int32_t a, int32_t b);
 uint64_t gn_far_abs64(int64_t v);
+int32_t gn_far_mul_high(int32_t a, int32_t b);
+uint32_t gn_far_umul_high(uint32_t a, uint32_t b);
 #if GN_SIZE_FIRST && defined(__GNUC__)
 #define GN_IS_INT32_(v) (__builtin_constant_p(v) && (v) >= INT32_MIN && (v) <= INT32_MAX)
 
@@ -148,7 +150,8 @@ GN_INLINE int64_t gn_shr64(int64_t v, int32_t s)
 #define gn_abs64   gn_abs64_inline
 #endif
 
-/* The upper half of a product. */
+/* The upper half of a product. Without long products a function, which takes fewer of its parts than the compiler's. */
+#if GN_CORE_LONG_PRODUCTS
 GN_HOT static inline int32_t gn_mul_high(int32_t a, int32_t b)
 {
     return (int32_t)((int64_t)a * b >> 32);
@@ -158,11 +161,30 @@ GN_HOT static inline uint32_t gn_umul_high(uint32_t a, uint32_t b)
 {
     return (uint32_t)((uint64_t)a * b >> 32);
 }
+#else
+#define gn_mul_high  gn_far_mul_high
+#define gn_umul_high gn_far_umul_high
+#endif
 
-/* round(a * b / 2^16) of unsigned fractions; the result fits. */
-GN_HOT static inline uint32_t gn_mul_uq16(uint32_t a, uint32_t b)
+/* floor(v * share / 2^16), share at most 1: two short products do as well. */
+GN_HOT static inline uint32_t gn_mul_share(uint32_t v, uint32_t share_uq16)
 {
-    return (uint32_t)(((uint64_t)a * b + 0x8000U) >> 16);
+    if (GN_CORE_LONG_PRODUCTS) return (uint32_t)((uint64_t)v * share_uq16 >> 16);
+    return (v >> 16) * share_uq16 + ((v & 0xFFFFU) * share_uq16 >> 16);
+}
+
+/* round(v * share / 2^16), likewise. */
+GN_HOT static inline uint32_t gn_mul_uq16(uint32_t v, uint32_t share_uq16)
+{
+    if (GN_CORE_LONG_PRODUCTS) return (uint32_t)(((uint64_t)v * share_uq16 + 0x8000U) >> 16);
+    return (v >> 16) * share_uq16 + (((v & 0xFFFFU) * share_uq16 + 0x8000U) >> 16);
+}
+
+/* floor(v * share / 2^17), share below 1. */
+GN_HOT static inline int32_t gn_mul_half_share(int32_t v, uint32_t share_uq16)
+{
+    if (GN_CORE_LONG_PRODUCTS) return gn_mul_high(v, (int32_t)(share_uq16 << 15));
+    return ((v >> 16) * (int32_t)share_uq16 + (int32_t)(((uint32_t)v & 0xFFFFU) * share_uq16 >> 16)) >> 1;
 }
 
 #endif

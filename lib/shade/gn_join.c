@@ -132,27 +132,39 @@ int gn_join_may(const gn_frame *frame, const gn_tri_source *tri)
            same_normal(object->mesh, p[0], p[1]) && same_normal(object->mesh, p[0], p[2]);
 }
 
+/* The edge a, b that both have, the other way round, and the vertices opposite: c of p, d of q. Returns 0 if they have
+ * none. */
+static int find_shared_edge(const uint16_t *p, const uint16_t *q, corners *v)
+{
+    static const uint8_t next[3] = {1, 2, 0};
+    for (int k = 0; k < 3; k++) {
+        const uint16_t a = p[next[k]], b = p[next[next[k]]];
+        for (int m = 0; m < 3; m++)
+            if (q[m] == b && q[next[m]] == a) {
+                *v = (corners){a, b, p[k], q[next[next[m]]]};
+                return 1;
+            }
+    }
+    return 0;
+}
+
 int32_t gn_join_vertex(const gn_frame *frame, const gn_tri_source *first, const gn_tri_source *last,
                        const gn_tri_source *next)
 {
     const gn_object *object = &frame->scene->objects[first->object_idx];
+    corners v;
     if (next->object_idx != first->object_idx) return GN_JOIN_NONE;
     if (next->triangle_idx == last->triangle_idx) return GN_JOIN_SAME;
     if (next->triangle_idx != last->triangle_idx + 1U) return GN_JOIN_NONE;
     const uint16_t *idx = object->mesh->idx, *p = idx + 3 * (size_t)last->triangle_idx, *q = p + 3;
-    for (int k = 0; k < 3; k++)
-        for (int m = 0; m < 3; m++) { /* the edge that both have, the other way round */
-            const uint16_t a = p[(k + 1) % 3], b = p[(k + 2) % 3], d = q[(m + 2) % 3];
-            const corners v = {a, b, p[k], d};
-            if (q[m] != b || q[(m + 1) % 3] != a) continue;
-            const uint16_t *root = idx + 3 * (size_t)first->triangle_idx;
-            if (!same_normal(object->mesh, root[0], d)) return GN_JOIN_NONE;
-            if (root == p && is_parallelogram(object, &v)) return d;
-            return looks_even(object, root, d) && !GN_FLAT_Q16(frame) && is_on_plane(object->mesh, root, q, d)
-                       ? d
-                       : GN_JOIN_NONE;
-        }
-    return GN_JOIN_NONE;
+    if (!find_shared_edge(p, q, &v)) return GN_JOIN_NONE;
+    const uint16_t *root = idx + 3 * (size_t)first->triangle_idx;
+    const uint32_t d = (uint32_t)v.d;
+    if (!same_normal(object->mesh, root[0], d)) return GN_JOIN_NONE;
+    if (root == p && is_parallelogram(object, &v)) return (int32_t)d;
+    if (!looks_even(object, root, d) || GN_FLAT_Q16(frame) || !is_on_plane(object->mesh, root, q, d))
+        return GN_JOIN_NONE;
+    return (int32_t)d;
 }
 
 #endif

@@ -54,7 +54,7 @@ GN_HOT static GN_NOINLINE int mark(gn_lattice *l)
 
 /* A small triangle, a part, or a cell costs as much as these pixels do by themselves; a part, more where its box is
  * long. */
-enum { FEW_OF_A_FACET = 3, FEW_OF_ONE_COLOUR = 8, FEW = 20, FEW_OF_A_CELL = 5 };
+enum { FEW_OF_A_FACET = 3, FEW_OF_ONE_COLOUR = 8, FEW = 12, FEW_OF_A_CELL = 5 };
 
 /* Pixels of a cell, counted up to one more than are few. */
 GN_HOT static int32_t count_some(const gn_lattice *l, int32_t x, int32_t y, int32_t size_log2)
@@ -238,7 +238,7 @@ GN_HOT static GN_NOINLINE void shade_pixels(gn_shading *s, int exactly)
 /* Whether pixels are fewer than a part pays for. */
 GN_HOT static int are_few(const gn_lattice *l, const gn_rect *box, int32_t n_px)
 {
-    return n_px <= (l->uniform ? FEW_OF_ONE_COLOUR : FEW + ((box->x1 - box->x0 + box->y1 - box->y0) >> 1));
+    return n_px <= (l->uniform ? FEW_OF_ONE_COLOUR : FEW + ((box->x1 - box->x0 + box->y1 - box->y0) >> 2));
 }
 
 /* Shades a surface that takes no parts. Otherwise returns 1, and sets where parts are. */

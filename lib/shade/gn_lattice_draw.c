@@ -304,10 +304,9 @@ GN_HOT static GN_NOINLINE void add_edge_light(const gn_drawing *d, const gn_latt
             (*node)[1] += g >> 1;
             (*node)[2] += b >> 1;
         } else if (*share) {
-            int32_t half_q31 = (int32_t)(*share << 15);
-            (*node)[0] += gn_mul_high(r, half_q31);
-            (*node)[1] += gn_mul_high(g, half_q31);
-            (*node)[2] += gn_mul_high(b, half_q31);
+            (*node)[0] += gn_mul_half_share(r, *share);
+            (*node)[1] += gn_mul_half_share(g, *share);
+            (*node)[2] += gn_mul_half_share(b, *share);
         }
     }
 }

@@ -41,7 +41,7 @@ GN_HOT static inline uint32_t *gn_runs_first(uint32_t *last, uint32_t id_mask)
 #if GN_INTERPOLATES
 /* Makes runs of a triangle those of another one, in order; where one goes on from the other they become one. Returns 0
  * if both are in one list, and nothing is done. */
-int gn_runs_join(gn_scratch *scratch, uint32_t id, uint32_t other, uint32_t stride);
+int gn_runs_join(const gn_frame *frame, gn_scratch *scratch, uint32_t id, uint32_t other);
 #endif
 
 /* Links a run at the head of its list: runs come from the tile's last to its first, so that each list begins with what

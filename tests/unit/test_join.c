@@ -432,37 +432,39 @@ static const uint32_t run_id[RUN_IDS] = {0, 1, 2, 1 + GN_RUN_LISTS, 2 + GN_RUN_L
 /* Rows of triangles 1 .. 5, or 0; then 2 becomes 1: its runs are those of the same rows with 1 in place of 2. */
 static void test_runs(void)
 {
-    static uint32_t cell[RUNS_WIDTH * RUNS_HEIGHT];
+    static uint32_t cell[MAX_OF_KNOB(tile_width, RUNS_WIDTH) * RUNS_HEIGHT];
     gn_scratch *scratch = &renderer.scratch;
+    SET_KNOB(&renderer.frame, tile_width, RUNS_WIDTH);
+    const uint32_t width = (uint32_t)GN_K(&renderer.frame, tile_width), n_cells = width * RUNS_HEIGHT;
     for (int k = 0; k < 3000; k++) {
         const uint32_t n_ids = 3 + rng_below(&random_state, 4);
-        for (uint32_t i = 0; i < RUNS_WIDTH * RUNS_HEIGHT; i++)
+        for (uint32_t i = 0; i < n_cells; i++)
             cell[i] = i && rng_below(&random_state, 3) ? cell[i - 1] : rng_below(&random_state, n_ids);
         gn_runs_clear(scratch);
-        memset(GN_CELLS(scratch), 0, sizeof cell);
-        for (uint32_t i = RUNS_WIDTH * RUNS_HEIGHT; i > 0;) {
+        memset(GN_CELLS(scratch), 0, sizeof *cell * n_cells);
+        for (uint32_t i = n_cells; i > 0;) {
             uint32_t first = i - 1;
-            while (first % RUNS_WIDTH && cell[first - 1] == cell[i - 1]) first--;
+            while (first % width && cell[first - 1] == cell[i - 1]) first--;
             for (uint32_t j = first; j < i; j++) GN_CELLS(scratch)[j] = run_id[cell[first]];
             if (cell[first]) gn_runs_link(scratch, run_id[cell[first]], GN_CELLS(scratch) + first, i - first);
             i = first;
         }
-        if (!CHECK_EQ_INT(gn_runs_join(scratch, 1, 2, RUNS_WIDTH), 1) || !CHECK(!gn_runs_any(scratch, 2))) return;
-        for (uint32_t i = 0; i < RUNS_WIDTH * RUNS_HEIGHT; i++) cell[i] = cell[i] == 2 ? 1 : cell[i];
+        if (!CHECK_EQ_INT(gn_runs_join(&renderer.frame, scratch, 1, 2), 1) || !CHECK(!gn_runs_any(scratch, 2))) return;
+        for (uint32_t i = 0; i < n_cells; i++) cell[i] = cell[i] == 2 ? 1 : cell[i];
         for (uint32_t id = 1; id < RUN_IDS; id++) {
             gn_run_taker taker;
             gn_runs_begin(&taker, scratch, run_id[id]);
-            for (uint32_t i = 0, n; i < RUNS_WIDTH * RUNS_HEIGHT; i += n) {
-                for (n = 1; (i + n) % RUNS_WIDTH && cell[i + n] == cell[i];) n++;
+            for (uint32_t i = 0, n; i < n_cells; i += n) {
+                for (n = 1; (i + n) % width && cell[i + n] == cell[i];) n++;
                 if (cell[i] != id) continue;
-                if (!CHECK(gn_runs_take(&taker, RUNS_WIDTH)) || !CHECK_EQ_INT(taker.first, i) ||
+                if (!CHECK(gn_runs_take(&taker, width)) || !CHECK_EQ_INT(taker.first, i) ||
                     !CHECK_EQ_INT(taker.n_px, n))
                     return;
             }
-            if (!CHECK(!gn_runs_take(&taker, RUNS_WIDTH))) return;
+            if (!CHECK(!gn_runs_take(&taker, width))) return;
         }
     }
-    CHECK_EQ_INT(gn_runs_join(scratch, 1, 1 + GN_RUN_LISTS, RUNS_WIDTH), 0);
+    CHECK_EQ_INT(gn_runs_join(&renderer.frame, scratch, 1, 1 + GN_RUN_LISTS), 0);
 }
 
 int main(void)
