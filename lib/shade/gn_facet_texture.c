@@ -29,14 +29,13 @@ GN_HOT static const gn_texture *texture_of(const gn_frame *frame, gn_surface *s)
 }
 
 /* e at the vertices, by which they are nearer than the middle depth; |e| <= 1/8. */
-/* Parallel rays bend nothing. */
-GN_HOT static void find_nearness(const gn_frame *frame, const gn_surface *s, int32_t e_q27[3])
+GN_HOT static void find_nearness(const gn_surface *s, int32_t e_q27[3])
 {
     int32_t middle = s->z_min_q16 + ((s->z_max_q16 - s->z_min_q16) >> 1);
     for (int k = 0; k < 3; k++) {
         int32_t z = s->v_q16[k][2], nearer = middle - z;
         int32_t e = (int32_t)(gn_quotient_q30(gn_abs32(nearer), (uint32_t)z) >> 3);
-        e_q27[k] = GN_FLAT_Q16(frame) ? 0 : nearer < 0 ? -e : e;
+        e_q27[k] = nearer < 0 ? -e : e;
     }
 }
 
@@ -63,40 +62,63 @@ GN_HOT static uint32_t error_q17(const gn_slope *coord_q17, const gn_slope *e_q2
     return (uint32_t)(cut_off + (cut_off >> 2) + between + moved);
 }
 
-/* One axis. Returns 0 if it does not fit. */
-GN_HOT static int find_coordinate(gn_facet_texture *out, const gn_frame *frame, const gn_surface *s,
-                                  gn_facet_screen *screen, const int32_t e_q27[3], int axis, int32_t log2)
+/* Differences to vertex 0 along an axis, texels, Q17. */
+typedef struct {
+    int32_t of[3];
+    uint32_t most, range; /* the largest, and from the least to the greatest */
+} axis_changes;
+
+/* Returns 0 if they do not fit. */
+GN_HOT static int find_changes(gn_facet_texture *out, const gn_surface *s, int axis, axis_changes *change)
 {
     const int64_t size2 = 2 * (int64_t)gn_texture_size(out->texture, axis);
     const int64_t first = s->uv.uv_q16[0][axis] * size2;
-    int32_t at[3] = {0, 0, 0};
-    uint32_t most = 0, e_most = 0;
+    int32_t least = 0, greatest = 0;
     if (first >> 30 != first >> 63) return 0;
-    for (int k = 0; k < 3; k++) {
-        int64_t change = k ? s->uv.uv_q16[k][axis] * size2 : 0;
-        if (change >> CHANGE_LOG2 != change >> 63) return 0;
-        most = gn_abs32((int32_t)change) > most ? gn_abs32((int32_t)change) : most;
-        e_most = gn_abs32(e_q27[k]) > e_most ? gn_abs32(e_q27[k]) : e_most;
-        at[k] = (int32_t)(change + (change * e_q27[k] >> 27));
+    change->of[0] = 0;
+    for (int k = 1; k < 3; k++) {
+        const int64_t to = s->uv.uv_q16[k][axis] * size2;
+        if (to >> CHANGE_LOG2 != to >> 63) return 0;
+        change->of[k] = (int32_t)to;
+        least = gn_min32(least, (int32_t)to);
+        greatest = gn_max32(greatest, (int32_t)to);
     }
-    gn_slope *slope = &out->from_first_q17[axis];
-    gn_facet_slope(screen, slope, at);
+    change->most = (uint32_t)gn_max32(greatest, -least);
+    change->range = (uint32_t)(greatest - least);
     out->first_q17[axis] = (int32_t)first - (out->texture->flags & GN_TEXTURE_BILINEAR ? (1 << 16) - (1 << 8) : 0);
-    return error_q17(slope, &out->e_q27, e_most, most, log2) >> (17 - gn_cell_texture_log2(frame, out->texture)) == 0;
+    return 1;
+}
+
+/* Whether perspective bends an axis by more than half of what it may be off by: a quarter of the range times that of
+ * depths, over the least depth. */
+GN_HOT static inline int is_bent(const gn_surface *s, const axis_changes *change, uint32_t off_q17)
+{
+    return (uint64_t)change->range * (uint32_t)(s->z_max_q16 - s->z_min_q16) >
+           2 * (uint64_t)off_q17 * (uint32_t)s->z_min_q16;
 }
 
 GN_HOT int gn_facet_texture_begin(gn_facet_texture *out, const gn_frame *frame, gn_surface *s, gn_facet_screen *screen,
                                   int32_t width)
 {
     const int32_t log2 = row_log2(width);
-    int32_t e_q27[3];
+    int32_t e_q27[3] = {0, 0, 0}, e_most = 0;
+    axis_changes change[2];
     out->texture = texture_of(frame, s);
-    if (!out->texture) return 0;
-    find_nearness(frame, s, e_q27);
+    if (!out->texture || !find_changes(out, s, 0, &change[0]) || !find_changes(out, s, 1, &change[1])) return 0;
+    uint32_t off_q17 = 1U << (17 - gn_cell_texture_log2(frame, out->texture));
+    out->bent = !GN_FLAT_Q16(frame) && (is_bent(s, &change[0], off_q17) || is_bent(s, &change[1], off_q17));
+    if (out->bent) find_nearness(s, e_q27);
+    else off_q17 >>= 1;
     gn_facet_slope(screen, &out->e_q27, e_q27);
     if (gn_abs32(out->e_q27.dx) >> (23 - log2)) return 0;
-    for (int axis = 0; axis < 2; axis++)
-        if (!find_coordinate(out, frame, s, screen, e_q27, axis, log2)) return 0;
+    for (int k = 0; k < 3; k++) e_most = gn_max32(e_most, (int32_t)gn_abs32(e_q27[k]));
+    for (int axis = 0; axis < 2; axis++) {
+        int32_t *at = change[axis].of;
+        gn_slope *slope = &out->from_first_q17[axis];
+        for (int k = 1; k < 3; k++) at[k] += (int32_t)((int64_t)at[k] * e_q27[k] >> 27);
+        gn_facet_slope(screen, slope, at);
+        if (error_q17(slope, &out->e_q27, (uint32_t)e_most, change[axis].most, log2) >= off_q17) return 0;
+    }
     return !screen->steep;
 }
 
@@ -115,12 +137,12 @@ GN_HOT static inline int32_t coordinate_at(const gn_slope *slope, int32_t right,
     return at - (int32_t)((int64_t)at * less_q30 >> 30);
 }
 
-GN_HOT void gn_facet_texture_row(const gn_facet_texture *t, int32_t right, int32_t down, int32_t n, gn_texel_rgb *out)
+/* The quadratic through three places of a row, of an axis. */
+GN_HOT static void bend_line(const gn_facet_texture *t, int32_t right, int32_t down, int32_t n, gn_texture_line *line)
 {
     const int32_t log2 = row_log2(n), half = 1 << (log2 - 1), e = gn_facet_at(&t->e_q27, right, down),
                   e_half = t->e_q27.dx * half, less = less_q30_of(e), less_half = less_q30_of(e + e_half),
                   less_all = less_q30_of(e + 2 * e_half);
-    gn_texture_line line;
     for (int i = 0; i < 2; i++) {
         const gn_slope *slope = &t->from_first_q17[i];
         int32_t from = coordinate_at(slope, right, down, less), step = 0, change = 0;
@@ -130,9 +152,21 @@ GN_HOT void gn_facet_texture_row(const gn_facet_texture *t, int32_t right, int32
             change = (((across - 2 * middle) >> (2 * log2 - 2)) + 1) >> 1; /* half of it */
             step = (across >> log2) - change * (2 * half - 1);
         }
-        line.at_q17[i] = t->first_q17[i] + from;
-        line.step_q17[i] = step;
-        line.step_change_q17[i] = 2 * change;
+        line->at_q17[i] = t->first_q17[i] + from;
+        line->step_q17[i] = step;
+        line->step_change_q17[i] = 2 * change;
+    }
+}
+
+GN_HOT void gn_facet_texture_row(const gn_facet_texture *t, int32_t right, int32_t down, int32_t n, gn_texel_rgb *out)
+{
+    gn_texture_line line;
+    if (t->bent) bend_line(t, right, down, n, &line);
+    for (int i = 0; !t->bent && i < 2; i++) {
+        const gn_slope *slope = &t->from_first_q17[i];
+        line.at_q17[i] = t->first_q17[i] + gn_facet_at(slope, right, down);
+        line.step_q17[i] = slope->dx;
+        line.step_change_q17[i] = 0;
     }
     gn_texture_row(t->texture, &line, (1U << n) - 1, out);
 }

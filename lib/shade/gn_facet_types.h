@@ -41,6 +41,7 @@ typedef struct {
 /* Coordinates times 1 + e, where nearness is 1 + e times that of the middle depth: both are linear on the screen. */
 typedef struct {
     const gn_texture *texture;
+    int bent;                          /* 0: e is 0 */
     gn_slope e_q27, from_first_q17[2]; /* texels, from vertex 0 */
     int32_t first_q17[2];              /* of vertex 0, less half a texel if the texture is bilinear */
 } gn_facet_texture;
