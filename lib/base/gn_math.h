@@ -50,8 +50,7 @@ GN_HOT static inline uint32_t gn_recip_step(uint32_t m, uint32_t y)
 /* gn_recip_norm with two steps, inlined where it is called per vertex. */
 GN_HOT static inline uint32_t gn_recip_norm2_inline(uint32_t m)
 {
-    uint32_t y = (uint32_t)gn_recip_table[(m >> 23) & 255U] << 16,
-             two_minus_xy = 0U - gn_umul_high(m, y);
+    uint32_t y = (uint32_t)gn_recip_table[(m >> 23) & 255U] << 16, two_minus_xy = 0U - gn_umul_high(m, y);
     /* the first step ends below 2^32: the entry for x next to 1/2 is too far from 2 */
     y = (uint32_t)(((uint64_t)y * two_minus_xy) >> 31);
     GN_KEEP(y); /* 32 bits, of which it knows */

@@ -135,12 +135,13 @@ GN_HOT static inline int gn_corner_place(gn_lattice *l, const gn_frame *frame, c
                                          uint32_t slot, uint32_t view_idx)
 {
     gn_corner_light *at = &c->light[slot];
-    if (at->placed == view_idx) return at->seen;
+    if ((at->placed & GN_VIEW_NONE) == view_idx) return at->seen;
     const gn_light_view *view = &frame->view[s->light[slot].state->view_idx + (int32_t)view_idx];
     at->placed = (uint8_t)view_idx;
     GN_COUNT(places, 1);
 #if GN_PUNCTUAL_LIGHTS
     if (view->perspective && !GN_SMOOTH(s) && gn_corner_place_flat(l, frame, s, slot, view, c->x, c->y, at)) {
+        at->placed |= GN_BY_FORMS;
         if (at->seen == GN_SEEN_OUTSIDE && at->arrives <= 0) at->seen = 1;
         if (at->seen != GN_SEEN_OUTSIDE) return at->seen;
     }

@@ -9,6 +9,7 @@
 #include "shade/gn_lattice.h"
 #include "shade/gn_lattice_block.h"
 #include "shade/gn_lattice_look.h"
+#include "shade/gn_lattice_row.h"
 #include "shade/gn_lattice_texture.h"
 #include "shade/gn_levels.h"
 #include "shade/gn_pixel.h"
@@ -283,67 +284,43 @@ GN_HOT static int find_attenuations(const gn_drawing *d, const gn_lattice_edge *
     return look_up_one(d, edge, below, out);
 }
 
-/* Adds the light of an edge to a row of nodes, where it is not in shadow. */
+/* A row of nodes with the light of an edge, where that is not in shadow. */
+GN_HOT static GN_NOINLINE void put_lit_row(const gn_drawing *d, const gn_lattice_edge *edge, int32_t below,
+                                           const gn_node_row *row, int32_t (*node)[3])
+{
+    const uint32_t *share = d->s->lattice.row.attenuation[0], *end = share + d->n;
+    const gn_node_row twice = gn_row_of_edge(d, edge, below);
+    int32_t r = twice.from[0], g = twice.from[1], b = twice.from[2], at[3] = {row->from[0], row->from[1], row->from[2]};
+    for (; share < end; share++, node++, r += twice.step[0], g += twice.step[1], b += twice.step[2]) {
+        int32_t lit[3] = {at[0], at[1], at[2]};
+        gn_node_add(lit, *share, r, g, b);
+        GN_UNROLL
+        for (int c = 0; c < 3; c++) {
+            (*node)[c] = lit[c];
+            at[c] += row->step[c];
+        }
+    }
+}
+
+/* Adds the light of another edge. */
 GN_HOT static GN_NOINLINE void add_edge_light(const gn_drawing *d, const gn_lattice_edge *edge, int32_t below,
                                               int32_t (*node)[3])
 {
     const uint32_t *share = d->s->lattice.row.attenuation[0], *end = share + d->n;
-    /* light and highlight, 2^27 each where gn_corner_times() limits them: -2^27 .. 2^28 at the corners; doubled, one
-     * node beyond the cell, below 2^30.4 */
-    int32_t twice[3], step[3];
-    GN_UNROLL
-    for (int c = 0; c < 3; c++) {
-        int32_t across = 2 * (edge->more_q24[c].dx + below * edge->more_q24[c].dxy);
-        twice[c] = 2 * (edge->more_q24[c].at + below * edge->more_q24[c].dy) + d->first * across;
-        step[c] = across * (1 << d->s->lattice.look.spacing_log2);
-    }
-    int32_t r = twice[0], g = twice[1], b = twice[2];
-    for (; share < end; share++, node++, r += step[0], g += step[1], b += step[2]) {
-        if (*share == 65536) {
-            (*node)[0] += r >> 1;
-            (*node)[1] += g >> 1;
-            (*node)[2] += b >> 1;
-        } else if (*share) {
-            (*node)[0] += gn_mul_half_share(r, *share);
-            (*node)[1] += gn_mul_half_share(g, *share);
-            (*node)[2] += gn_mul_half_share(b, *share);
-        }
-    }
+    const gn_node_row twice = gn_row_of_edge(d, edge, below);
+    int32_t r = twice.from[0], g = twice.from[1], b = twice.from[2];
+    for (; share < end; share++, node++, r += twice.step[0], g += twice.step[1], b += twice.step[2])
+        gn_node_add(*node, *share, r, g, b);
 }
 #endif
-
-/* Colours of a row of nodes: of the first, and steps between them. */
-typedef struct {
-    int32_t from[3], step[3];
-} node_row;
-
-GN_INLINE void add_patches(const gn_drawing *d, const gn_patch colour_q24[3], int32_t below, node_row *row)
-{
-    GN_UNROLL
-    for (int c = 0; c < 3; c++) {
-        const gn_patch *p = &colour_q24[c];
-        row->from[c] += gn_patch_at(p, d->first, below);
-        row->step[c] += (p->dx + below * p->dxy) * (1 << d->s->lattice.look.spacing_log2);
-    }
-}
-
-GN_HOT static void put_row(const node_row *row, int32_t (*node)[3], int32_t (*const end)[3])
-{
-    int32_t r = row->from[0], g = row->from[1], b = row->from[2];
-    for (; node < end; node++, r += row->step[0], g += row->step[1], b += row->step[2]) {
-        (*node)[0] = r;
-        (*node)[1] = g;
-        (*node)[2] = b;
-    }
-}
 
 /* Colours of a row of nodes. Lights before the first with an edge in it are in shadow all along it, or nowhere: those
  * take no loop of their own. */
 GN_HOT static void find_nodes(const gn_drawing *d, int32_t below, int32_t (*node)[3])
 {
-    node_row row = {{0, 0, 0}, {0, 0, 0}};
+    gn_node_row row = {{0, 0, 0}, {0, 0, 0}};
     int is_put = 0;
-    add_patches(d, d->base_q24, below, &row);
+    gn_row_add(d, d->base_q24, below, &row);
 #if GN_SHADOWS
     const gn_lattice_look *look = &d->s->lattice.look;
     uint32_t *share = d->s->lattice.row.attenuation[0];
@@ -353,16 +330,16 @@ GN_HOT static void find_nodes(const gn_drawing *d, int32_t below, int32_t (*node
         k += edge->bent >> 2; /* which is the next one, too */
         if (said == GN_WINDOW_DARK) continue;
         if (said == GN_WINDOW_LIT && !is_put) {
-            add_patches(d, edge->more_q24, below, &row);
+            gn_row_add(d, edge->more_q24, below, &row);
             continue;
         }
         if (said == GN_WINDOW_LIT) set_alike(share, share + d->n, said);
-        if (!is_put) put_row(&row, node, node + d->n);
+        if (is_put) add_edge_light(d, edge, below, node);
+        else put_lit_row(d, edge, below, &row, node);
         is_put = 1;
-        add_edge_light(d, edge, below, node);
     }
 #endif
-    if (!is_put) put_row(&row, node, node + d->n);
+    if (!is_put) gn_row_put(&row, node, node + d->n);
 }
 
 /* ---- Cells ------------------------------------------------------------------------------------------------------- */

@@ -326,21 +326,12 @@ GN_HOT static GN_NOINLINE uint32_t hidden_faces(const gn_lattice_cell *cell, uin
 #endif
 
 #if GN_PUNCTUAL_LIGHTS || GN_MANY_CASCADES
-/* Whether forms on the screen tell where the view sees all of the cell: if they do at its corners. */
-GN_HOT static GN_NOINLINE int has_forms(const gn_lattice_cell *cell, uint32_t slot, const gn_light_view *view)
+/* Whether forms on the screen tell where the view sees all of the cell: if they told so of its corners. */
+GN_HOT static int has_forms(const gn_lattice_cell *cell, uint32_t slot)
 {
-#if GN_PUNCTUAL_LIGHTS
-    gn_corner_light at;
-    if (!view->perspective || GN_SMOOTH(cell->s)) return 0;
-    for (int i = 0; i < 4; i++)
-        if (!gn_corner_place_flat(cell->lattice, cell->frame, cell->s, slot, view, cell->corner[i]->x,
-                                  cell->corner[i]->y, &at))
-            return 0;
-    return 1;
-#else
-    (void)cell, (void)slot, (void)view;
-    return 0;
-#endif
+    uint32_t all = GN_BY_FORMS;
+    for (int i = 0; i < 4; i++) all &= cell->corner[i]->light[slot].placed;
+    return all != 0;
 }
 
 /* Adds an edge in the shadow of a light, two faces or cascades of which see the cell. Returns 0 if there is no room, or
@@ -356,7 +347,7 @@ GN_HOT static GN_NOINLINE int add_two(const gn_lattice_cell *cell, uint32_t slot
         if (find_places(cell, slot, view_idx, p) != PLACED) break;
         if (verdict(cell, slot, p) == GN_CELL_SPLIT) break;
         int holds = places_hold(cell, p);
-        if (holds == BEND || (holds == BEND_DOWN && !has_forms(cell, slot, p->view))) break;
+        if (holds == BEND || (holds == BEND_DOWN && !has_forms(cell, slot))) break;
         add_edge(cell, slot, p, light, light->more_uq16);
     }
     if (views || !gn_cell_border(cell, slot, one, other, &out->edge[n_edges + 1].more_q24[0])) {

@@ -26,12 +26,13 @@ typedef struct {
                      * a cone to where its rim ends: 32 or more fully, 0 or less not at all */
 #if GN_SHADOWS
     uint8_t view;   /* of the light's views: where the point itself is looked up, GN_VIEW_NONE: nowhere */
-    uint8_t placed; /* the view that u, v and depth are of; GN_VIEW_NONE: none yet */
+    uint8_t placed; /* the view that u, v and depth are of, GN_VIEW_NONE: none yet; and GN_BY_FORMS */
     uint8_t seen;   /* what gn_arrival_place() returns: 0 nearer to the light than the view's near plane */
 #endif
 } gn_corner_light;
 
 #define GN_VIEW_NONE 7
+#define GN_BY_FORMS  8 /* forms on the screen told the place */
 
 enum { GN_CORNER_DARK = -128, GN_CORNER_FULLY = 127 };
 

@@ -230,10 +230,24 @@ GN_HOT static inline void segment_565(uint16_t *out, uint32_t bits, const int32_
         if (bits & 1U) *out = (uint16_t)limit_and_pack_565(r, g, b);
 }
 
+/* Pixels of `bits`, every second of which has a node. */
+GN_HOT static inline void pairs_565(uint16_t *out, uint32_t bits, const int32_t (*node)[3])
+{
+    for (; bits; bits >>= 2, out += 2, node++) {
+        const int32_t *from = node[0], *to = node[1];
+        if (bits & 1U) out[0] = (uint16_t)limit_and_pack_565(from[0], from[1], from[2]);
+        if (bits & 2U)
+            out[1] =
+                (uint16_t)limit_and_pack_565(from[0] + ((to[0] - from[0]) >> 1), from[1] + ((to[1] - from[1]) >> 1),
+                                             from[2] + ((to[2] - from[2]) >> 1));
+    }
+}
+
 GN_HOT static inline void line_565(uint16_t *out, uint32_t bits, const gn_pixel_line *line)
 {
     int32_t log2 = line->spacing_log2, n = 1 << log2;
     if (!log2) nodes_565(out, bits, line->node);
+    else if (log2 == 1) pairs_565(out, bits, line->node);
     else
         for (const int32_t(*node)[3] = line->node; bits; bits >>= n, out += n, node++) {
             uint32_t part = bits & ((1U << n) - 1);
