@@ -6,13 +6,15 @@ cd "$(dirname "$0")/.." || exit 1
 log=build/deps.log
 mkdir -p build
 
+words32=$(sh tests/support/words32.sh) # a kernel without 32-bit programs needs an emulator for them
+
 missing_packages() {
     while read -r probe package; do
         case $probe in
         /*) ls $probe >/dev/null 2>&1 || echo "$package" ;;
         *) command -v "$probe" >/dev/null 2>&1 || echo "$package" ;;
         esac
-    done <<'NEEDS' | sort -u | tr '\n' ' '
+    done <<NEEDS | sort -u | tr '\n' ' '
 gcc gcc
 g++ g++
 make make
@@ -32,6 +34,7 @@ xtensa-lx106-elf-gcc gcc-xtensa-lx106
 qemu-system-arm qemu-system-arm
 qemu-system-xtensa qemu-system-misc
 qemu-system-riscv32 qemu-system-misc
+${words32:-true} qemu-user
 pkg-config pkg-config
 /usr/include/OpenImageIO/imageio.h libopenimageio-dev
 NEEDS

@@ -21,10 +21,11 @@ same_frames() { # same_frames WHAT FILE
 
 # The whole library as one file; scenes as objects of one word size.
 host_golden() { # host_golden COMPILER OPTIMISATION WORD
-    out=$tmp/host$1$2$3
+    out=$tmp/host$1$2$3 on=
+    [ "$3" = -m64 ] || on=$(sh tests/support/words32.sh)
     if $1 $3 -std=c99 -w $2 -Ilib -Iboards/common -Iboards/apps '-DGN_USER_CONFIG="golden_config.h"' -o "$out" lib/gnomon.c \
         boards/apps/golden.c boards/host/startup.c boards/common/print.c "$tmp"/scene"$3"_*.o 2>"$out.log"; then
-        "$out" >"$out.txt" 2>&1
+        $on "$out" >"$out.txt" 2>&1
         same_frames "$*" "$out.txt"
     else echo "$*: $(grep -m 1 -E 'error|undefined' "$out.log")"; fi
 }

@@ -82,8 +82,9 @@ same() { # same WHAT FILE
     else fail "$1: $(grep '^frame' "$2" | diff - tests/oracle/compact_golden.txt | sed -n 2,3p | tr '\n' ';') $(grep -m 1 -i error "$2")"; fi
 }
 for how in "gcc -O0 -m64" "gcc -Os -m32" "clang -O2 -m32" ${THOROUGH:+"gcc -O3 -m64" "clang -Os -m64"}; do # the last two: make soak
+    case $how in *-m32) on=$(sh tests/support/words32.sh) ;; *) on= ;; esac
     $how -std=c99 -w -Ilib -Iboards/common -Iboards/apps '-DGN_USER_CONFIG="compact_config.h"' -o "$tmp/golden" lib/gnomon.c boards/apps/compact.c \
-        boards/host/startup.c boards/common/print.c >"$tmp/log" 2>&1 && "$tmp/golden" >"$tmp/log" 2>&1
+        boards/host/startup.c boards/common/print.c >"$tmp/log" 2>&1 && $on "$tmp/golden" >"$tmp/log" 2>&1
     same "$how" "$tmp/log"
 done
 for board in microbit mps2-an385 mps3-an547 rv32-virt; do

@@ -123,6 +123,8 @@ pairs() {
     echo "MAX_WIDTH=56 MAX_HEIGHT=44 TILE_WIDTH=8 TILE_HEIGHT=1 MAX_TILE_REFS=2000"
 } >"$tmp/wanted"
 
+words32=$(sh tests/support/words32.sh)
+
 # draws N COMPILER CHECKER FLAGS...: built by the one without a warning, and looked through by the other; the same lines as the host
 draws() {
     n=$1 compiler=$2 checker=$3
@@ -135,7 +137,8 @@ draws() {
         grep -m 3 -E 'error|warning|undefined' "$tmp/log$n"
         return
     fi
-    "$tmp/run$n" >"$tmp/target$n" 2>&1
+    case $words in -m32*) on=$words32 ;; *) on= ;; esac
+    $on "$tmp/run$n" >"$tmp/target$n" 2>&1
     "$tmp/host_picture" -DGN_PRESET=GN_PRESET_BALANCED "$@" >"$tmp/host$n" 2>&1
     if cmp -s "$tmp/target$n" "$tmp/host$n" && grep -q '^format' "$tmp/host$n" && ! grep -q -v '^format' "$tmp/host$n"; then echo ok
     else
