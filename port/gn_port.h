@@ -56,7 +56,7 @@ void gn_port_before_dma(const void *bytes, size_t n_bytes);
  *
  * Replaced by linking:
  *   memset            clears screen tiles and shadow tiles: many whole words. The C library defines its behaviour
- *   __aeabi_lmul      a 64-bit product modulo 2^64: on cores without a wide multiplication, every product of two
+ *   __aeabi_lmul      a 64-bit product modulo 2^64: on cores without a wide multiplication, most products of two
  *                     32-bit values
  */
 uint32_t gn_port_dark_texels16(const uint16_t *texel, size_t pitch, uint32_t least, int32_t n, uint8_t *dark);

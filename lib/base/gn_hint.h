@@ -64,7 +64,7 @@
 #endif
 #endif
 #ifndef GN_CORE_LONG_PRODUCTS
-#if defined(__ARM_ARCH_6M__)
+#if defined(__ARM_ARCH_6M__) || defined(__ARM_ARCH_8M_BASE__)
 #define GN_CORE_LONG_PRODUCTS 0
 #else
 #define GN_CORE_LONG_PRODUCTS 1

@@ -118,8 +118,6 @@ int64_t gn_far_scale64(int64_t v, int32_t s);
 int32_t gn_far_mul_shr(int32_t a, int32_t b, int32_t s);
 int32_t gn_far_mul_q30(int32_t a, int32_t b);
 uint64_t gn_far_abs64(int64_t v);
-int32_t gn_far_mul_high(int32_t a, int32_t b);
-uint32_t gn_far_umul_high(uint32_t a, uint32_t b);
 #if GN_SIZE_FIRST && defined(__GNUC__)
 #define GN_IS_INT32_(v) (__builtin_constant_p(v) && (v) >= INT32_MIN && (v) <= INT32_MAX)
 
@@ -150,7 +148,10 @@ GN_INLINE int64_t gn_shr64(int64_t v, int32_t s)
 #define gn_abs64   gn_abs64_inline
 #endif
 
-/* The upper half of a product. Without long products a function, which takes fewer of its parts than the compiler's. */
+/* The upper half of a product. On cores without long products a function: shorter than the compiler's, which finds the
+ * lower half, too. */
+int32_t gn_far_mul_high(int32_t a, int32_t b);
+uint32_t gn_far_umul_high(uint32_t a, uint32_t b);
 #if GN_CORE_LONG_PRODUCTS
 GN_HOT static inline int32_t gn_mul_high(int32_t a, int32_t b)
 {

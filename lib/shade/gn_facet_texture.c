@@ -68,7 +68,7 @@ typedef struct {
     uint32_t most, range; /* the largest, and from the least to the greatest */
 } axis_changes;
 
-/* Returns 0 if they do not fit. */
+/* Of an axis, and where vertex 0 is. Returns 0 if they do not fit. */
 GN_HOT static int find_changes(gn_facet_texture *out, const gn_surface *s, int axis, axis_changes *change)
 {
     const int64_t size2 = 2 * (int64_t)gn_texture_size(out->texture, axis);
@@ -97,29 +97,43 @@ GN_HOT static inline int is_bent(const gn_surface *s, const axis_changes *change
            2 * (uint64_t)off_q17 * (uint32_t)s->z_min_q16;
 }
 
-GN_HOT int gn_facet_texture_begin(gn_facet_texture *out, const gn_frame *frame, gn_surface *s, gn_facet_screen *screen,
-                                  int32_t width)
+/* Slopes of coordinates, bent or not. Returns 0 if what they are off by is not within the limit. */
+GN_HOT static int find_slopes_of(gn_facet_texture *out, const gn_surface *s, gn_facet_screen *screen,
+                                 const axis_changes change[2], int32_t log2, uint32_t off_q17)
 {
-    const int32_t log2 = row_log2(width);
     int32_t e_q27[3] = {0, 0, 0}, e_most = 0;
-    axis_changes change[2];
-    out->texture = texture_of(frame, s);
-    if (!out->texture || !find_changes(out, s, 0, &change[0]) || !find_changes(out, s, 1, &change[1])) return 0;
-    uint32_t off_q17 = 1U << (17 - gn_cell_texture_log2(frame, out->texture));
-    out->bent = !GN_FLAT_Q16(frame) && (is_bent(s, &change[0], off_q17) || is_bent(s, &change[1], off_q17));
     if (out->bent) find_nearness(s, e_q27);
-    else off_q17 >>= 1;
     gn_facet_slope(screen, &out->e_q27, e_q27);
     if (gn_abs32(out->e_q27.dx) >> (23 - log2)) return 0;
     for (int k = 0; k < 3; k++) e_most = gn_max32(e_most, (int32_t)gn_abs32(e_q27[k]));
     for (int axis = 0; axis < 2; axis++) {
-        int32_t *at = change[axis].of;
+        const int32_t *of = change[axis].of;
         gn_slope *slope = &out->from_first_q17[axis];
-        for (int k = 1; k < 3; k++) at[k] += (int32_t)((int64_t)at[k] * e_q27[k] >> 27);
+        int32_t at[3];
+        for (int k = 0; k < 3; k++) at[k] = of[k] + (int32_t)((int64_t)of[k] * e_q27[k] >> 27);
         gn_facet_slope(screen, slope, at);
         if (error_q17(slope, &out->e_q27, (uint32_t)e_most, change[axis].most, log2) >= off_q17) return 0;
     }
     return !screen->steep;
+}
+
+/* Parallel rays bend nothing. */
+GN_HOT int gn_facet_texture_begin(gn_facet_texture *out, const gn_frame *frame, gn_surface *s, gn_facet_screen *screen,
+                                  int32_t width)
+{
+    const int32_t log2 = row_log2(width);
+    const int flat = GN_FLAT_Q16(frame) != 0;
+    axis_changes change[2];
+    out->texture = texture_of(frame, s);
+    if (!out->texture || !find_changes(out, s, 0, &change[0]) || !find_changes(out, s, 1, &change[1])) return 0;
+    const uint32_t off_q17 = 1U << (17 - gn_cell_texture_log2(frame, out->texture));
+    out->bent = 0;
+    if (flat) return find_slopes_of(out, s, screen, change, log2, off_q17);
+    if (!is_bent(s, &change[0], off_q17) && !is_bent(s, &change[1], off_q17) &&
+        find_slopes_of(out, s, screen, change, log2, off_q17 >> 1))
+        return 1;
+    out->bent = 1;
+    return find_slopes_of(out, s, screen, change, log2, off_q17);
 }
 
 /* e / (1 + e) = e - e^2 + e^3 - e^4 + e^5 */
@@ -137,7 +151,16 @@ GN_HOT static inline int32_t coordinate_at(const gn_slope *slope, int32_t right,
     return at - (int32_t)((int64_t)at * less_q30 >> 30);
 }
 
-/* The quadratic through three places of a row, of an axis. */
+GN_HOT static void linear_line(const gn_facet_texture *t, int32_t right, int32_t down, gn_texture_line *line)
+{
+    for (int i = 0; i < 2; i++) {
+        line->at_q17[i] = t->first_q17[i] + gn_facet_at(&t->from_first_q17[i], right, down);
+        line->step_q17[i] = t->from_first_q17[i].dx;
+        line->step_change_q17[i] = 0;
+    }
+}
+
+/* The quadratic through three places of a row, of each axis. */
 GN_HOT static void bend_line(const gn_facet_texture *t, int32_t right, int32_t down, int32_t n, gn_texture_line *line)
 {
     const int32_t log2 = row_log2(n), half = 1 << (log2 - 1), e = gn_facet_at(&t->e_q27, right, down),
@@ -162,12 +185,7 @@ GN_HOT void gn_facet_texture_row(const gn_facet_texture *t, int32_t right, int32
 {
     gn_texture_line line;
     if (t->bent) bend_line(t, right, down, n, &line);
-    for (int i = 0; !t->bent && i < 2; i++) {
-        const gn_slope *slope = &t->from_first_q17[i];
-        line.at_q17[i] = t->first_q17[i] + gn_facet_at(slope, right, down);
-        line.step_q17[i] = slope->dx;
-        line.step_change_q17[i] = 0;
-    }
+    else linear_line(t, right, down, &line);
     gn_texture_row(t->texture, &line, (1U << n) - 1, out);
 }
 
