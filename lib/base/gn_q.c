@@ -1,4 +1,5 @@
-/* Functions in place of inline code, with GN_SIZE_FIRST or without long products: see gn_q.h. The linker drops unused ones. */
+/* Functions in place of inline code, with GN_SIZE_FIRST or without long products: see gn_q.h. The linker drops unused
+ * ones. */
 #include "gn_internal.h"
 
 #include "base/gn_hint.h"
