@@ -157,7 +157,7 @@ $(RP2040JS)/package.json:
 
 run-firmware: $(FIRMWARE) $(PICO_NEEDS) $(if $(COUNT),$(BUILD)/libstages.so)
 ifneq ($(FW_HOSTED),)
-	@$(FIRMWARE) $(ARGS)
+	@$(BOARD_EMULATOR) $(FIRMWARE) $(ARGS)
 else ifeq ($(BOARD_RUNS),rp2040js)
 	@$(RUN_PICO)
 else ifeq ($(BOARD_RUNS),qemu)

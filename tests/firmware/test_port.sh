@@ -36,7 +36,7 @@ wrong() {
 
 right host BOARD=host BOARD_PORT=
 right template BOARD=host BOARD_PORT=template IMAGE=port-template
-right template-m32 BOARD=host BOARD_PORT=template IMAGE=port-template32 "BOARD_CPU=-m32"
+right template-m32 BOARD=host BOARD_PORT=template IMAGE=port-template32 "BOARD_CPU=-m32" "BOARD_EMULATOR=$(sh tests/support/words32.sh)"
 right portable BOARD=host BOARD_PORT=portable IMAGE=port-portable
 ports=
 for file in boards/*/board.mk; do
