@@ -207,8 +207,10 @@ GN_HOT static inline uint64_t gn_corner_rim_q30(const gn_light_state *light, uin
 /* A colour times irradiance, Q24, limited to 8. */
 GN_HOT static inline int32_t gn_corner_times(uint32_t colour_uq16, int32_t irradiance_q24)
 {
-    if (!GN_CORE_LONG_PRODUCTS && colour_uq16 <= 65536)
-        return gn_min32((int32_t)gn_mul_share((uint32_t)irradiance_q24, colour_uq16), 1 << 27);
+    if (!GN_CORE_LONG_PRODUCTS && colour_uq16 <= 65536) {
+        const uint32_t light = gn_mul_share((uint32_t)irradiance_q24, colour_uq16);
+        return light >> 27 ? 1 << 27 : (int32_t)light;
+    }
     uint64_t product = (uint64_t)colour_uq16 * (uint32_t)irradiance_q24;
     return product >> 43 ? 1 << 27 : (int32_t)(uint32_t)(product >> 16);
 }

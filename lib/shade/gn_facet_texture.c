@@ -90,7 +90,7 @@ GN_HOT static int find_changes(gn_facet_texture *out, const gn_surface *s, int a
 }
 
 /* Whether perspective bends an axis by more than half of what it may be off by: a quarter of the range times that of
- * depths, over the least depth. */
+ * depths, over the least depth. 2^27 * 2^31 */
 GN_HOT static inline int is_bent(const gn_surface *s, const axis_changes *change, uint32_t off_q17)
 {
     return (uint64_t)change->range * (uint32_t)(s->z_max_q16 - s->z_min_q16) >
@@ -98,8 +98,8 @@ GN_HOT static inline int is_bent(const gn_surface *s, const axis_changes *change
 }
 
 /* Slopes of coordinates, bent or not. Returns 0 if what they are off by is not within the limit. */
-GN_HOT static int find_slopes_of(gn_facet_texture *out, const gn_surface *s, gn_facet_screen *screen,
-                                 const axis_changes change[2], int32_t log2, uint32_t off_q17)
+GN_HOT static int find_coordinates(gn_facet_texture *out, const gn_surface *s, gn_facet_screen *screen,
+                                   const axis_changes change[2], int32_t log2, uint32_t off_q17)
 {
     int32_t e_q27[3] = {0, 0, 0}, e_most = 0;
     if (out->bent) find_nearness(s, e_q27);
@@ -128,12 +128,12 @@ GN_HOT int gn_facet_texture_begin(gn_facet_texture *out, const gn_frame *frame, 
     if (!out->texture || !find_changes(out, s, 0, &change[0]) || !find_changes(out, s, 1, &change[1])) return 0;
     const uint32_t off_q17 = 1U << (17 - gn_cell_texture_log2(frame, out->texture));
     out->bent = 0;
-    if (flat) return find_slopes_of(out, s, screen, change, log2, off_q17);
+    if (flat) return find_coordinates(out, s, screen, change, log2, off_q17);
     if (!is_bent(s, &change[0], off_q17) && !is_bent(s, &change[1], off_q17) &&
-        find_slopes_of(out, s, screen, change, log2, off_q17 >> 1))
+        find_coordinates(out, s, screen, change, log2, off_q17 >> 1))
         return 1;
     out->bent = 1;
-    return find_slopes_of(out, s, screen, change, log2, off_q17);
+    return find_coordinates(out, s, screen, change, log2, off_q17);
 }
 
 /* e / (1 + e) = e - e^2 + e^3 - e^4 + e^5 */
@@ -151,6 +151,7 @@ GN_HOT static inline int32_t coordinate_at(const gn_slope *slope, int32_t right,
     return at - (int32_t)((int64_t)at * less_q30 >> 30);
 }
 
+/* Of a row without e. */
 GN_HOT static void linear_line(const gn_facet_texture *t, int32_t right, int32_t down, gn_texture_line *line)
 {
     for (int i = 0; i < 2; i++) {

@@ -3,6 +3,7 @@
 #define GN_LATTICE_ROW_H
 
 #include "base/gn_q.h"
+#include "shade/gn_lattice_look.h"
 #include "shade/gn_shade_types.h"
 
 #if GN_INTERPOLATES
@@ -53,12 +54,12 @@ GN_INLINE void gn_node_add(int32_t node[3], uint32_t share_uq16, int32_t r, int3
  * -2^27 .. 2^28 at the corners; doubled, one node beyond the cell, below 2^30.4. */
 GN_INLINE gn_node_row gn_row_of_edge(const gn_drawing *d, const gn_lattice_edge *edge, int32_t below)
 {
-    gn_node_row twice;
+    gn_node_row twice = {{0, 0, 0}, {0, 0, 0}};
+    gn_row_add(d, edge->more_q24, below, &twice);
     GN_UNROLL
     for (int c = 0; c < 3; c++) {
-        int32_t across = 2 * (edge->more_q24[c].dx + below * edge->more_q24[c].dxy);
-        twice.from[c] = 2 * (edge->more_q24[c].at + below * edge->more_q24[c].dy) + d->first * across;
-        twice.step[c] = across * (1 << d->s->lattice.look.spacing_log2);
+        twice.from[c] *= 2;
+        twice.step[c] *= 2;
     }
     return twice;
 }

@@ -31,7 +31,7 @@ typedef struct {
 #endif
 } gn_corner_light;
 
-#define GN_VIEW_NONE 7
+#define GN_VIEW_NONE 7 /* all bits that views have */
 #define GN_BY_FORMS  8 /* forms on the screen told the place */
 
 enum { GN_CORNER_DARK = -128, GN_CORNER_FULLY = 127 };

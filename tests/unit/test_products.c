@@ -49,7 +49,7 @@ static void test_shares(void)
 static void test_colours(void)
 {
     for (int k = 0; k < CASES; k++) {
-        const uint32_t colour = rng_below(&random_state, 8) ? share() : operand() >> 8, e = operand() >> 1;
+        const uint32_t colour = rng_below(&random_state, 8) ? share() : operand() >> 8, e = operand();
         const uint64_t product = (uint64_t)colour * e >> 16;
         if (!CHECK_EQ_INT(gn_corner_times(colour, (int32_t)e), product >> 27 ? 1 << 27 : product)) return;
     }
