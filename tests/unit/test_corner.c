@@ -605,7 +605,7 @@ static void check_persp(gn_lattice *l, const gn_surface *s, gn_corner *c, uint32
         near_form_off = form_off(l, c) / fmax(form_at(l, &forms->near, c), 1);
     }
     const int seen_there = gn_corner_place(l, frame, s, c, slot, view_idx) != 0;
-    CHECK(at->placed == view_idx);
+    CHECK(at->placed == (view_idx | (flat ? GN_BY_FORMS : 0U)));
     n_flat += flat;
     n_not_flat += !orthographic && !s->smooth && !flat;
     if (fabs(in[2] - near) > off + fabs(in[2]) * (z_form_off + near_form_off + (flat ? divide : 0)))
