@@ -47,10 +47,17 @@ GN_HOT static inline int32_t row_log2(int32_t n)
     return n <= 3 ? 1 : n <= 5 ? 2 : n <= 9 ? 3 : 4;
 }
 
+/* What vertices are off by on the screen, a coordinate of a picture of so many pixels: 2^-13 of a pixel, and by a
+ * reciprocal of one step 2^-17.8 of what they are from the middle. */
+GN_HOT static inline uint32_t place_off_q24(const gn_frame *frame, int32_t size)
+{
+    return (1U << 11) + (GN_K(frame, newton_steps) > 1 ? 0 : 37 * (uint32_t)size);
+}
+
 /* What coordinates along an axis are off by, texels, Q17: NUMERICS 4.17. `most` is the largest difference to vertex 0.
  */
-GN_HOT static uint32_t error_q17(const gn_slope *coord_q17, const gn_slope *e_q27, uint32_t e_most_q27, uint32_t most,
-                                 int32_t log2)
+GN_HOT static uint32_t error_q17(const gn_frame *frame, const gn_slope *coord_q17, const gn_slope *e_q27,
+                                 uint32_t e_most_q27, uint32_t most, int32_t log2)
 {
     uint32_t row = gn_abs32(coord_q17->dx) << log2, e_row = (gn_abs32(e_q27->dx) << log2) >> 11,
              e = (e_most_q27 >> 11) + e_row;                        /* Q16, <= 3 * 2^12 */
@@ -58,7 +65,10 @@ GN_HOT static uint32_t error_q17(const gn_slope *coord_q17, const gn_slope *e_q2
     uint64_t bent = (uint64_t)row + ((uint64_t)most * e_row >> 16); /* 2^27 + 2^23 */
     uint64_t sixth_q32 = (cube_q32 * cube_q32) >> 32;
     uint64_t cut_off = most * sixth_q32 >> 32, between = (bent * (e_row * e_row >> 3)) >> 32,
-             moved = ((gn_abs32(coord_q17->dx) + gn_abs32(coord_q17->dy)) >> 13) + (most >> 17);
+             moved = ((gn_abs32(coord_q17->dx) * (uint64_t)place_off_q24(frame, frame->picture.width) +
+                       gn_abs32(coord_q17->dy) * (uint64_t)place_off_q24(frame, frame->picture.height)) >>
+                      24) +
+                     (most >> 17);
     return (uint32_t)(cut_off + (cut_off >> 2) + between + moved);
 }
 
@@ -98,8 +108,9 @@ GN_HOT static inline int is_bent(const gn_surface *s, const axis_changes *change
 }
 
 /* Slopes of coordinates, bent or not. Returns 0 if what they are off by is not within the limit. */
-GN_HOT static int find_coordinates(gn_facet_texture *out, const gn_surface *s, gn_facet_screen *screen,
-                                   const axis_changes change[2], int32_t log2, uint32_t off_q17)
+GN_HOT static int find_coordinates(gn_facet_texture *out, const gn_frame *frame, const gn_surface *s,
+                                   gn_facet_screen *screen, const axis_changes change[2], int32_t log2,
+                                   uint32_t off_q17)
 {
     int32_t e_q27[3] = {0, 0, 0}, e_most = 0;
     if (out->bent) find_nearness(s, e_q27);
@@ -112,7 +123,7 @@ GN_HOT static int find_coordinates(gn_facet_texture *out, const gn_surface *s, g
         int32_t at[3];
         for (int k = 0; k < 3; k++) at[k] = of[k] + (int32_t)((int64_t)of[k] * e_q27[k] >> 27);
         gn_facet_slope(screen, slope, at);
-        if (error_q17(slope, &out->e_q27, (uint32_t)e_most, change[axis].most, log2) >= off_q17) return 0;
+        if (error_q17(frame, slope, &out->e_q27, (uint32_t)e_most, change[axis].most, log2) >= off_q17) return 0;
     }
     return !screen->steep;
 }
@@ -128,12 +139,12 @@ GN_HOT int gn_facet_texture_begin(gn_facet_texture *out, const gn_frame *frame, 
     if (!out->texture || !find_changes(out, s, 0, &change[0]) || !find_changes(out, s, 1, &change[1])) return 0;
     const uint32_t off_q17 = 1U << (17 - gn_cell_texture_log2(frame, out->texture));
     out->bent = 0;
-    if (flat) return find_coordinates(out, s, screen, change, log2, off_q17);
+    if (flat) return find_coordinates(out, frame, s, screen, change, log2, off_q17);
     if (!is_bent(s, &change[0], off_q17) && !is_bent(s, &change[1], off_q17) &&
-        find_coordinates(out, s, screen, change, log2, off_q17 >> 1))
+        find_coordinates(out, frame, s, screen, change, log2, off_q17 >> 1))
         return 1;
     out->bent = 1;
-    return find_coordinates(out, s, screen, change, log2, off_q17);
+    return find_coordinates(out, frame, s, screen, change, log2, off_q17);
 }
 
 /* e / (1 + e) = e - e^2 + e^3 - e^4 + e^5 */

@@ -4,6 +4,8 @@
 #include <math.h>
 
 #include "../lib/shade/gn_facet_screen.h"
+#include "../lib/shade/gn_facet_texture.h"
+#include "../lib/shade/gn_lattice_cell.h"
 #include "check.h"
 #include "demo_scene.h"
 #include "knobs.h"
@@ -278,6 +280,143 @@ static void try_linear(void)
     printf("linear in place of perspective: off by up to %.2f of the bound\n", worst);
 }
 
+/* ---- Places in a texture ----------------------------------------------------------------------------------------- */
+
+#if GN_TEXTURES
+/* Black and white in turn, along each axis: a channel tells how far the middle of a texel is. */
+static void add_teeth(void)
+{
+    for (int y = 0; y < TEXELS; y++)
+        for (int x = 0; x < TEXELS; x++) {
+            uint8_t *texel = texels + 4 * (y * TEXELS + x);
+            texel[0] = x & 1 ? 255 : 0;
+            texel[1] = y & 1 ? 255 : 0;
+            texel[2] = texel[3] = 255;
+        }
+}
+
+static double tooth(double at)
+{
+    const double turn = at / 2 - floor(at / 2);
+    return turn < 0.5 ? 2 * turn : 2 - 2 * turn;
+}
+
+/* Weights of vertices along a pixel's ray. Returns 0 outside. */
+static int weights_at(const gn_frame *frame, const gn_surface *s, int x, int y, double b[3])
+{
+    const double ray[3] = {2 * x + 1 - frame->picture.width, frame->picture.height - 1 - 2 * y,
+                           ldexp(frame->cam.focal2_px_q16, -16)};
+    double sum = 0;
+    for (int i = 0; i < 3; i++) {
+        const int32_t *p = s->v_q16[(i + 1) % 3], *q = s->v_q16[(i + 2) % 3];
+        b[i] = 0;
+        for (int k = 0; k < 3; k++) {
+            const int l = (k + 1) % 3, m = (k + 2) % 3;
+            b[i] += ray[k] * ((double)p[l] * q[m] - (double)p[m] * q[l]);
+        }
+        sum += b[i];
+    }
+    for (int i = 0; i < 3; i++) b[i] /= sum;
+    return b[0] >= 0 && b[1] >= 0 && b[2] >= 0;
+}
+
+/* The largest distance of a triangle's pixels, texels. */
+static double off_of_places(const gn_frame *frame, const gn_surface *s, const gn_facet_texture *t,
+                            const gn_facet_screen *screen, const int32_t box[4])
+{
+    double worst = 0;
+    for (int32_t y = box[1]; y <= box[3]; y++)
+        for (int32_t x = box[0]; x <= box[2]; x += GN_FACET_ROW_PX) {
+            gn_texel_rgb row[GN_FACET_ROW_PX];
+            const int32_t n = box[2] - x < GN_FACET_ROW_PX ? box[2] - x + 1 : GN_FACET_ROW_PX;
+            gn_facet_texture_row(t, x - screen->x0, y - screen->y0, n, row);
+            for (int32_t i = 0; i < n; i++) {
+                double b[3];
+                if (!weights_at(frame, s, x + i, y, b)) continue;
+                for (int axis = 0; axis < 2; axis++) {
+                    const double turns = (double)s->uv.uv_q16[0][axis] + b[1] * (double)s->uv.uv_q16[1][axis] +
+                                         b[2] * (double)s->uv.uv_q16[2][axis];
+                    const uint32_t seen = axis ? row[i].red_green >> 16 : row[i].red_green & 0xFFFFU;
+                    worst = fmax(worst, fabs(seen / 65535.0 - tooth(turns / 65536 * TEXELS - 0.5)));
+                }
+            }
+        }
+    return worst;
+}
+
+/* A triangle anywhere in a picture, and what its pixels lie in. */
+static void draw_textured(const gn_frame *frame, gn_surface *s, int32_t box[4])
+{
+    const double focal2 = ldexp(frame->cam.focal2_px_q16, -16), reach = uniform(1, 12), deep = uniform(0, 0.25),
+                 texels_per_px = exp2(uniform(-2, 7));
+    const double at[2] = {uniform(20, frame->picture.width - 20), uniform(20, frame->picture.height - 20)};
+    double lo[2] = {1e9, 1e9}, hi[2] = {-1e9, -1e9};
+    s->z_min_q16 = INT32_MAX;
+    s->z_max_q16 = 0;
+    for (int k = 0; k < 3; k++) {
+        const double z = 20 * (1 + uniform(0, deep));
+        for (int a = 0; a < 2; a++) {
+            const double p = at[a] + uniform(-reach, reach);
+            const int32_t size = a ? frame->picture.height : frame->picture.width;
+            s->v_q16[k][a] = (int32_t)lround(ldexp((a ? size - 2 * p : 2 * p - size) / focal2 * z, 16));
+            s->uv.uv_q16[k][a] = 2 * lround(uniform(-reach, reach) * texels_per_px * 32768 / TEXELS);
+            lo[a] = fmin(lo[a], p);
+            hi[a] = fmax(hi[a], p);
+        }
+        s->v_q16[k][2] = (int32_t)lround(ldexp(z, 16));
+        s->z_min_q16 = s->v_q16[k][2] < s->z_min_q16 ? s->v_q16[k][2] : s->z_min_q16;
+        s->z_max_q16 = s->v_q16[k][2] > s->z_max_q16 ? s->v_q16[k][2] : s->z_max_q16;
+    }
+    for (int a = 0; a < 2; a++) {
+        s->uv.uv_q16[0][a] &= 0xFFFF;
+        box[a] = (int32_t)floor(lo[a]);
+        box[2 + a] = (int32_t)floor(hi[a]);
+    }
+}
+
+static void try_places(void)
+{
+    static gn_surface surface;
+    static gn_object object;
+    gn_frame *frame = &renderer.frame;
+    const gn_picture small = frame->picture;
+    const uint32_t focal2 = frame->cam.focal2_px_q16;
+    const gn_texture texture = {
+        .rgba = texels, .width_log2 = TEXELS_LOG2, .height_log2 = TEXELS_LOG2, .flags = GN_TEXTURE_BILINEAR};
+    double worst = 0;
+    long n = 0, n_fast = 0;
+    add_teeth();
+    object.texture = &texture;
+    surface.object = &object;
+    surface.smooth = surface.textured = 1;
+    frame->picture.width = 1024; /* where places on the screen are off most */
+    frame->picture.height = 768;
+    frame->cam.focal2_px_q16 = 1400U << 16;
+    for (int i = 0; i < 100000; i++) {
+        int32_t box[4];
+        gn_facet_screen screen = {0};
+        gn_facet_texture t;
+        draw_textured(frame, &surface, box);
+        if (!gn_facet_screen_use(&screen, frame, &surface) ||
+            !gn_facet_texture_begin(&t, frame, &surface, &screen, box[2] - box[0] + 1))
+            continue;
+        n++;
+        n_fast += t.from_first_q17[0].dx >> 17 >= 4;
+        const double off = off_of_places(frame, &surface, &t, &screen, box);
+        worst = fmax(worst, ldexp(off - 0x1p-14, gn_cell_texture_log2(frame, &texture)));
+    }
+    frame->picture = small;
+    frame->cam.focal2_px_q16 = focal2;
+    CHECK(n > 10000 && n_fast > 100);
+    CHECK(worst <= 1);
+    printf("places in textures: %ld triangles, off by up to %.2f of the tolerance\n", n, worst);
+}
+#else
+static void try_places(void)
+{
+}
+#endif
+
 #if GN_PUNCTUAL_LIGHTS
 /* In place of the sun: from above, so near that its light differs over the ball; a cone's rim lies on the ball. */
 static void compare_lamps(void)
@@ -313,6 +452,7 @@ int main(void)
     try_lengths();
     try_bends();
     try_linear();
+    try_places();
     for (uint32_t frame = 0; frame < FRAMES; frame++) {
         demo_scene_make(&demo, frame);
         if (frame & 1) { /* no part of a shadow fades */
