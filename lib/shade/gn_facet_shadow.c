@@ -23,17 +23,32 @@ GN_HOT static int use_matrix(gn_view_matrix *matrix, const gn_frame *frame, cons
 {
     if (matrix->view == view) return 1;
     matrix->view = NULL;
-    if ((uint32_t)view->fit.ortho.ray_shift > 62 || frame->cam.focal2_px_q16 >> 31) return 0;
+    matrix->along_q16 = 0;
+    matrix->up = gn_max32(33 - view->fit.ortho.ray_shift, 0);
+    matrix->down = view->fit.ortho.ray_shift + matrix->up - 32;
+    if (matrix->up > 24 || matrix->down > 30 || frame->cam.focal2_px_q16 >> 31) return 0;
     for (int i = 0; i < 3; i++) {
         const gn_ray_plane *r = &view->fit.ortho.ray[i];
         int64_t x = (int64_t)r->ax * (int32_t)frame->cam.focal2_px_q16 >> 16,
                 y = (int64_t)r->ay * (int32_t)frame->cam.focal2_px_q16 >> 16;
-        if (x != (int32_t)x || y != (int32_t)y || r->d_q16 != (int32_t)r->d_q16) return 0;
+        if (x != (int32_t)x || y != (int32_t)y || gn_abs64(r->d_q16) >= 3U << 28) return 0;
         matrix->m[i][0] = (int32_t)x;
         matrix->m[i][1] = (int32_t)y;
         matrix->m[i][2] = r->a0;
     }
     matrix->view = view;
+    return 1;
+}
+
+/* What normals of length 1 move by along the view's axes, texels, Q18. Returns 0 if they do not fit. */
+GN_HOT static inline int use_lift(gn_view_matrix *matrix, const gn_light_view *view, int32_t along_q16)
+{
+    if (matrix->along_q16 == along_q16) return 1;
+    if (gn_abs32(along_q16) >> 27) return 0;
+    matrix->along_q16 = along_q16;
+    for (int i = 0; i < 3; i++)
+        for (int j = 0; j < 3; j++)
+            matrix->lift_q18[i][j] = (int32_t)(((int64_t)view->axis_q30[i][j] * along_q16 + (1 << 27)) >> 28);
     return 1;
 }
 
@@ -49,51 +64,86 @@ GN_HOT static inline int32_t depth_q30_of(const gn_light_view *view, int32_t dep
     return gn_max32(-(1 << 29) >> up, gn_min32(depth_q16, ((1 << 30) - 1) >> up)) * (1 << up);
 }
 
-/* Offsets of receivers at the vertices: texels along u, v and depth. */
-GN_HOT static inline void find_offsets(const gn_shading *shading, uint32_t slot, const gn_light_view *view,
-                                       int32_t offset[3][3])
+/* Adds offsets of receivers, of the face or of points: texels along u, v and depth. Returns 0 if they do not fit. */
+GN_HOT static GN_NOINLINE int add_offsets(const gn_shading *shading, uint32_t slot, const gn_light_view *view,
+                                          int alike, vertex_places *p)
 {
     const gn_surface *s = &shading->surface;
-    const gn_light_state *light = s->light[slot].state;
-    int32_t along = 0, lifted[3];
-    const int offsets = gn_corner_offsets(&shading->lattice.light[slot], s, light, view, &along);
+    uint32_t wide = 0;
+    int32_t offset[3];
     for (int k = 0; k < 3; k++) {
         int32_t n[3] = {s->normal_q30[0][0], s->normal_q30[0][1], s->normal_q30[0][2]};
         for (int i = 0; k && i < 3; i++) n[i] += s->normal_q30[k][i];
-        if (k && offsets == GN_OFFSET_OF_FACE)
-            for (int i = 0; i < 3; i++) offset[k][i] = offset[0][i];
-        else if (offsets != GN_OFFSET_ALONG) gn_sample_offset(shading->frame, s, slot, view, n, offset[k]);
-        else {
-            const int32_t *moved = gn_sample_lifted(s, light, n, lifted);
-            for (int i = 0; i < 3; i++) offset[k][i] = gn_corner_lift_q16(moved, view->axis_q30[i], along);
+        if (!k || !alike) gn_sample_offset(shading->frame, s, slot, view, n, offset);
+        for (int i = 0; i < 3; i++) {
+            p->at[i][k] += offset[i];
+            wide |= (uint32_t)offset[i] + (1U << 28);
         }
     }
+    return !(wide >> 29);
 }
 
-/* Coordinate of a vertex, saturated. */
-GN_HOT static inline int32_t placed(const int32_t m[3], const int32_t v[3], int32_t shift, int64_t d, int32_t offset)
+/* Adds offsets along the vertices' normals. */
+GN_HOT static inline void add_lifts(const gn_surface *s, const gn_light_state *light, const gn_view_matrix *matrix,
+                                    vertex_places *p)
 {
-    int64_t at = (gn_dot64(m, v) >> shift) + d + offset;
-    return (int32_t)at == at ? (int32_t)at : gn_sat32(at);
-}
-
-GN_HOT static GN_NOINLINE void place_vertices(const gn_shading *shading, uint32_t slot, const gn_light_view *view,
-                                              vertex_places *out)
-{
-    const int32_t(*v)[3] = (const int32_t(*)[3])shading->surface.v_q16;
-    const int32_t shift = view->fit.ortho.ray_shift;
-    int32_t offset[3][3];
-    find_offsets(shading, slot, view, offset);
+    int32_t lifted[3], n[3][3];
+    const int32_t *first = gn_sample_lifted(s, light, s->normal_q30[0], lifted);
+    const int same = first == lifted && GN_BENT(s);
+    GN_UNROLL
     for (int i = 0; i < 3; i++) {
-        const int32_t m[3] = {shading->lattice.matrix.m[i][0], shading->lattice.matrix.m[i][1],
-                              shading->lattice.matrix.m[i][2]};
-        const int64_t d = (int32_t)view->fit.ortho.ray[i].d_q16;
-        int32_t *at = out->at[i];
-        at[0] = placed(m, v[0], shift, d, offset[0][i]);
-        at[1] = placed(m, v[1], shift, d, offset[1][i]);
-        at[2] = placed(m, v[2], shift, d, offset[2][i]);
+        n[0][i] = first[i];
+        n[1][i] = first[i] + (same ? 0 : s->normal_q30[1][i]);
+        n[2][i] = first[i] + (same ? 0 : s->normal_q30[2][i]);
     }
+    for (int i = 0; i < 3; i++) {
+        const int32_t *lift = matrix->lift_q18[i];
+        p->at[i][0] += (int32_t)(gn_dot64(lift, n[0]) >> 32);
+        p->at[i][1] += (int32_t)(gn_dot64(lift, n[1]) >> 32);
+        p->at[i][2] += (int32_t)(gn_dot64(lift, n[2]) >> 32);
+    }
+}
+
+/* Without offsets. Returns 0 if vertices are too far away: |v 2^up| < 2^30, places below 2^30, and 3 * 2^28. */
+GN_HOT static inline int place_points(const gn_surface *s, const gn_light_view *view, const gn_view_matrix *matrix,
+                                      vertex_places *p)
+{
+    const int32_t up = matrix->up, down = matrix->down;
+    int32_t v[3][3];
+    uint32_t wide = 0;
+    GN_UNROLL
+    for (int i = 0; i < 3; i++) {
+        wide |= ((uint32_t)s->lo_q16[i] + (1U << 30 >> up)) | ((uint32_t)s->hi_q16[i] + (1U << 30 >> up));
+        v[0][i] = s->v_q16[0][i] * (1 << up);
+        v[1][i] = s->v_q16[1][i] * (1 << up);
+        v[2][i] = s->v_q16[2][i] * (1 << up);
+    }
+    if (wide >> (31 - up)) return 0;
+    for (int i = 0; i < 3; i++) {
+        const int32_t *m = matrix->m[i], d = (int32_t)view->fit.ortho.ray[i].d_q16;
+        p->at[i][0] = ((int32_t)(gn_dot64(m, v[0]) >> 32) >> down) + d;
+        p->at[i][1] = ((int32_t)(gn_dot64(m, v[1]) >> 32) >> down) + d;
+        p->at[i][2] = ((int32_t)(gn_dot64(m, v[2]) >> 32) >> down) + d;
+    }
+    return 1;
+}
+
+/* Returns 0 if places do not fit. */
+GN_HOT static GN_NOINLINE int place_vertices(gn_shading *shading, uint32_t slot, const gn_light_view *view,
+                                             vertex_places *out)
+{
+    const gn_surface *s = &shading->surface;
+    const gn_light_state *light = s->light[slot].state;
+    gn_view_matrix *matrix = &shading->lattice.matrix;
+    int32_t along = 0;
+    if (!use_matrix(matrix, shading->frame, view) || !place_points(s, view, matrix, out)) return 0;
+    const int offsets = gn_corner_offsets(&shading->lattice.light[slot], s, light, view, &along);
+    if (offsets == GN_OFFSET_ALONG) {
+        if (!use_lift(matrix, view, along)) return 0;
+        add_lifts(s, light, matrix, out);
+    } else if (!add_offsets(shading, slot, view, offsets == GN_OFFSET_OF_FACE, out)) return 0;
     for (int k = 0; k < 3; k++) out->at[2][k] = depth_q30_of(view, out->at[2][k]);
+    return 1;
 }
 
 /* Views that pixels may look into, from the light's first, a bit each. */
@@ -105,9 +155,7 @@ GN_HOT static uint32_t views_asked(const gn_shading *s, const gn_light_state *li
 
 GN_HOT static int place_in_ortho(gn_shading *s, uint32_t slot, const gn_light_view *view, vertex_places *out)
 {
-    if (!use_matrix(&s->lattice.matrix, s->frame, view)) return GN_CELL_SPLIT;
-    place_vertices(s, slot, view, out);
-    return GN_CELL_EDGE;
+    return place_vertices(s, slot, view, out) ? GN_CELL_EDGE : GN_CELL_SPLIT;
 }
 
 #if GN_PUNCTUAL_LIGHTS

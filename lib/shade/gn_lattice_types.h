@@ -234,10 +234,12 @@ typedef struct {
 
 enum { GN_SPANS = 32, GN_PART_WIDTH = 64, GN_PART_ROWS = 16, GN_SMALLEST_CELL_LOG2 = 2 };
 
-/* A directional view's coordinates of points in view space: texels, ray_shift fraction bits more than Q16. */
+/* A directional view's coordinates of points in view space: texels, Q16, are m times points times 2^up, over
+ * 2^(32 + down). */
 typedef struct {
     const gn_light_view *view; /* NULL: none */
-    int32_t m[3][3];
+    int32_t up, down, m[3][3];
+    int32_t along_q16, lift_q18[3][3]; /* the view's axes times offsets of receivers along their normals */
 } gn_view_matrix;
 
 #if GN_SHADOWS
