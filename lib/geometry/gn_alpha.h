@@ -22,7 +22,7 @@ GN_HOT static inline void gn_alpha_row(gn_alpha_cut *cut, int32_t y, int32_t py,
     cut->x_begin = x_begin;
     cut->x_end = x_end;
     cut->steps.end = x_begin; /* none yet */
-    cut->steps.bent = -1;
+    cut->steps.bent = INT32_MIN;
     cut->exact.x = x_end; /* nor this: never the first column of a row */
 #else
     (void)x_begin, (void)x_end;
@@ -39,7 +39,7 @@ uint32_t gn_alpha_keeps(gn_alpha_cut *cut, int32_t x, uint32_t asked);
 void gn_alpha_corners(gn_alpha_cut *cut, const uint16_t idx[3]);
 
 /* Texture coordinates from pixel x >= 0 of the row on. Returns for how many pixels: with persp_step > 1 they are
- * interpolated between exact ones, 32 pixels apart or at most 8; error below 2^-8 texel (NUMERICS 4.9). */
+ * interpolated between exact ones, up to 32 pixels apart; error below 2^-8 texel (NUMERICS 4.9). */
 int32_t gn_alpha_coords(gn_alpha_cut *cut, int32_t x, gn_texture_curve *curve);
 
 #endif

@@ -57,23 +57,24 @@ GN_HOT static int32_t bend_between(const gn_alpha_exact *a, const gn_alpha_exact
     return w0 < w1 ? -bend_q30 : bend_q30;
 }
 
-/* A coordinate that changes by d over n <= 32 pixels. Returns 0 if that is two turns or more, or if its distance from
- * the parabola is above the limit. */
-GN_HOT static int step_coord(gn_alpha_steps *steps, int axis, int64_t d, int32_t n, int32_t bend_q30,
+/* A coordinate that changes by d over n <= 32 pixels, 1 / n of them as share_q31. Returns 0 if that is two turns or
+ * more, or if its distance from the parabola is above the limit. */
+GN_HOT static int step_coord(gn_alpha_steps *steps, int axis, int32_t d, int32_t n, int32_t share_q31, int32_t bend_q30,
                              uint32_t size_log2)
 {
     uint32_t bend_q16 = (gn_abs32(bend_q30) >> 14) + 1; /* at most 2^13.6 */
-    if (gn_abs64(d) >> 21) return 0;
-    if (gn_abs64(d) * (bend_q16 * bend_q16) > (uint64_t)1 << (34 + 20 - GN_ALPHA_TEXEL_LOG2 - size_log2))
-        return 0; /* a^2/4 */
-    int32_t d_q28 = (int32_t)d * 256;
-    steps->bend_q28[axis] = (int32_t)((int64_t)d_q28 * bend_q30 >> 28) / (n * n); /* 2^29 * 3/4 before it is divided */
-    steps->step_q28[axis] = (d_q28 - steps->bend_q28[axis] * (n * (n - 1) / 2)) / n; /* 2^29 + 2^29 * 3/8 */
+    if (gn_abs32(d) >> 21) return 0;
+    if ((uint64_t)gn_abs32(d) * (bend_q16 * bend_q16) > (uint64_t)1 << (34 + 20 - GN_ALPHA_TEXEL_LOG2 - size_log2))
+        return 0;                                                                         /* a^2/4 */
+    const int32_t d_q28 = d * 256, bend_q28 = (int32_t)((int64_t)d_q28 * bend_q30 >> 28), /* 2^29 * 3/4 */
+        bend = gn_mul_high(2 * bend_q28, 2 * gn_mul_high(share_q31, share_q31));
+    steps->bend_q28[axis] = bend;
+    steps->step_q28[axis] = gn_mul_high(2 * (d_q28 - bend * (n * (n - 1) / 2)), share_q31); /* 2^29 + 2^29 * 3/8 */
     return 1;
 }
 
-/* The pixels from `at` on between two exact samples, at multiples of px in the picture, or where the triangle's row
- * begins and ends. Returns 0 if they are too far apart for the limit. */
+/* The pixels from `at` on between two exact samples, px apart, or where the triangle's row begins and ends. Returns 0
+ * if they are too far apart for the limit. */
 GN_HOT static int find_steps(gn_alpha_cut *cut, int32_t at, int32_t px)
 {
     const gn_texture *texture = cut->object->texture;
@@ -89,20 +90,22 @@ GN_HOT static int find_steps(gn_alpha_cut *cut, int32_t at, int32_t px)
     if (!from.w_norm || !cut->exact.w_norm) return 0;
     int32_t bend_q30 = bend_between(&from, &cut->exact);
     if (gn_abs32(bend_q30) > GN_ALPHA_BEND_MAX_Q30) return 0;
+    const int32_t share_q31 = (int32_t)((1U << 31) / (uint32_t)n);
     for (int i = 0; i < 2; i++) {
-        int64_t d = (int64_t)cut->exact.uv_q20[i] - from.uv_q20[i];
-        if (!gn_texture_clamps(texture, i)) d = (int32_t)(uint32_t)d; /* modulo whole turns */
+        const int32_t u = from.uv_q20[i], to = cut->exact.uv_q20[i], d = (int32_t)((uint32_t)to - (uint32_t)u);
+        if ((d < 0) != (to < u) && gn_texture_clamps(texture, i)) return 0; /* modulo whole turns, if it repeats */
         steps->from_q20[i] = from.uv_q20[i];
-        if (!step_coord(steps, i, d, n, bend_q30, gn_texture_size_log2(texture, i))) return 0;
+        if (!step_coord(steps, i, d, n, share_q31, bend_q30, gn_texture_size_log2(texture, i))) return 0;
     }
     steps->hold = 1;
     return 1;
 }
 
-/* The span around x. What it is does not depend on the pixels before: a row in two screen tiles is one row. */
+/* The span around x: all of a short row. What it is does not depend on the pixels before: a row in two screen tiles is
+ * one row. */
 GN_HOT static void alpha_steps(gn_alpha_cut *cut, int32_t x)
 {
-    int32_t at = x & -GN_ALPHA_LONG_PX;
+    const int32_t at = cut->x_end - cut->x_begin <= GN_ALPHA_LONG_PX ? cut->x_begin : x & -GN_ALPHA_LONG_PX;
     if (cut->steps.bent != at && find_steps(cut, at, GN_ALPHA_LONG_PX)) return;
     cut->steps.bent = at;
     find_steps(cut, x & -cut->px_per_step, cut->px_per_step);

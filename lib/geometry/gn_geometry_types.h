@@ -86,7 +86,7 @@ typedef struct {
 typedef struct {
     int32_t first, end;
     int32_t hold; /* 0: they are computed one by one */
-    int32_t bent; /* where a long step begins that does not hold; -1: none is known */
+    int32_t bent; /* where a long step begins that does not hold; INT32_MIN: none is known */
     int32_t from_q20[2], step_q28[2], bend_q28[2];
 } gn_alpha_steps;
 
