@@ -45,7 +45,7 @@
 #define GN_PRESETS_DEPTH_BITS           8, 16, 16, 16
 #define GN_PRESETS_OTHER_DEPTH_BITS     16, 16, 16, 32
 #define GN_PRESETS_TILE_WIDTH           32, 128, 64, 64
-#define GN_PRESETS_TILE_HEIGHT          8, 16, 16, 16
+#define GN_PRESETS_TILE_HEIGHT          16, 16, 16, 16
 #define GN_PRESETS_SRGB                 1, 1, 1, 1
 #define GN_PRESETS_VERTEX_LIGHT         0, 1, 0, 0
 #define GN_PRESETS_POSITION_BITS        32, 32, 32, 32
