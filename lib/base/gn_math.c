@@ -145,14 +145,20 @@ GN_HOT static inline int32_t halved(int32_t v)
     return (v >> 1) + (v & 1);
 }
 
-/* Of any vector, which may be 0, or be rounded up to 2^30. */
+/* Of any vector, which may be short, or be rounded up to 2^30. */
 GN_HOT static GN_NOINLINE int32_t norm_any(int32_t out[3], const int64_t a[3])
 {
     uint64_t any = gn_abs64(a[0]) | gn_abs64(a[1]) | gn_abs64(a[2]);
     int32_t clz = any ? gn_clz64(any) : 34, s = clz - 1; /* one bit more than the result, for rounding */
-    for (int i = 0; i < 3; i++) {
-        int32_t v = halved(s < 0 ? (int32_t)(a[i] >> 33) : upper32(a[i], s));
-        out[i] = v == 1 << 30 ? v - 1 : v == -(1 << 30) ? v + 1 : v;
+    if (s < 0 || (any << clz) >> 33 == 0x7FFFFFFFU) {
+        for (int i = 0; i < 3; i++) {
+            int32_t v = halved(s < 0 ? (int32_t)(a[i] >> 33) : upper32(a[i], s));
+            out[i] = v == 1 << 30 ? v - 1 : v == -(1 << 30) ? v + 1 : v;
+        }
+    } else {
+        out[0] = halved(upper32(a[0], s));
+        out[1] = halved(upper32(a[1], s));
+        out[2] = halved(upper32(a[2], s));
     }
     return 34 - clz; /* bits above 30 */
 }
