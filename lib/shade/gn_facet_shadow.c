@@ -23,7 +23,7 @@ GN_HOT static int use_matrix(gn_view_matrix *matrix, const gn_frame *frame, cons
 {
     if (matrix->view == view) return 1;
     matrix->view = NULL;
-    matrix->along_q16 = 0;
+    matrix->along_q16 = INT32_MIN; /* none */
     matrix->up = gn_max32(33 - view->fit.ortho.ray_shift, 0);
     matrix->down = view->fit.ortho.ray_shift + matrix->up - 32;
     if (matrix->up > 24 || matrix->down > 30 || frame->cam.focal2_px_q16 >> 31) return 0;
@@ -43,8 +43,8 @@ GN_HOT static int use_matrix(gn_view_matrix *matrix, const gn_frame *frame, cons
 /* What normals of length 1 move by along the view's axes, texels, Q18. Returns 0 if they do not fit. */
 GN_HOT static inline int use_lift(gn_view_matrix *matrix, const gn_light_view *view, int32_t along_q16)
 {
-    if (matrix->along_q16 == along_q16) return 1;
     if (gn_abs32(along_q16) >> 27) return 0;
+    if (matrix->along_q16 == along_q16) return 1;
     matrix->along_q16 = along_q16;
     for (int i = 0; i < 3; i++)
         for (int j = 0; j < 3; j++)
