@@ -10,3 +10,4 @@
 #define GN_MAX_OBJECTS   4
 #define GN_ATLAS_SIZE    64
 #define GN_TILE_WIDTH    64
+#define GN_TILE_HEIGHT   8

@@ -228,7 +228,7 @@ cat >"$tmp/my_config.h" <<'EOF_C'
 EOF_C
 cat >"$tmp/user.c" <<'EOF_C'
 #include "gnomon.h"
-typedef char tiny_tile[GN_TILE_HEIGHT == 8 && GN_WEIGHT_BITS == 6 ? 1 : -1];
+typedef char tiny_tile[GN_TILE_HEIGHT == 16 && GN_WEIGHT_BITS == 6 ? 1 : -1];
 typedef char own_capacity[GN_MAX_TRIANGLES == 77 && sizeof(((gn_frame *)0)->tri) == 77 * sizeof(gn_tri) ? 1 : -1];
 typedef char no_shadows[GN_SHADOWS == 0 ? 1 : -1];
 EOF_C

@@ -125,7 +125,7 @@ static long lattice_bytes(const settings *s)
 {
     layout all = {0, 4};
     put(&all, 1, 256, 4);                                                      /* span to plane */
-    if (s->feature.shadows) put(&all, 10, 4, 4);                               /* matrix */
+    if (s->feature.shadows) put(&all, 22, 4, 4);                               /* matrix */
     if (s->feature.shadows && s->feature.punctual_lights) put(&all, 8, 68, 4); /* forms */
     put(&all, s->capacity.surface_lights, 12, 4);                              /* light */
     put(&all, 1, 200, 4);                                                      /* face_q30 to bits */
