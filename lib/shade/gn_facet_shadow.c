@@ -69,18 +69,17 @@ GN_HOT static GN_NOINLINE int add_offsets(const gn_shading *shading, uint32_t sl
                                           int alike, vertex_places *p)
 {
     const gn_surface *s = &shading->surface;
-    uint32_t wide = 0;
     int32_t offset[3];
     for (int k = 0; k < 3; k++) {
         int32_t n[3] = {s->normal_q30[0][0], s->normal_q30[0][1], s->normal_q30[0][2]};
         for (int i = 0; k && i < 3; i++) n[i] += s->normal_q30[k][i];
         if (!k || !alike) gn_sample_offset(shading->frame, s, slot, view, n, offset);
         for (int i = 0; i < 3; i++) {
+            if (((uint32_t)offset[i] + (1U << 28)) >> 29) return 0;
             p->at[i][k] += offset[i];
-            wide |= (uint32_t)offset[i] + (1U << 28);
         }
     }
-    return !(wide >> 29);
+    return 1;
 }
 
 /* Adds offsets along the vertices' normals. */

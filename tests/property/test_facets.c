@@ -446,6 +446,25 @@ static void compare_lamps(void)
 }
 #endif
 
+/* A sun that moves receivers by eight texels along their normals leaves nothing behind for one that moves none. */
+static void try_offsets(void)
+{
+    static uint8_t fresh[sizeof picture[1]];
+    const gn_light sun = demo.light[0];
+    for (int after = 0; after < 2; after++) {
+        demo.light[0].auto_bias = GN_AUTO_BIAS_OFF;
+        demo.light[0].bias_normal_q16 = GN_Q16(8);
+        if (after && !draw(1, 8, 0, WIDTH, HEIGHT)) break;
+        demo.light[0].bias_normal_q16 = 0;
+        into = picture[1];
+        if (!after && !draw(1, 8, 0, WIDTH, HEIGHT)) break;
+        if (!after) memcpy(fresh, picture[1], sizeof fresh);
+        else if (CHECK(gn_render(&renderer, &demo.scene, take, NULL) == GN_OK))
+            CHECK(!memcmp(fresh, picture[1], sizeof fresh));
+    }
+    demo.light[0] = sun;
+}
+
 int main(void)
 {
     gn_texture texture;
@@ -461,6 +480,7 @@ int main(void)
             demo.scene.shadow.distance_fade_uq16 = demo.scene.shadow.cascade_fade_uq16 = GN_UQ16(0.01);
         }
         compare_all("plain", 16);
+        try_offsets();
         const uint32_t n_lights = demo.scene.n_lights;
         demo.scene.n_lights = 0; /* colours of vertices, and nothing else */
         compare_all("unlit", 16);
