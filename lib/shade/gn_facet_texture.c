@@ -47,11 +47,11 @@ GN_HOT static inline int32_t row_log2(int32_t n)
     return n <= 3 ? 1 : n <= 5 ? 2 : n <= 9 ? 3 : 4;
 }
 
-/* What vertices are off by on the screen, a coordinate of a picture of so many pixels: 2^-13 of a pixel, and by a
- * reciprocal of one step 2^-17.8 of what they are from the middle. */
+/* What vertices are off by on the screen, a coordinate of a picture of so many pixels, and up to 64 beyond it: 2^-13 of
+ * a pixel, and by a reciprocal of one step 2^-17.8 of what they are from the middle. */
 GN_HOT static inline uint32_t place_off_q24(const gn_frame *frame, int32_t size)
 {
-    return (1U << 11) + (GN_K(frame, newton_steps) > 1 ? 0 : 37 * (uint32_t)size);
+    return (1U << 11) + (GN_K(frame, newton_steps) > 1 ? 0 : 37 * ((uint32_t)size + 2 * GN_FACET_PX));
 }
 
 /* What coordinates along an axis are off by, texels, Q17: NUMERICS 4.17. `most` is the largest difference to vertex 0.

@@ -392,7 +392,7 @@ static void try_places(void)
     frame->picture.width = 1024; /* where places on the screen are off most */
     frame->picture.height = 768;
     frame->cam.focal2_px_q16 = 1400U << 16;
-    for (int i = 0; i < 100000; i++) {
+    for (int i = 0; i < 200000; i++) {
         int32_t box[4];
         gn_facet_screen screen = {0};
         gn_facet_texture t;
