@@ -9,43 +9,108 @@
 
 GN_HOT void gn_alpha_corners(gn_alpha_cut *cut, const uint16_t idx[3])
 {
-    gn_texture_corners(&cut->uv, cut->object->mesh, cut->object->texture, idx);
+    gn_texture_triangle uv;
+    gn_texture_corners(&uv, cut->object->mesh, cut->object->texture, idx);
+    for (int i = 0; i < 2; i++) {
+        cut->axis[i].from_q16 = (int32_t)uv.uv_q16[0][i];
+        for (int k = 0; k < 2; k++) cut->axis[i].change_q15[k] = (int32_t)(uv.uv_q16[k + 1][i] >> 1); /* exact */
+    }
+}
+
+/* |c| < 2^30; rounded to what c is rounded to. */
+GN_HOT static void find_form(gn_screen_form *out, const int32_t c[3], uint32_t focal2_px_q16)
+{
+    out->at = gn_shr64((int64_t)c[2] * (int64_t)focal2_px_q16, 16);
+    out->x = c[0];
+    out->y = c[1];
+}
+
+GN_HOT static inline int64_t screen_form_at(const gn_screen_form *form, int32_t px, int32_t py)
+{
+    return form->at + (int64_t)form->x * px + (int64_t)form->y * py;
+}
+
+/* Both barycentrics' forms, times what the coordinate changes with them, are one. */
+GN_HOT static void find_axis(gn_alpha_axis *axis, const gn_bary *bary, uint32_t focal2_px_q16)
+{
+    const int32_t a = axis->change_q15[0], b = axis->change_q15[1], up = gn_clz32(gn_abs32(a) | gn_abs32(b) | 1U),
+                  exp = !a || (b && bary->exp[0] < bary->exp[1]) ? bary->exp[1] : bary->exp[0];
+    int64_t sum[3];
+    int32_t form[3];
+    for (int k = 0; k < 3; k++) { /* 2 * 2^31 * 2^30 */
+        sum[k] = a ? gn_scale64((int64_t)a * bary->form[0][k], exp - bary->exp[0]) : 0;
+        if (b) sum[k] += gn_scale64((int64_t)b * bary->form[1][k], exp - bary->exp[1]);
+    }
+    axis->exp = gn_norm_vec(form, sum) + exp - (32 - up);
+    find_form(&axis->form, form, focal2_px_q16);
+    axis->least = (int32_t)((int64_t)gn_min32(gn_min32(a, b), 0) * (1 << (up - 1)) >> 2);
+    axis->most = (int32_t)((int64_t)gn_max32(gn_max32(a, b), 0) * (1 << (up - 1)) >> 2);
+    axis->down = up - 8;
 }
 
 GN_HOT void gn_alpha_plane(gn_alpha_cut *cut, const gn_frame *frame, int32_t (*v)[3], uint32_t focal2_px_q16,
                            int32_t width, int32_t newton_steps)
 {
-    gn_plane_setup(&cut->plane, v[0], v[1], v[2]);
-    gn_bary_setup(&cut->bary, &cut->plane, v[0], v[1], v[2]);
-    cut->focal2_px_q16 = focal2_px_q16;
+    gn_plane plane;
+    gn_bary bary;
+    gn_plane_setup(&plane, v[0], v[1], v[2]);
+    gn_bary_setup(&bary, &plane, v[0], v[1], v[2]);
+    if (!plane.det) plane.n[0] = plane.n[1] = plane.n[2] = 0;
+    find_form(&cut->n_ray, plane.n, focal2_px_q16);
+    for (int i = 0; i < 2; i++) find_axis(&cut->axis[i], &bary, focal2_px_q16);
     cut->width = width;
     cut->newton_steps = newton_steps;
     cut->px_per_step = gn_min32(GN_K(frame, persp_step), 8);
+    if (gn_min32(cut->axis[0].down, cut->axis[1].down) < -1)
+        cut->px_per_step = 1; /* 2^10 turns and more: modulo 2^12 */
 }
 
-/* By division. Returns 0 where the plane is edge on or behind: the coordinates are those of vertex 0 there. */
-GN_HOT static int exact_coords(const gn_alpha_cut *cut, int32_t x, int32_t uv_q20[2], gn_ray_recip *recip)
+/* v * 2^-s, truncated */
+GN_HOT static inline int32_t half_share(int64_t v, int32_t s)
 {
-    int32_t b_q30[2] = {0, 0}, px = 2 * x + 1 - cut->width;
-    int seen = gn_plane_recip(recip, &cut->plane, px, cut->py, cut->focal2_px_q16, cut->newton_steps);
-    if (seen) gn_bary_at(b_q30, &cut->bary, recip, px, cut->py, cut->focal2_px_q16);
-    for (int i = 0; i < 2; i++) uv_q20[i] = gn_texture_coord(&cut->uv, cut->object->texture, b_q30, i);
-    return seen;
+    return gn_sat32((uint32_t)s > 63 ? gn_scale64(v, s) : v >> s);
+}
+
+/* Q20: modulo 2^12 turns, saturated where it is clamped. */
+GN_HOT static inline int32_t coord_at(const gn_alpha_axis *axis, int32_t change, int clamps)
+{
+    int64_t c_q20;
+    if (axis->down > 0) c_q20 = (change + (1 << axis->down >> 1)) >> axis->down;
+    else c_q20 = (int64_t)change * (1 << -axis->down);
+    if (clamps) return gn_sat32(c_q20 + (int64_t)axis->from_q16 * 16);
+    return (int32_t)((uint32_t)c_q20 + (uint32_t)axis->from_q16 * 16U);
+}
+
+/* By division. */
+GN_HOT static void find_exact(const gn_alpha_cut *cut, gn_alpha_exact *at, int32_t x)
+{
+    const int32_t px = 2 * x + 1 - cut->width, py = cut->py;
+    const int64_t w = screen_form_at(&cut->n_ray, px, py);
+    at->x = x;
+    at->w_norm = 0;
+    int32_t recip_q30 = 0; /* 0: where nothing is seen, the coordinates are those of vertex 0 */
+    if (w > 0) {
+        at->clz = gn_clz64((uint64_t)w);
+        at->w_norm = (uint32_t)((uint64_t)w << at->clz >> 32);
+        recip_q30 = (int32_t)(gn_recip_norm(at->w_norm, cut->newton_steps) >> 1); /* 2^62 / w_norm */
+    }
+    GN_UNROLL
+    for (int i = 0; i < 2; i++) {
+        const gn_alpha_axis *axis = &cut->axis[i];
+        int32_t change = 0;
+        if (recip_q30) {
+            change = half_share(screen_form_at(&axis->form, px, py), 33 - at->clz - axis->exp);
+            GN_KEEP(change); /* 32 bits: one multiplication */
+            change = gn_mul_high(change, recip_q30);
+        }
+        change = gn_max32(gn_min32(change, axis->most), axis->least); /* of a corner, at most */
+        at->uv_q20[i] = coord_at(axis, change, gn_texture_clamps(cut->object->texture, i));
+    }
 }
 
 #define GN_ALPHA_BEND_MAX_Q30 (3 << 26) /* 3/16; the parabola is in NUMERICS 4.9 */
 #define GN_ALPHA_TEXEL_LOG2   8         /* maximum distance of coordinates from the parabola: 2^-8 texel */
 #define GN_ALPHA_LONG_PX      32        /* tried first, before cut->px_per_step */
-
-GN_HOT static void find_exact(const gn_alpha_cut *cut, gn_alpha_exact *at, int32_t x)
-{
-    gn_ray_recip recip;
-    at->x = x;
-    at->w_norm = 0;
-    if (!exact_coords(cut, x, at->uv_q20, &recip)) return;
-    at->w_norm = recip.w_norm;
-    at->clz = recip.clz;
-}
 
 /* (z1 - z0) / (z1 + z0), Q30, of depths z = 1 / w. */
 GN_HOT static int32_t bend_between(const gn_alpha_exact *a, const gn_alpha_exact *b)
@@ -114,7 +179,6 @@ GN_HOT static void alpha_steps(gn_alpha_cut *cut, int32_t x)
 GN_HOT int32_t gn_alpha_coords(gn_alpha_cut *cut, int32_t x, gn_texture_curve *curve)
 {
     const gn_alpha_steps *steps = &cut->steps;
-    gn_ray_recip recip;
     if (GN_ALPHA_STEPS && cut->px_per_step > 1) {
         if (x >= steps->end || x < steps->first) alpha_steps(cut, x);
         if (steps->hold) {
@@ -128,7 +192,11 @@ GN_HOT int32_t gn_alpha_coords(gn_alpha_cut *cut, int32_t x, gn_texture_curve *c
             return steps->end - x;
         }
     }
-    exact_coords(cut, x, curve->from_q20, &recip);
-    for (int i = 0; i < 2; i++) curve->at_q28[i] = curve->step_q28[i] = curve->bend_q28[i] = 0;
+    gn_alpha_exact at;
+    find_exact(cut, &at, x);
+    for (int i = 0; i < 2; i++) {
+        curve->from_q20[i] = at.uv_q20[i];
+        curve->at_q28[i] = curve->step_q28[i] = curve->bend_q28[i] = 0;
+    }
     return 1;
 }

@@ -75,7 +75,21 @@ typedef struct {
 
 /* ---- Triangles that alpha cuts ----------------------------------------------------------------------------------- */
 
-/* An exact sample in a row, with n . ray as in gn_ray_recip; w_norm 0: nothing is seen. */
+/* What is linear on the screen, of rays in half pixels: at + x px + y py */
+typedef struct {
+    int64_t at;
+    int32_t x, y;
+} gn_screen_form;
+
+/* A texture coordinate: from + form / (n . ray) * 2^exp, of which 2^29 is 1, is 2^down of Q20, and lies between least
+ * and most. */
+typedef struct {
+    gn_screen_form form;
+    int32_t exp, least, most, down;
+    int32_t from_q16, change_q15[2]; /* of vertex 0; from it to the other two */
+} gn_alpha_axis;
+
+/* An exact sample in a row. n . ray = w_norm * 2^(32 - clz); w_norm 0: the plane is edge on or behind. */
 typedef struct {
     int32_t x, uv_q20[2];
     uint32_t w_norm;
@@ -97,10 +111,8 @@ typedef struct {
     int textured; /* 0: the object's own alpha all over */
     int32_t y, py;
 #if GN_TEXTURES
-    gn_texture_triangle uv;
-    gn_plane plane;
-    gn_bary bary;
-    uint32_t focal2_px_q16;
+    gn_screen_form n_ray;  /* of the plane; all 0: edge on */
+    gn_alpha_axis axis[2]; /* u, v */
     int32_t width, newton_steps;
     int32_t px_per_step, x_begin, x_end;
     gn_alpha_exact exact; /* the last one computed */

@@ -39,7 +39,7 @@ static void random_triangle(triangle *t)
     t->texture = (gn_texture){.width_log2 = (uint8_t)rng_below(&random_state, 11),
                               .height_log2 = (uint8_t)rng_below(&random_state, 11),
                               .flags = (uint8_t)(rng_u32(&random_state) & 7U)};
-    t->uv_frac_bits = rng_range(&random_state, 8, 15);
+    t->uv_frac_bits = rng_range(&random_state, 0, 15);
     for (int k = 0; k < 6; k++) t->uv[k] = (int16_t)rng_range(&random_state, -32768, 32767);
     t->focal2 = rng_range(&random_state, 200, 1200);
     double z = exponential(0x1p17, 0x1p28), steep = exponential(1, 8);
@@ -77,10 +77,21 @@ static double barycentrics(const triangle *t, int32_t x, int32_t y, double b[3])
     return sizes / fabs(sum);
 }
 
-/* Of coordinate k, in turns. */
+/* Of coordinate k, in turns: at most what the corners have, and where it is clamped what 32 bits hold. */
 static double coordinate(const triangle *t, const double b[3], int k)
 {
-    return ldexp(b[0] * t->uv[k] + b[1] * t->uv[2 + k] + b[2] * t->uv[4 + k], -t->uv_frac_bits);
+    const double at = b[0] * t->uv[k] + b[1] * t->uv[2 + k] + b[2] * t->uv[4 + k],
+                 least = fmin(fmin(t->uv[k], t->uv[2 + k]), t->uv[4 + k]),
+                 most = fmax(fmax(t->uv[k], t->uv[2 + k]), t->uv[4 + k]),
+                 turns = ldexp(fmax(fmin(at, most), least), -t->uv_frac_bits);
+    return gn_texture_clamps(&t->texture, k) ? fmax(fmin(turns, 2048), -2048) : turns;
+}
+
+/* How far a coordinate is off; whole turns do not count where it repeats. */
+static double turns_off(const triangle *t, int32_t c_q20, const double b[3], int k)
+{
+    double off = ldexp(c_q20, -20) - coordinate(t, b, k);
+    return gn_texture_clamps(&t->texture, k) ? off : off - floor(off + 0.5);
 }
 
 /* What the coordinates may be off by: b, to 2^-28 and as ill as they are conditioned; each side of 2^-8 texel; a unit
@@ -136,8 +147,7 @@ static void try_row(outcome *out, triangle *t, int32_t y, int32_t x0, int n, int
         out->n++;
         out->n_held += step > 1 && t->cut.steps.hold;
         for (int k = 0; k < 2; k++) {
-            double off = ldexp(uv_q20[k], -20) - coordinate(t, b, k), most = bound(t, ill, k, step);
-            if (!gn_texture_clamps(&t->texture, k)) off -= floor(off + 0.5);
+            double off = turns_off(t, uv_q20[k], b, k), most = bound(t, ill, k, step);
             if (fabs(off) / most > out->most) out->most = fabs(off) / most;
             HOLDS(&out->close, fabs(off) <= most, "x %d, axis %d, step %d: off by %g, not %g", (int)x, k, step, off,
                   most);
@@ -191,11 +201,62 @@ static void test_tiles(void)
     CHECK_TALLY(same, "coordinates do not depend on what was found before");
 }
 
+/* Beside the triangle, as where corners are rounded, coordinates go no farther than to its corners; where its plane
+ * is behind, they are those of the first. */
+static void test_beside(void)
+{
+    tally close = {0};
+    unsigned long n_beyond = 0;
+    SET_KNOB(&frame, persp_step, 1);
+    for (int i = 0; i < 20000; i++) {
+        triangle t;
+        double b[3];
+        const int32_t y = (int32_t)rng_below(&random_state, HEIGHT), x = (int32_t)rng_below(&random_state, WIDTH);
+        int32_t uv_q20[2];
+        random_triangle(&t);
+        const double ill = barycentrics(&t, x, y, b), first[3] = {1, 0, 0};
+        const int seen = b[0] * t.v[0][2] + b[1] * t.v[1][2] + b[2] * t.v[2][2] > 0;
+        gn_alpha_row(&t.cut, y, HEIGHT - 1 - 2 * y, 0, WIDTH);
+        coordinates_at(&t.cut, x, 0, uv_q20);
+        n_beyond += seen && (b[0] < -4 || b[1] < -4 || b[2] < -4);
+        for (int k = 0; k < 2 && ill < 0x1p20; k++) {
+            /* beyond the corners, the error grows with the distance from the first */
+            const double off = turns_off(&t, uv_q20[k], seen ? b : first, k),
+                         most = bound(&t, ill * (1 + fabs(b[1]) + fabs(b[2])), k, 1);
+            HOLDS(&close, fabs(off) <= most, "x %d, axis %d: off by %g, not %g", (int)x, k, off, most);
+        }
+    }
+    CHECK_TALLY(close, "coordinates beside a triangle");
+    CHECK(n_beyond > 500);
+}
+
+/* Of a triangle that is seen edge on those of the first corner. */
+static void test_edge_on(void)
+{
+    triangle t;
+    random_triangle(&t);
+    t.texture.flags |= GN_TEXTURE_CLAMP_U | GN_TEXTURE_CLAMP_V;
+    const int32_t v[3][3] = {{0, 0, 1 << 18}, {1 << 17, 0, 1 << 18}, {0, 0, 1 << 19}};
+    memcpy(t.v, v, sizeof v);
+    t.uv_frac_bits = 8;
+    t.mesh.uv_frac_bits = 8;
+    gn_alpha_begin(&t.cut, &t.object, GN_ALPHA_CLIP, (const uint16_t[]){0, 1, 2});
+    gn_alpha_plane(&t.cut, &frame, t.v, (uint32_t)t.focal2 << 16, WIDTH, 2);
+    for (int32_t y = 0; y < HEIGHT; y += HEIGHT - 1) {
+        int32_t uv_q20[2];
+        gn_alpha_row(&t.cut, y, HEIGHT - 1 - 2 * y, 0, WIDTH);
+        coordinates_at(&t.cut, 100, 0, uv_q20);
+        for (int k = 0; k < 2; k++) CHECK_EQ_INT(uv_q20[k], t.uv[k] * 4096);
+    }
+}
+
 int main(void)
 {
     const int steps[] = {1, 4, 8, 16};
     for (unsigned i = 0; i < sizeof steps / sizeof *steps; i++)
         if (TAKES_KNOB(&frame, persp_step, steps[i])) test_rows(steps[i]);
     test_tiles();
+    test_beside();
+    test_edge_on();
     return check_report();
 }
