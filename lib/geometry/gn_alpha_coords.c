@@ -18,7 +18,7 @@ GN_HOT void gn_alpha_corners(gn_alpha_cut *cut, const uint16_t idx[3])
 }
 
 /* |c| < 2^30; rounded to what c is rounded to. */
-GN_HOT static void find_form(gn_screen_form *out, const int32_t c[3], uint32_t focal2_px_q16)
+GN_HOT static void cut_form(gn_screen_form *out, const int32_t c[3], uint32_t focal2_px_q16)
 {
     out->at = gn_shr64((int64_t)c[2] * (int64_t)focal2_px_q16, 16);
     out->x = c[0];
@@ -42,7 +42,7 @@ GN_HOT static void find_axis(gn_alpha_axis *axis, const gn_bary *bary, uint32_t 
         if (b) sum[k] += gn_scale64((int64_t)b * bary->form[1][k], exp - bary->exp[1]);
     }
     axis->exp = gn_norm_vec(form, sum) + exp - (32 - up);
-    find_form(&axis->form, form, focal2_px_q16);
+    cut_form(&axis->form, form, focal2_px_q16);
     axis->least = (int32_t)((int64_t)gn_min32(gn_min32(a, b), 0) * (1 << (up - 1)) >> 2);
     axis->most = (int32_t)((int64_t)gn_max32(gn_max32(a, b), 0) * (1 << (up - 1)) >> 2);
     axis->down = up - 8;
@@ -56,7 +56,7 @@ GN_HOT void gn_alpha_plane(gn_alpha_cut *cut, const gn_frame *frame, int32_t (*v
     gn_plane_setup(&plane, v[0], v[1], v[2]);
     gn_bary_setup(&bary, &plane, v[0], v[1], v[2]);
     if (!plane.det) plane.n[0] = plane.n[1] = plane.n[2] = 0;
-    find_form(&cut->n_ray, plane.n, focal2_px_q16);
+    cut_form(&cut->n_ray, plane.n, focal2_px_q16);
     for (int i = 0; i < 2; i++) find_axis(&cut->axis[i], &bary, focal2_px_q16);
     cut->width = width;
     cut->newton_steps = newton_steps;
