@@ -74,8 +74,8 @@ emulated small "$(sh tests/firmware/size.sh --flags small | sed 's/-DGN_CLIPPING
 # ---- Budgets ----------------------------------------------------------------------------------------------------------------
 
 for configuration in smallest small tiny fast balanced accurate full; do within stack Cortex-M3 $configuration gn_render 1024; done
-within flash Cortex-M3 full linked 56600
-within flash Cortex-M3 accurate linked 59200
+within flash Cortex-M3 full linked 57200
+within flash Cortex-M3 accurate linked 59800
 within flash Cortex-M3 smallest linked 8192
 within flash Cortex-M0 smallest linked 9800
 within flash Cortex-M3 small linked 17200

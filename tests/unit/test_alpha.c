@@ -256,7 +256,7 @@ int main(void)
     for (unsigned i = 0; i < sizeof steps / sizeof *steps; i++)
         if (TAKES_KNOB(&frame, persp_step, steps[i])) test_rows(steps[i]);
     test_tiles();
-    test_beside();
+    if (TAKES_KNOB(&frame, persp_step, 1)) test_beside();
     test_edge_on();
     return check_report();
 }

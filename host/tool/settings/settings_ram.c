@@ -64,7 +64,7 @@ static long cut_bytes(const settings *s)
 {
     if (!s->feature.caster_alpha) return 0;
     if (!s->feature.textures) return 24;
-    return 224;
+    return 216;
 }
 
 /* gn_casting of lib/geometry/gn_geometry_types.h */
