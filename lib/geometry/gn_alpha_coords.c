@@ -17,7 +17,7 @@ GN_HOT void gn_alpha_corners(gn_alpha_cut *cut, const uint16_t idx[3])
     }
 }
 
-/* |c| < 2^30; rounded to what c is rounded to. */
+/* |c| < 2^30; rounded to a unit of c. */
 GN_HOT static GN_SHARED void cut_form(gn_screen_form *out, const int32_t c[3], uint32_t focal2_px_q16)
 {
     out->at = gn_shr64((int64_t)c[2] * (int64_t)focal2_px_q16, 16);
@@ -65,7 +65,7 @@ GN_HOT void gn_alpha_plane(gn_alpha_cut *cut, const gn_frame *frame, int32_t (*v
         cut->px_per_step = 1; /* 2^10 turns and more: modulo 2^12 */
 }
 
-/* v * 2^-s, truncated */
+/* v * 2^-s, rounded down, saturated */
 GN_HOT static inline int32_t half_share(int64_t v, int32_t s)
 {
     return gn_sat32((uint32_t)s > 63 ? gn_scale64(v, s) : v >> s);

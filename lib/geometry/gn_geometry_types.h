@@ -81,8 +81,8 @@ typedef struct {
     int32_t x, y;
 } gn_screen_form;
 
-/* A texture coordinate: from + form / (n . ray) * 2^exp, of which 2^29 is 1, is 2^down of Q20, and lies between least
- * and most. */
+/* A texture coordinate: from + form / (n . ray) * 2^exp turns of a scale. The quotient has 29 fraction bits, `down` of
+ * them more than Q20 has; least and most bound it. */
 typedef struct {
     gn_screen_form form;
     int32_t exp, least, most, down;

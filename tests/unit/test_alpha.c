@@ -23,6 +23,7 @@ typedef struct {
     int uv_frac_bits;
     int32_t v[3][3];
     double focal2; /* in half pixels */
+    int newton_steps;
     gn_object object;
     gn_mesh mesh;
     gn_alpha_cut cut;
@@ -41,8 +42,9 @@ static void random_triangle(triangle *t)
                               .flags = (uint8_t)(rng_u32(&random_state) & 7U)};
     t->uv_frac_bits = rng_range(&random_state, 0, 15);
     for (int k = 0; k < 6; k++) t->uv[k] = (int16_t)rng_range(&random_state, -32768, 32767);
-    t->focal2 = rng_range(&random_state, 200, 1200);
-    double z = exponential(0x1p17, 0x1p28), steep = exponential(1, 8);
+    t->focal2 = rng_range(&random_state, 200 * 256, 1200 * 256) / 256.0;
+    t->newton_steps = rng_range(&random_state, 1, 2);
+    double z = exponential(0x1p17, 0x1p26), steep = exponential(1, 8);
     for (int i = 0; i < 3; i++) {
         double depth = z * exponential(1, steep);
         t->v[i][0] = (int32_t)(depth * rng_range(&random_state, -WIDTH, WIDTH) / t->focal2);
@@ -52,7 +54,7 @@ static void random_triangle(triangle *t)
     t->mesh = (gn_mesh){.uv = t->uv, .n_vertices = 3, .uv_frac_bits = (uint8_t)t->uv_frac_bits};
     t->object = (gn_object){.texture = &t->texture, .mesh = &t->mesh};
     gn_alpha_begin(&t->cut, &t->object, GN_ALPHA_CLIP, (const uint16_t[]){0, 1, 2});
-    gn_alpha_plane(&t->cut, &frame, t->v, (uint32_t)t->focal2 << 16, WIDTH, 2);
+    gn_alpha_plane(&t->cut, &frame, t->v, (uint32_t)(t->focal2 * 65536), WIDTH, t->newton_steps);
 }
 
 static double det3(const double a[3], const double b[3], const double c[3])
@@ -99,7 +101,7 @@ static double turns_off(const triangle *t, int32_t c_q20, const double b[3], int
 static double bound(const triangle *t, double ill, int k, int step)
 {
     double spread = ldexp(abs(t->uv[2 + k] - t->uv[k]) + abs(t->uv[4 + k] - t->uv[k]), -t->uv_frac_bits);
-    double exact = spread * (ill * 0x1p-28 + 0x1p-28) + 0x1p-20;
+    double exact = spread * (ill * 0x1p-28 + (t->newton_steps == 1 ? 0x1p-17 : 0) + 0x1p-28) + 0x1p-20;
     return step > 1 ? exact + ldexp(1, -8 - (k ? t->texture.height_log2 : t->texture.width_log2)) + 2 * 0x1p-20 : exact;
 }
 
@@ -241,7 +243,7 @@ static void test_edge_on(void)
     t.uv_frac_bits = 8;
     t.mesh.uv_frac_bits = 8;
     gn_alpha_begin(&t.cut, &t.object, GN_ALPHA_CLIP, (const uint16_t[]){0, 1, 2});
-    gn_alpha_plane(&t.cut, &frame, t.v, (uint32_t)t.focal2 << 16, WIDTH, 2);
+    gn_alpha_plane(&t.cut, &frame, t.v, (uint32_t)(t.focal2 * 65536), WIDTH, t.newton_steps);
     for (int32_t y = 0; y < HEIGHT; y += HEIGHT - 1) {
         int32_t uv_q20[2];
         gn_alpha_row(&t.cut, y, HEIGHT - 1 - 2 * y, 0, WIDTH);
