@@ -65,7 +65,7 @@ GN_HOT void gn_alpha_plane(gn_alpha_cut *cut, const gn_frame *frame, int32_t (*v
         cut->px_per_step = 1; /* 2^10 turns and more: modulo 2^12 */
 }
 
-/* v * 2^-s, rounded down, saturated */
+/* v * 2^-s, off by less than 1, saturated */
 GN_HOT static inline int32_t half_share(int64_t v, int32_t s)
 {
     return gn_sat32((uint32_t)s > 63 ? gn_scale64(v, s) : v >> s);

@@ -81,8 +81,8 @@ typedef struct {
     int32_t x, y;
 } gn_screen_form;
 
-/* A texture coordinate: from + form / (n . ray) * 2^exp turns of a scale. The quotient has 29 fraction bits, `down` of
- * them more than Q20 has; least and most bound it. */
+/* A texture coordinate: from + form / (n . ray) * 2^exp, a quotient of 20 + down fraction bits of a turn; least and
+ * most bound it. */
 typedef struct {
     gn_screen_form form;
     int32_t exp, least, most, down;

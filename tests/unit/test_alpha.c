@@ -96,8 +96,8 @@ static double turns_off(const triangle *t, int32_t c_q20, const double b[3], int
     return gn_texture_clamps(&t->texture, k) ? off : off - floor(off + 0.5);
 }
 
-/* What the coordinates may be off by: b, to 2^-28 and as ill as they are conditioned; each side of 2^-8 texel; a unit
- * of each step. */
+/* What the coordinates may be off by: b, to 2^-28, 2^-17 with one Newton step, and as ill as they are conditioned; each
+ * side of 2^-8 texel; a unit of each step. */
 static double bound(const triangle *t, double ill, int k, int step)
 {
     double spread = ldexp(abs(t->uv[2 + k] - t->uv[k]) + abs(t->uv[4 + k] - t->uv[k]), -t->uv_frac_bits);
