@@ -25,12 +25,14 @@ GN_HOT static GN_SHARED void cut_form(gn_screen_form *out, const int32_t c[3], u
     out->y = c[1];
 }
 
+/* As gn_plane_at, / 2^16, but what the row and column do not change is added up beforehand: below 2^46 + 2 * 2^43. */
 GN_HOT static inline int64_t screen_form_at(const gn_screen_form *form, int32_t px, int32_t py)
 {
     return form->at + (int64_t)form->x * px + (int64_t)form->y * py;
 }
 
-/* Both barycentrics' forms, times what the coordinate changes with them, are one. */
+/* Both barycentrics' forms, times what the coordinate changes with them, are one, aligned to the larger exponent of
+ * those that count. Changes are below 2^(32 - up), up 1..31; least and most below 2^29. */
 GN_HOT static void find_axis(gn_alpha_axis *axis, const gn_bary *bary, uint32_t focal2_px_q16)
 {
     const int32_t a = axis->change_q15[0], b = axis->change_q15[1], up = gn_clz32(gn_abs32(a) | gn_abs32(b) | 1U),
@@ -71,7 +73,7 @@ GN_HOT static inline int32_t half_share(int64_t v, int32_t s)
     return gn_sat32((uint32_t)s > 63 ? gn_scale64(v, s) : v >> s);
 }
 
-/* Q20: modulo 2^12 turns, saturated where it is clamped. */
+/* Q20: modulo 2^12 turns, saturated where it is clamped. |change| <= 2^29, down is -7..23. */
 GN_HOT static inline int32_t coord_at(const gn_alpha_axis *axis, int32_t change, int clamps)
 {
     int64_t c_q20;

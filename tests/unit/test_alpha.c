@@ -256,6 +256,41 @@ static void test_edge_on(void)
     CHECK_TALLY(same, "coordinates edge on");
 }
 
+/* A sliver of two units, 2^29 long: one barycentric's form is 2^28 times the other's, and does not count where the
+ * coordinate is the same at both ends of its edge. */
+static void test_sliver(void)
+{
+    tally close = {0};
+    const int32_t side[3] = {(1 << 20) - 193, 12345 - (1 << 28), (1 << 29) - 192 * 512}; /* around the ray px = 1 */
+    for (int turned = 0; turned < 2; turned++) {
+        triangle t;
+        random_triangle(&t);
+        t.texture.flags = 0;
+        t.focal2 = 512;
+        t.newton_steps = 2;
+        t.uv_frac_bits = 15;
+        t.mesh.uv_frac_bits = 15;
+        for (int i = 0; i < 3; i++) memcpy(t.v[i], side, sizeof side);
+        t.v[1 + turned][0] += 2;
+        t.v[2 - turned][0] += 1;
+        t.v[2 - turned][1] = (1 << 28) - 54321;
+        for (int k = 0; k < 2; k++) t.uv[2 * (1 + turned) + k] = t.uv[k];
+        gn_alpha_begin(&t.cut, &t.object, GN_ALPHA_CLIP, (const uint16_t[]){0, 1, 2});
+        gn_alpha_plane(&t.cut, &frame, t.v, (uint32_t)(t.focal2 * 65536), WIDTH, t.newton_steps);
+        for (int32_t y = 0; y < HEIGHT; y++) {
+            int32_t uv_q20[2];
+            double b[3];
+            barycentrics(&t, WIDTH / 2, y, b);
+            gn_alpha_row(&t.cut, y, HEIGHT - 1 - 2 * y, WIDTH / 2, WIDTH / 2 + 1);
+            coordinates_at(&t.cut, WIDTH / 2, 0, uv_q20);
+            for (int k = 0; k < 2; k++) /* only the other one counts, and is as well conditioned as the plane */
+                HOLDS(&close, fabs(turns_off(&t, uv_q20[k], b, k)) <= 0x1p-20, "y %d, axis %d, turned %d: off by %g",
+                      (int)y, k, turned, turns_off(&t, uv_q20[k], b, k));
+        }
+    }
+    CHECK_TALLY(close, "coordinates of a sliver");
+}
+
 int main(void)
 {
     const int steps[] = {1, 4, 8, 16};
@@ -264,5 +299,6 @@ int main(void)
     test_tiles();
     if (TAKES_KNOB(&frame, persp_step, 1)) test_beside();
     test_edge_on();
+    test_sliver();
     return check_report();
 }
