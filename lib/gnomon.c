@@ -139,13 +139,6 @@
 /* Their colours. */
 #include "shade/gn_arrival.c"
 #include "shade/gn_exact.c"
-#include "shade/gn_facet.c"
-#include "shade/gn_facet_draw.c"
-#include "shade/gn_facet_punctual.c"
-#include "shade/gn_facet_screen.c"
-#include "shade/gn_facet_shadow.c"
-#include "shade/gn_facet_specular.c"
-#include "shade/gn_facet_texture.c"
 #include "shade/gn_join.c"
 #if GN_INTERPOLATES
 #include "shade/gn_corner.c"
@@ -165,6 +158,11 @@
 #include "shade/gn_lattice_window.c"
 #include "shade/gn_levels.c"
 #include "shade/gn_part.c"
+#include "shade/gn_patch.c"
+#include "shade/gn_patch_light.c"
+#include "shade/gn_patch_shadow.c"
+#include "shade/gn_patch_texture.c"
+#include "shade/gn_record.c"
 #endif
 #include "shade/gn_light.c"
 #include "shade/gn_sample.c"

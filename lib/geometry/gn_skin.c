@@ -75,3 +75,34 @@ void gn_skin_normal(int32_t out_q30[3], const gn_object *object, const int32_t m
     for (int r = 0; r < 3; r++) n[r] = gn_dot64(matrix[r], posed);
     if (!gn_normalise_q30(out_q30, n)) out_q30[0] = out_q30[1] = out_q30[2] = 0;
 }
+
+/* The weighted mean of the joints' matrices, 14 bits, up to a positive factor. */
+static void short_mean_matrix(int32_t out[3][3], const vertex_joints *of)
+{
+    int32_t exp = of->joint[of->idx[0]].exp;
+    for (uint32_t i = 1; i < of->n; i++)
+        if (of->weight_u8[i]) exp = gn_max32(exp, of->joint[of->idx[i]].exp);
+    for (int k = 0; k < 9; k++) out[k / 3][k % 3] = 0;
+    for (uint32_t i = 0; i < of->n; i++) {
+        const gn_affine *joint = &of->joint[of->idx[i]];
+        const int32_t weight = of->weight_u8[i], down = gn_min32(16 + exp - joint->exp, 31);
+        for (int k = 0; weight && k < 9; k++) out[k / 3][k % 3] += (joint->m_q30[k / 3][k % 3] >> down) * weight;
+    }
+    for (int k = 0; k < 9; k++) out[k / 3][k % 3] >>= 8; /* 255 * 2^14 */
+}
+
+void gn_skin_direction(int32_t n[3], const gn_skin *skin, uint32_t vertex_idx)
+{
+    const vertex_joints of = joints_of(skin, vertex_idx);
+    const int32_t x = n[0] >> 1, y = n[1] >> 1, z = n[2] >> 1; /* 2^14 */
+    int32_t m[3][3], det = 0;
+    short_mean_matrix(m, &of);
+    for (int r = 0; r < 3; r++) { /* the inverse transpose, times the determinant: below 2^15 */
+        const int32_t *a = m[(r + 1) % 3], *b = m[(r + 2) % 3];
+        const int32_t cx = (a[1] * b[2] - a[2] * b[1]) >> 15, cy = (a[2] * b[0] - a[0] * b[2]) >> 15,
+                      cz = (a[0] * b[1] - a[1] * b[0]) >> 15; /* 2^29 each */
+        n[r] = (cx * x + cy * y + cz * z) >> 14; /* 3 * 2^28 */
+        if (!r) det = cx * m[0][0] + cy * m[0][1] + cz * m[0][2];
+    }
+    for (int r = 0; det < 0 && r < 3; r++) n[r] = -n[r];
+}

@@ -15,25 +15,6 @@
 /* ---- At a point -------------------------------------------------------------------------------------------------- */
 
 #if GN_SHADOWS
-/* T / 2 * (1 + x / (z t)), Q16: the clamps keep what is far outside the tile outside. */
-GN_HOT static int32_t persp_coord(const gn_light_view *view, int64_t x_q16, uint32_t recip, int32_t clz)
-{
-#if !GN_SIZE_FIRST
-    if (gn_abs64(x_q16) < (uint64_t)UINT32_MAX >> clz && clz >= 2 &&
-        !(view->fit.persp.focal2_q16 >> 30)) {         /* |x| < 2 z: the same, of which nothing needs a clamp */
-        int32_t x = (int32_t)x_q16 * (1 << (clz - 2)); /* x / z = x * recip / 2^61: below 2^29 * 4 */
-        int32_t ratio_q28 = (int32_t)((((int64_t)x * (int64_t)recip >> 32) + 1) >> 1);
-        return (int32_t)(((int64_t)ratio_q28 * (int64_t)view->fit.persp.focal2_q16 + (1 << 28)) >> 29) +
-               (view->tile_texels << 15);
-    }
-#endif
-    /* times focal2 within 2^60, and 2^14 texels or more: beyond every tile */
-    const int64_t bound = (int64_t)1 << (28 + gn_clz32(view->fit.persp.focal2_q16)), x_most = INT32_MAX;
-    int64_t ratio_q28 = gn_scale64(gn_clamp64(x_q16, -x_most, x_most) * (int64_t)recip, 35 - clz); /* 2^31 * 2^32 */
-    int64_t texels = gn_shr64(gn_clamp64(ratio_q28, -bound, bound) * (int64_t)view->fit.persp.focal2_q16, 29);
-    return gn_sat32(texels + ((int64_t)view->tile_texels << 15));
-}
-
 /* B2 and B3 have moved the point before; B6 does it here, in one of its forms, face by face of a point light. Returns
  * what is to be taken off its depth, Q32. */
 GN_HOT static int64_t move_point(const gn_surface *surface, int32_t z_q16, const gn_light_view *view,
@@ -58,17 +39,12 @@ GN_HOT static int place_in(const gn_frame *frame, const gn_surface *surface, int
                            gn_auto_bias form, const int32_t from_q16[3], const int32_t offset_q16[3], gn_arrival *out)
 {
     int32_t moved[3];
-    int64_t less_q32 = move_point(surface, z_q16 + GN_FLAT_Q16(frame), view, &form, from_q16, offset_q16, moved),
-            far = gn_dot_q30(moved, view->axis_q30[2]); /* sqrt(3) * 2^61 */
-    if (far <= view->fit.persp.near_q16) return 0;
-    uint32_t z = far > UINT32_MAX ? UINT32_MAX : (uint32_t)far;
-    int32_t clz = gn_clz32(z);
-    uint32_t recip = gn_recip_norm(z << clz, GN_K(frame, newton_steps));
-    /* 1 - n / z: n * recip * 2^(clz - 31) */
-    uint64_t inverse = (uint64_t)(uint32_t)view->fit.persp.near_q16 * recip >> (31 - clz);
-    out->u_q16 = persp_coord(view, gn_dot_q30(moved, view->axis_q30[0]), recip, clz);
-    out->v_q16 = persp_coord(view, gn_dot_q30(moved, view->axis_q30[1]), recip, clz);
-    out->depth_q32 = (uint32_t)gn_clamp64(UINT32_MAX - (int64_t)inverse - less_q32, 0, UINT32_MAX);
+    const int64_t less_q32 = move_point(surface, z_q16 + GN_FLAT_Q16(frame), view, &form, from_q16, offset_q16, moved);
+    gn_persp_place at;
+    if (!gn_persp_find_place(frame, view, moved, less_q32, &at)) return 0;
+    out->u_q16 = at.u_q16;
+    out->v_q16 = at.v_q16;
+    out->depth_q32 = at.depth_q32;
     return 1;
 }
 

@@ -7,7 +7,6 @@
 #include "base/gn_q.h"
 #include "shade/gn_corner_pixel.h"
 #include "shade/gn_exact.h"
-#include "shade/gn_facet.h"
 #include "shade/gn_lattice.h"
 #include "shade/gn_lattice_window.h"
 #include "shade/gn_levels.h"
@@ -54,7 +53,7 @@ GN_HOT static GN_NOINLINE int mark(gn_lattice *l)
 
 /* A small triangle, a part, or a cell costs as much as these pixels do by themselves; a part, more where its box is
  * long. */
-enum { FEW_OF_A_FACET = 3, FEW_OF_ONE_COLOUR = 8, FEW = 12, FEW_OF_A_CELL = 5 };
+enum { FEW_OF_ONE_COLOUR = 8, FEW = 12, FEW_OF_A_CELL = 5 };
 
 /* Pixels of a cell, counted up to one more than are few. */
 GN_HOT static int32_t count_some(const gn_lattice *l, int32_t x, int32_t y, int32_t size_log2)
@@ -248,10 +247,6 @@ GN_HOT static GN_NOINLINE int begin_parts(gn_shading *s)
     gn_rect box = box_of(l);
     int reached = gn_corner_begin_lights(l, s->frame, &s->surface);
     int32_t n_px = count_pixels(l);
-    if (reached && n_px > FEW_OF_A_FACET && gn_facet_shade(s, &box, n_px)) {
-        if (GN_MIXES(s) && s->surface.textured) gn_surface_use_bary(s->frame, &s->surface); /* alpha is read there */
-        return 0;
-    }
     gn_surface_use_bary(s->frame, &s->surface);
     /* of parallel rays each pixel has its own highlight: gn_sample_on_plane() is of rays from the eye */
     const int alone = n_px == 1 || (GN_FLAT_Q16(s->frame) && GN_SPECULAR && s->surface.specular && s->surface.n_lights);

@@ -22,7 +22,7 @@ GN_HOT static int64_t inside_face(const gn_lattice_cell *cell, uint32_t slot, in
     return ahead - (other & 1 ? -(int64_t)from[other >> 1] : from[other >> 1]);
 }
 
-GN_HOT int gn_cell_border(const gn_lattice_cell *cell, uint32_t slot, int32_t one, int32_t other, gn_patch *out)
+GN_HOT int gn_cell_border(const gn_lattice_cell *cell, uint32_t slot, int32_t one, int32_t other, gn_flat_patch *out)
 {
     int32_t inside[4], nearest = INT32_MAX;
     int64_t exact[4], lo = INT64_MAX, hi = INT64_MIN;
@@ -45,7 +45,7 @@ GN_HOT int gn_cell_border(const gn_lattice_cell *cell, uint32_t slot, int32_t on
             GN_FLAT_Q16(cell->frame) ? 1U << 30 : gn_quotient_q30((uint32_t)nearest, (uint32_t)cell->corner[i]->z_q16);
         inside[i] = (int32_t)((exact[i] >> down) * (int64_t)share_q30 >> 30);
     }
-    gn_patch_make(out, inside, cell->size_log2);
+    gn_flat_patch_make(out, inside, cell->size_log2);
     return 1;
 }
 

@@ -180,7 +180,7 @@ uint32_t gn_cell_unevenness_q24(gn_lattice_cell *cell, uint32_t slot, int32_t le
 /* Where the border of two views lies between the corners: what is 0 there, positive in the first view. As a share of
  * the depth, what is linear on the surface is so on the screen; spheres of cascades are not. Returns 0 if that moves
  * the border by more than a pixel, and the cell can be split. */
-int gn_cell_border(const gn_lattice_cell *cell, uint32_t slot, int32_t one, int32_t other, gn_patch *out);
+int gn_cell_border(const gn_lattice_cell *cell, uint32_t slot, int32_t one, int32_t other, gn_flat_patch *out);
 
 /* The shadow of a light: GN_CELL_LIT, GN_CELL_DARK, or GN_CELL_EDGE, which is added. */
 int gn_cell_shadow(const gn_lattice_cell *cell, uint32_t slot, const gn_contribution *light);

@@ -135,9 +135,9 @@ GN_HOT static void find_row(const gn_drawing *d, const gn_lattice_edge *edge, in
     step->u_q16 = edge->u_q16.dx + below * edge->u_q16.dxy;
     step->v_q16 = edge->v_q16.dx + below * edge->v_q16.dxy;
     step->depth_q31 = edge->depth_q30.dx + below * edge->depth_q30.dxy;
-    at->u_q16 = gn_patch_at(&edge->u_q16, d->first, below);
-    at->v_q16 = gn_patch_at(&edge->v_q16, d->first, below);
-    at->depth_q31 = gn_patch_at(&edge->depth_q30, d->first, below);
+    at->u_q16 = gn_flat_patch_at(&edge->u_q16, d->first, below);
+    at->v_q16 = gn_flat_patch_at(&edge->v_q16, d->first, below);
+    at->depth_q31 = gn_flat_patch_at(&edge->depth_q30, d->first, below);
 }
 
 /* Steps between nodes. */
@@ -244,8 +244,8 @@ GN_HOT static GN_NOINLINE void look_up_two(const gn_drawing *d, const gn_lattice
         find_row(d, edge + k, below, &at[k], &step[k]);
         if (edge[k].bent & GN_PLACES_BY_ROW) place_flat_row(d, edge + k, below, &at[k], &step[k]);
     }
-    const gn_patch *border = &edge[1].more_q24[0];
-    const int32_t first = gn_patch_at(border, d->first, below), across = border->dx + below * border->dxy;
+    const gn_flat_patch *border = &edge[1].more_q24[0];
+    const int32_t first = gn_flat_patch_at(border, d->first, below), across = border->dx + below * border->dxy;
     for (int32_t from = 0, end; from < d->n; from = end) { /* |first + i across| < 2^29: a corner's is below 2^28 */
         int k = first + from * across < 0;
         for (end = from + 1; end < d->n && (first + end * across < 0) == k;) end++;
@@ -410,7 +410,7 @@ GN_HOT static GN_NOINLINE void begin_base(gn_drawing *d, const gn_lattice_look *
         int32_t at[4];
         GN_UNROLL
         for (int i = 0; i < 4; i++) at[i] = look->colour_q24[i][c];
-        gn_patch_make(&d->base_q24[c], at, d->size_log2);
+        gn_flat_patch_make(&d->base_q24[c], at, d->size_log2);
     }
 }
 

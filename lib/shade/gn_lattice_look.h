@@ -15,7 +15,7 @@ int gn_lattice_look_at(gn_lattice *lattice, const gn_frame *frame, const gn_surf
 enum { GN_PLACES_BILINEAR, GN_PLACES_BY_ROW, GN_PLACES_LONE, GN_PLACES_OF_TWO = 4 };
 
 /* Through values at the corners of a cell. */
-GN_HOT static inline void gn_patch_make(gn_patch *p, const int32_t at[4], int32_t size_log2)
+GN_HOT static inline void gn_flat_patch_make(gn_flat_patch *p, const int32_t at[4], int32_t size_log2)
 {
     int32_t across = (at[1] - at[0]) >> size_log2;
     p->at = at[0];
@@ -25,7 +25,7 @@ GN_HOT static inline void gn_patch_make(gn_patch *p, const int32_t at[4], int32_
 }
 
 /* Value of a patch at (x, y) pixels from its first corner. */
-GN_HOT static inline int32_t gn_patch_at(const gn_patch *p, int32_t x, int32_t y)
+GN_HOT static inline int32_t gn_flat_patch_at(const gn_flat_patch *p, int32_t x, int32_t y)
 {
     return p->at + y * p->dy + x * (p->dx + y * p->dxy);
 }

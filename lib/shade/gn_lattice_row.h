@@ -14,12 +14,12 @@ typedef struct {
 } gn_node_row;
 
 /* Adds what is bilinear over the cell, `below` pixels under its first row. */
-GN_INLINE void gn_row_add(const gn_drawing *d, const gn_patch colour_q24[3], int32_t below, gn_node_row *row)
+GN_INLINE void gn_row_add(const gn_drawing *d, const gn_flat_patch colour_q24[3], int32_t below, gn_node_row *row)
 {
     GN_UNROLL
     for (int c = 0; c < 3; c++) {
-        const gn_patch *p = &colour_q24[c];
-        row->from[c] += gn_patch_at(p, d->first, below);
+        const gn_flat_patch *p = &colour_q24[c];
+        row->from[c] += gn_flat_patch_at(p, d->first, below);
         row->step[c] += (p->dx + below * p->dxy) * (1 << d->s->lattice.look.spacing_log2);
     }
 }

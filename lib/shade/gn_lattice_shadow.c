@@ -249,9 +249,9 @@ GN_HOT static int add_edge(const gn_lattice_cell *cell, uint32_t slot, gn_cell_p
     edge->slope_q28[0] = p->slope_q28[0];
     edge->slope_q28[1] = p->slope_q28[1];
     if (p->bent != GN_PLACES_LONE) {
-        gn_patch_make(&edge->u_q16, p->u, cell->size_log2);
-        gn_patch_make(&edge->v_q16, p->v, cell->size_log2);
-        gn_patch_make(&edge->depth_q30, p->depth, cell->size_log2);
+        gn_flat_patch_make(&edge->u_q16, p->u, cell->size_log2);
+        gn_flat_patch_make(&edge->v_q16, p->v, cell->size_log2);
+        gn_flat_patch_make(&edge->depth_q30, p->depth, cell->size_log2);
     }
     for (int j = 0; j < 3; j++) {
         int32_t at[4];
@@ -268,7 +268,7 @@ GN_HOT static int add_edge(const gn_lattice_cell *cell, uint32_t slot, gn_cell_p
             if (GN_SPECULAR && cell->s->specular)
                 at[i] += gn_corner_times(light->shine_uq16[j], gn_cell_share(light->highlight_q24[i], share_uq16[i]));
         }
-        gn_patch_make(&edge->more_q24[j], at, cell->size_log2);
+        gn_flat_patch_make(&edge->more_q24[j], at, cell->size_log2);
     }
     out->spacing_log2 = p->bent == GN_PLACES_LONE ? 0 : gn_min32(out->spacing_log2, lookup_spacing(cell, p));
     return 1;

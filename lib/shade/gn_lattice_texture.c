@@ -143,7 +143,7 @@ GN_HOT static void find_level_end(const gn_shading *s, int32_t size_log2, gn_cor
              end = gn_isqrt64(s->surface.level_depth2_q32 << s->lattice.look.level);
     int32_t at[4];
     for (int i = 0; i < 4; i++) at[i] = (int32_t)gn_quotient_q30(least, (uint32_t)z[i]);
-    gn_patch_make(&out->nearness_q30, at, size_log2);
+    gn_flat_patch_make(&out->nearness_q30, at, size_log2);
     out->end_q30 = least < end ? (int32_t)gn_quotient_q30(least, end) : 1 << 30;
 }
 
@@ -162,7 +162,7 @@ GN_HOT static void begin_level(gn_shading *s, uint32_t pass, gn_cell_textures *o
 GN_HOT static uint32_t level_bits(const gn_cell_textures *t, int32_t size_log2, int32_t below)
 {
     uint32_t finer = 0, n = 1U << size_log2;
-    int32_t at = gn_patch_at(&t->nearness_q30, 0, below);
+    int32_t at = gn_flat_patch_at(&t->nearness_q30, 0, below);
     for (uint32_t i = 0; i < n; i++, at += t->nearness_q30.dx) finer |= (uint32_t)(at > t->end_q30) << i;
     return finer ^ t->other;
 }

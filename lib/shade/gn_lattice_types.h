@@ -2,10 +2,15 @@
 #ifndef GN_LATTICE_TYPES_H
 #define GN_LATTICE_TYPES_H
 
-#include "shade/gn_facet_types.h"
+#include "shadow/gn_shadow_types.h"
 #include "shade/gn_surface_types.h"
 
 #if GN_INTERPOLATES
+/* Linear on the screen: the value at a pixel, and its change per pixel to the right and down. */
+typedef struct {
+    int32_t at, dx, dy;
+} gn_slope;
+
 /* ---- Cells: gn_lattice.h --------------------------------------------------------------------------------------------
  */
 
@@ -67,7 +72,7 @@ typedef struct {
 /* Bilinear over a cell, (x, y) from its first pixel: at + x dx + y dy + x y dxy. */
 typedef struct {
     int32_t at, dx, dy, dxy;
-} gn_patch;
+} gn_flat_patch;
 
 /* A light whose shadow has an edge in the cell. */
 typedef struct {
@@ -76,8 +81,8 @@ typedef struct {
     uint8_t slot, view_idx;
     uint8_t bent;    /* rows are placed each for itself */
     uint8_t follows; /* the window is made anew for rows that it does not cover */
-    gn_patch u_q16, v_q16, depth_q30;
-    gn_patch more_q24[3]; /* what it adds where it is not in shadow; of the second of two faces, which adds the same,
+    gn_flat_patch u_q16, v_q16, depth_q30;
+    gn_flat_patch more_q24[3]; /* what it adds where it is not in shadow; of the second of two faces, which adds the same,
                              the first one tells the border between them */
     int32_t slope_q28[2];
 } gn_lattice_edge;
@@ -125,7 +130,7 @@ typedef struct {
 #endif
 #if GN_MIPMAPS
     uint32_t level_ends;   /* 1: two levels of the texture meet in the cell, */
-    gn_patch nearness_q30; /* by the least depth over the pixel's: */
+    gn_flat_patch nearness_q30; /* by the least depth over the pixel's: */
     int32_t end_q30;       /* the finer one's pixels are above it, and the others not; */
     uint32_t other;        /* which are drawn now: all ones, or 0 */
 #endif
@@ -136,7 +141,7 @@ typedef struct {
 typedef struct {
     struct gn_shading *s;
     int32_t x, y, size_log2;
-    gn_patch base_q24[3]; /* colours without the light of edges */
+    gn_flat_patch base_q24[3]; /* colours without the light of edges */
     int32_t first, n;     /* nodes of a row: from this pixel on */
     gn_pixel_line line;
 #if GN_TEXTURES
@@ -325,8 +330,7 @@ typedef struct gn_lattice {
     uint32_t bits[GN_PART_WIDTH / 32][GN_PART_ROWS]; /* its pixels */
     union {
         gn_corner corners[GN_CORNERS]; /* those of the part that were asked for last */
-        gn_facet facet;                /* a surface that is shaded at once has no corners, */
-        gn_part part;                  /* nor has a part of one or two colours */
+        gn_part part;                  /* a part of one or two colours has none */
     } from;
     uint32_t corner_key[GN_CORNERS];       /* y * 2^16 + x; all ones: none */
     uint32_t corner_used[GN_CORNERS], now; /* when they were, counted */

@@ -14,6 +14,7 @@
 #include "shade/gn_light.h"
 #include "shade/gn_mix.h"
 #include "shade/gn_part.h"
+#include "shade/gn_patch.h"
 #include "shade/gn_pixel.h"
 #include "visible/gn_cell.h"
 #include "visible/gn_layers.h"
@@ -177,6 +178,12 @@ GN_HOT static void shade_triangle(gn_shading *s, const char *sources, uint32_t a
     /* others are joined before its first run is taken */
     if (GN_INTERPOLATES ? !gn_runs_any(s->scratch, id) : !gn_runs_take(&taker, stride)) return;
     s->tri = gn_cell_source(frame, sources, id);
+#if GN_INTERPOLATES
+    if (gn_patch_begin(s, id)) {
+        if (gn_runs_take(&taker, stride)) gn_patch_draw(s, &taker);
+        return;
+    }
+#endif
     gn_surface_place(frame, s->scratch, &s->cache, &s->surface, s->tri);
     join(s, sources, at, end);
     gn_surface_begin(frame, s->scratch, &s->cache, &s->surface, s->tri);
@@ -424,6 +431,7 @@ GN_HOT void gn_shade_tile(const gn_frame *frame, gn_scratch *scratch, uint32_t t
     if (!links && !(GN_LAYERS(frame) && coloured && gn_layers_count(scratch))) return;
     s->cache.object = NULL;
 #if GN_INTERPOLATES
+    gn_patch_begin_tile(s);
     gn_lattice_begin_tile(s);
 #endif
     s->cache.lights = GN_PUNCTUAL_LIGHTS && GN_TILE_LIGHTS ? gn_punctual_in_tile(frame, &s->rect) : UINT64_MAX;

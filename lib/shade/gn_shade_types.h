@@ -3,6 +3,7 @@
 #define GN_SHADE_TYPES_H
 
 #include "shade/gn_lattice_types.h"
+#include "shade/gn_patch_types.h"
 
 /* Two pixels as stored, how much of the first, and their mixture: neighbours are often equal. */
 typedef struct {
@@ -26,6 +27,7 @@ typedef struct gn_shading {
     gn_mixture mixture;
 #endif
 #if GN_INTERPOLATES
+    gn_patch patch;
     gn_lattice lattice;
 #endif
 } gn_shading;

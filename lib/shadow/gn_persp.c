@@ -101,6 +101,44 @@ GN_HOT void gn_persp_fit_view(gn_frame *frame, gn_light_view *view, const gn_lig
         (int64_t)gn_udiv64((uint64_t)(uint32_t)light->bias_constant_q16 << 31, fit->focal2_q16), 0, 1 << 30);
 }
 
+/* ---- Receivers --------------------------------------------------------------------------------------------------- */
+
+/* T / 2 * (1 + x / (z t)), Q16: the clamps keep what is far outside the tile outside. */
+GN_HOT static int32_t persp_coord(const gn_light_view *view, int64_t x_q16, uint32_t recip, int32_t clz)
+{
+#if !GN_SIZE_FIRST
+    if (gn_abs64(x_q16) < (uint64_t)UINT32_MAX >> clz && clz >= 2 &&
+        !(view->fit.persp.focal2_q16 >> 30)) {         /* |x| < 2 z: the same, of which nothing needs a clamp */
+        int32_t x = (int32_t)x_q16 * (1 << (clz - 2)); /* x / z = x * recip / 2^61: below 2^29 * 4 */
+        int32_t ratio_q28 = (int32_t)((((int64_t)x * (int64_t)recip >> 32) + 1) >> 1);
+        return (int32_t)(((int64_t)ratio_q28 * (int64_t)view->fit.persp.focal2_q16 + (1 << 28)) >> 29) +
+               (view->tile_texels << 15);
+    }
+#endif
+    /* times focal2 within 2^60, and 2^14 texels or more: beyond every tile */
+    const int64_t bound = (int64_t)1 << (28 + gn_clz32(view->fit.persp.focal2_q16)), x_most = INT32_MAX;
+    int64_t ratio_q28 = gn_scale64(gn_clamp64(x_q16, -x_most, x_most) * (int64_t)recip, 35 - clz); /* 2^31 * 2^32 */
+    int64_t texels = gn_shr64(gn_clamp64(ratio_q28, -bound, bound) * (int64_t)view->fit.persp.focal2_q16, 29);
+    return gn_sat32(texels + ((int64_t)view->tile_texels << 15));
+}
+
+GN_HOT int gn_persp_find_place(const gn_frame *frame, const gn_light_view *view, const int32_t from_q16[3],
+                               int64_t less_q32, gn_persp_place *out)
+{
+    const int64_t far = gn_dot_q30(from_q16, view->axis_q30[2]); /* sqrt(3) * 2^61 */
+    if (far <= view->fit.persp.near_q16) return 0;
+    const uint32_t z = far > UINT32_MAX ? UINT32_MAX : (uint32_t)far;
+    const int32_t clz = gn_clz32(z);
+    const uint32_t recip = gn_recip_norm(z << clz, GN_K(frame, newton_steps));
+    /* 1 - n / z: n * recip * 2^(clz - 31) */
+    const uint64_t inverse = (uint64_t)(uint32_t)view->fit.persp.near_q16 * recip >> (31 - clz);
+    out->u_q16 = persp_coord(view, gn_dot_q30(from_q16, view->axis_q30[0]), recip, clz);
+    out->v_q16 = persp_coord(view, gn_dot_q30(from_q16, view->axis_q30[1]), recip, clz);
+    out->depth_q32 = (uint32_t)gn_clamp64(UINT32_MAX - (int64_t)inverse - less_q32, 0, UINT32_MAX);
+    out->far_q16 = gn_sat32(far);
+    return 1;
+}
+
 /* ---- Casters ----------------------------------------------------------------------------------------------------- */
 
 /* n / z, Q32, at most 1 */

@@ -15,6 +15,17 @@ int64_t gn_persp_face_q24(int32_t filter_idx, int32_t nu_q16, int32_t tile_texel
 /* The cube's face that a point lies in, from the point's position relative to the light. */
 int32_t gn_persp_face(const int32_t from_light_q16[3]);
 
+/* Where a view sees a point: texels, Q16, what is 1 - n / z of it, and its light-plane distance, saturated. */
+typedef struct {
+    int32_t u_q16, v_q16;
+    uint32_t depth_q32;
+    int32_t far_q16;
+} gn_persp_place;
+
+/* Of a point from the light, world axes, and its depth less that much. Returns 0 if it is not beyond the near plane. */
+int gn_persp_find_place(const gn_frame *frame, const gn_light_view *view, const int32_t from_q16[3], int64_t less_q32,
+                        gn_persp_place *out);
+
 /* Axis of travel of a face, Q1.30. */
 void gn_persp_face_axis(int32_t out_q30[3], int32_t face);
 

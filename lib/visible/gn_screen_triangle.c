@@ -234,23 +234,52 @@ static inline void fill_triangle(const gn_screen_job *job, gn_tri *tri, const gr
     general_depth(tri, a->at, b->at, c->at, to_x_q16, to_y_q16, walk, bits);
 }
 
+/* A triangle's corners in the order of a record. */
+typedef struct {
+    grid_corner a, b, c;
+    uint32_t order; /* gn_tri_order() of them */
+    int32_t left, right, bottom;
+} grid_triangle;
+
+/* Returns 0 if it faces away, or has no area. */
+static inline int order_corners(grid_triangle *t, const gn_screen_job *job, const gn_projected *p0,
+                                const gn_projected *p1, const gn_projected *p2)
+{
+    const int32_t bits = GN_K(job->frame, subpixel_bits);
+    grid_corner a = on_grid(p0, bits), b = on_grid(p1, bits), c = on_grid(p2, bits), swap;
+    const int64_t area = (int64_t)(b.x - a.x) * (c.y - a.y) - (int64_t)(c.x - a.x) * (b.y - a.y);
+    t->order = 1;
+    if (area >= 0) {
+        if (area == 0 || !(job->object->flags & GN_OBJECT_TWO_SIDED)) return 0;
+        swap = b, b = c, c = swap;
+        t->order = 4;
+    }
+    if (c.y < a.y && c.y < b.y) swap = a, a = c, c = b, b = swap, t->order += 2; /* rotated, to begin with the top */
+    else if (b.y < a.y) swap = a, a = b, b = c, c = swap, t->order++;
+    t->a = a, t->b = b, t->c = c;
+    t->left = gn_min32(gn_min32(a.x, b.x), c.x), t->right = gn_max32(gn_max32(a.x, b.x), c.x);
+    t->bottom = gn_max32(b.y, c.y);
+    return 1;
+}
+
+/* Everything of a record but its place among the frame's. triangle_idx: GN_TRI_PART is added for a part of one. */
+static inline void fill_record(const gn_screen_job *job, gn_tri *tri, const grid_triangle *t, uint32_t triangle_idx)
+{
+    fill_triangle(job, tri, &t->a, &t->b, &t->c, t->right - t->left, t->bottom - t->a.y, triangle_idx);
+    uint32_t order = triangle_idx & GN_TRI_PART ? GN_TRI_CUT : t->order;
+    if (!(tri->iz_dx | tri->iz_dy) && tri->iz_ref != t->a.at->iz_q32) order = GN_TRI_STEEP;
+    tri->iz_ref = (tri->iz_ref & ~7U) | order;
+}
+
 GN_NOINLINE void gn_screen_triangle(const gn_screen_job *job, const gn_projected *p0, const gn_projected *p1,
                                     const gn_projected *p2, uint32_t triangle_idx)
 {
     const gn_frame *frame = job->frame;
     GN_ELEMENT(frame);
-    int32_t bits = GN_K(frame, subpixel_bits);
-    grid_corner a = on_grid(p0, bits), b = on_grid(p1, bits), c = on_grid(p2, bits), swap;
-    int64_t area = (int64_t)(b.x - a.x) * (c.y - a.y) - (int64_t)(c.x - a.x) * (b.y - a.y);
-    if (area >= 0) {
-        if (area == 0 || !(job->object->flags & GN_OBJECT_TWO_SIDED)) return;
-        swap = b, b = c, c = swap;
-    }
-    if (c.y < a.y && c.y < b.y) swap = a, a = c, c = b, b = swap; /* rotated, to begin with the top */
-    else if (b.y < a.y) swap = a, a = b, b = c, c = swap;
-    int32_t left = gn_min32(gn_min32(a.x, b.x), c.x), right = gn_max32(gn_max32(a.x, b.x), c.x),
-            bottom = gn_max32(b.y, c.y);
-    const gn_rect bounds = gn_setup_bounds_of(frame, left, right, a.y, bottom, job->add_px[0], job->add_px[1]);
+    grid_triangle t;
+    if (!order_corners(&t, job, p0, p1, p2)) return;
+    const gn_rect bounds =
+        gn_setup_bounds_of(frame, t.left, t.right, t.a.y, t.bottom, job->add_px[0], job->add_px[1]);
     if (bounds.x0 >= bounds.x1 || bounds.y0 >= bounds.y1) return;
 #if GN_GROUPS
     if (GN_K(frame, triangle_groups)) {
@@ -263,7 +292,7 @@ GN_NOINLINE void gn_screen_triangle(const gn_screen_job *job, const gn_projected
             bounds.y1 <= tile->rect.y0 || tile->n_drawn == tile->n_counted)
             return;
         gn_tri drawn;
-        fill_triangle(job, &drawn, &a, &b, &c, right - left, bottom - a.y, triangle_idx);
+        fill_record(job, &drawn, &t, triangle_idx);
         tile->drawn[++tile->n_drawn] = drawn.source;
         GN_COUNT(tile_refs, 1);
         gn_raster_triangle(tile->target, &drawn, tile->n_drawn);
@@ -271,8 +300,19 @@ GN_NOINLINE void gn_screen_triangle(const gn_screen_job *job, const gn_projected
     }
 #endif
     gn_tri *tri = count_record(job, &bounds);
-    if (tri) fill_triangle(job, tri, &a, &b, &c, right - left, bottom - a.y, triangle_idx);
+    if (tri) fill_record(job, tri, &t, triangle_idx);
 }
+
+#if GN_GROUPS
+int gn_screen_record(const gn_screen_job *job, const gn_projected *p0, const gn_projected *p1, const gn_projected *p2,
+                     uint32_t triangle_idx, gn_tri *out)
+{
+    grid_triangle t;
+    if (!order_corners(&t, job, p0, p1, p2)) return 0;
+    fill_record(job, out, &t, triangle_idx);
+    return 1;
+}
+#endif
 
 void gn_setup_corners(const gn_frame *frame, const gn_tri *tri, int32_t x[3], int32_t y[3])
 {

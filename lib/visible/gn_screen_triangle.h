@@ -43,9 +43,18 @@ typedef struct {
 void gn_screen_begin(gn_screen_job *job, const gn_frame *frame);
 void gn_screen_object(gn_screen_job *job);
 
+/* Added to the index of a triangle of which a part is drawn: the near plane or the guard band cut it. */
+#define GN_TRI_PART 0x10000U
+
 /* A triangle in the guard band, counter-clockwise in the world if it faces the camera: nothing if it faces away or
  * covers no pixel centre. */
 void gn_screen_triangle(const gn_screen_job *job, const gn_projected *p0, const gn_projected *p1,
                         const gn_projected *p2, uint32_t triangle_idx);
+
+#if GN_GROUPS
+/* The record of such a triangle, made again. Returns 0 if it faces away. */
+int gn_screen_record(const gn_screen_job *job, const gn_projected *p0, const gn_projected *p1, const gn_projected *p2,
+                     uint32_t triangle_idx, gn_tri *out);
+#endif
 
 #endif

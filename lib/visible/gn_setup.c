@@ -199,7 +199,7 @@ static GN_NOINLINE void clip_triangle(const setup_job *job, const setup_corner *
     const int n = polygon->n; /* drawing a triangle may take the polygon's memory */
     for (int i = 0; i < n; i++) project_cut(job, polygon->v_q16[i], &at[i]);
     for (int i = 2; i < n; i++) /* a fan */
-        gn_screen_triangle(&job->screen, &at[0], &at[i - 1], &at[i], triangle_idx);
+        gn_screen_triangle(&job->screen, &at[0], &at[i - 1], &at[i], triangle_idx | GN_TRI_PART);
 }
 
 static gn_status setup_triangle(const setup_job *job, const setup_corner *const c[3], uint32_t triangle_idx)
@@ -362,6 +362,24 @@ void gn_setup_tile(const gn_frame *frame, gn_scratch *scratch, uint32_t tile_idx
         first -= job.screen.object->mesh->n_triangles;
         setup_draw_groups(&job, gn_group_of(column, column, row, row), first);
     }
+}
+
+int gn_setup_record(const gn_frame *frame, gn_scratch *scratch, const gn_tri_source *source, gn_tri *out)
+{
+    setup_job job;
+    setup_corner memory[1], spare[3];
+    const setup_corner *c[5];
+    const gn_rect all = {0, 0, frame->picture.width, frame->picture.height};
+    setup_begin(&job, frame, scratch, memory, sizeof memory);
+    job.screen.stats = NULL;
+    setup_window(&job, &all);
+    job.screen.object_idx = source->object_idx;
+    job.screen.object = &frame->scene->objects[source->object_idx];
+    setup_begin_object(&job);
+    c[0] = c[1] = spare;
+    if (fetch_corners(&job, job.screen.object->mesh->idx + 3 * (size_t)source->triangle_idx, spare, c)) return 0;
+    if ((c[2]->out | c[3]->out | c[4]->out) >> 8) return 0;
+    return gn_screen_record(&job.screen, &c[2]->at, &c[3]->at, &c[4]->at, source->triangle_idx, out);
 }
 #endif
 

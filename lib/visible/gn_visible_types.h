@@ -39,7 +39,8 @@ typedef struct {
 typedef struct {
     gn_coord x[3], y[3];  /* top, left and right of it: counter-clockwise in the world, its signed area on the screen (y
                              down) is negative */
-    uint32_t iz_ref;      /* near / Z at the centre of the pixel that contains vertex 0, Q0.32, modulo 2^32 */
+    uint32_t iz_ref;      /* near / Z at the centre of the pixel that contains vertex 0, Q0.32, modulo 2^32; its three
+                             lowest bits: gn_tri_order() */
     int32_t iz_dx, iz_dy; /* per pixel, modulo 2^32 */
     gn_tri_depth iz;
     gn_tri_source source;
@@ -50,6 +51,15 @@ typedef struct {
 typedef uint32_t gn_tri_group;
 #define GN_GROUP_EMPTY 0x7F7F7F7FU
 #define GN_GROUPS_MAX  (GN_RUNTIME_KNOBS ? 4096 : GN_TRIANGLE_GROUPS)
+
+/* Which vertices of the mesh a record's corners are: 1, 2, 3: 012, 120, 201; 4, 5, 6, of triangles that are seen from
+ * behind: 021, 210, 102. */
+enum { GN_TRI_CUT = 0 /* corners are no vertices */, GN_TRI_BACK = 4, GN_TRI_STEEP = 7 /* no plane of near / Z */ };
+
+static inline uint32_t gn_tri_order(const gn_tri *tri)
+{
+    return tri->iz_ref & 7U;
+}
 
 static inline int gn_tri_is_bounded(const gn_tri *tri)
 {

@@ -1,0 +1,196 @@
+/* Small triangles: one patch each. */
+#include "gn_internal.h"
+
+#include "base/gn_count.h"
+#include "base/gn_math.h"
+#include "base/gn_q.h"
+#include "geometry/gn_texture.h"
+#include "shade/gn_exact.h"
+#include "shade/gn_patch.h"
+#include "shade/gn_pixel.h"
+#include "shade/gn_record.h"
+#include "visible/gn_cell.h"
+#include "visible/gn_setup.h"
+
+#if GN_INTERPOLATES
+
+GN_HOT void gn_patch_begin_tile(gn_shading *s)
+{
+    s->patch.of.object = NULL;
+    for (int i = 0; i < GN_PATCH_NORMALS; i++) s->patch.normal[i].tag = 0;
+}
+
+/* ---- A triangle -------------------------------------------------------------------------------------------------- */
+
+/* Its record; of groups it is made again. NULL: it was cut. */
+GN_HOT static const gn_tri *record_of(gn_shading *s, uint32_t id)
+{
+#if GN_GROUPS
+    if (GN_K(s->frame, triangle_groups))
+        return gn_setup_record(s->frame, s->scratch, &s->scratch->drawn[id], &s->patch.again) ? &s->patch.again : NULL;
+#endif
+    return gn_cell_tri(s->frame, id);
+}
+
+#if GN_VERTEX_COLOURS
+/* Light times the vertices' colours, at the corners where that is linear enough: it is off by a quarter of both
+ * changes. Otherwise pixels multiply. */
+GN_HOT static void find_tint(gn_patch *p)
+{
+    const uint16_t *rgb_uq16 = p->of.object->mesh->rgb_uq16;
+    int32_t tint[3][3];
+    int each = p->n_lights > 0;
+    for (int k = 0; k < 3; k++) {
+        const uint16_t *rgb = rgb_uq16 + 3 * (size_t)p->record.vertex[k];
+        for (int c = 0; c < 3; c++) tint[c][k] = rgb[c] + (rgb[c] >> 15);
+    }
+    for (int c = 0; c < 3; c++) {
+        const int32_t *t = tint[c], *l = p->colour_q24[c];
+        const int32_t turns = gn_max32(gn_max32(t[0], t[1]), t[2]) - gn_min32(gn_min32(t[0], t[1]), t[2]),
+                      changes = gn_max32(gn_max32(l[0], l[1]), l[2]) - gn_min32(gn_min32(l[0], l[1]), l[2]);
+        each |= (changes >> 12) * (turns >> 4) >> 19 != 0; /* 1/32 */
+        gn_patch_set(&p->tint_q16[c], t[0], t[1], t[2]);
+    }
+    p->tinted = (uint8_t)each;
+    for (int c = 0; !each && c < 3; c++)
+        for (int k = 0; k < 3; k++) p->colour_q24[c][k] = (int32_t)((int64_t)p->colour_q24[c][k] * tint[c][k] >> 16);
+}
+#endif
+
+/* Colours between the corners, and whether pixels differ at all. */
+GN_HOT static void find_colours(gn_patch *p)
+{
+    uint32_t differs = (uint32_t)(p->n_lights | p->textured | p->tinted);
+    for (int c = 0; c < 3; c++) {
+        const int32_t *at = p->colour_q24[c];
+        differs |= (uint32_t)(at[0] ^ at[1]) | (uint32_t)(at[0] ^ at[2]);
+        gn_patch_set(&p->colour[c], at[0], at[1], at[2]);
+    }
+    p->varies = differs != 0;
+}
+
+GN_HOT int gn_patch_begin(gn_shading *s, uint32_t id)
+{
+    gn_patch *p = &s->patch;
+    const gn_object *object = &s->frame->scene->objects[s->tri->object_idx];
+    if (p->of.object != object) gn_patch_use_object(s, object);
+    if (!p->of.patched) return 0;
+    const gn_tri *tri = record_of(s, id);
+    if (!tri || !gn_record_begin(&p->record, s->frame, tri)) return 0;
+    p->has_face = p->tinted = p->textured = 0;
+    p->reach = GN_REACH_UNKNOWN;
+    if (!gn_patch_find_lights(s)) return 0;
+#if GN_TEXTURES
+    if (object->texture && !(GN_RAW_VIEWS && s->frame->picture.format == GN_FORMAT_RAW32)) {
+        if (!gn_patch_find_texture(s)) return 0;
+        p->textured = 1;
+    }
+#endif
+#if GN_VERTEX_COLOURS
+    if (object->mesh->rgb_uq16 && !(GN_RAW_VIEWS && s->frame->picture.format == GN_FORMAT_RAW32)) find_tint(p);
+#endif
+    find_colours(p);
+    GN_COUNT(patches, 1);
+    return 1;
+}
+
+/* ---- Rows of pixels ---------------------------------------------------------------------------------------------- */
+
+/* Adds a light that pixels ask for to n nodes from (x, y) of the picture on. */
+GN_HOT static void add_light_nodes(gn_shading *s, const gn_patch_light *light, const gn_patch_weights ends[2], int32_t x,
+                             int32_t y, int32_t n)
+{
+    gn_patch *p = &s->patch;
+    gn_row_value e = gn_patch_row(&light->irradiance_q15, ends, n);
+    const uint32_t r = light->colour[0], g = light->colour[1], b = light->colour[2], *attenuation = p->attenuation;
+    const int32_t down = light->down;
+    int32_t(*node)[3] = p->node_q24;
+    if (light->view) gn_patch_attenuation(s, light, ends, x, y, n);
+    for (int32_t(*end)[3] = node + n; node < end; node++, attenuation++, e.at += e.step) {
+        uint32_t irradiance = (uint32_t)gn_max32(0, gn_min32(e.at, 32767));
+        if (light->view) irradiance = irradiance * (*attenuation >> 1) >> 15;
+        (*node)[0] += (int32_t)(irradiance * r >> down); /* 2^15 * 2^16 */
+        (*node)[1] += (int32_t)(irradiance * g >> down);
+        (*node)[2] += (int32_t)(irradiance * b >> down);
+    }
+}
+
+/* Multiplies n nodes by the vertices' colours. */
+GN_HOT static void tint_nodes(gn_patch *p, const gn_patch_weights ends[2], int32_t n)
+{
+    for (int c = 0; c < 3; c++) {
+        gn_row_value tint = gn_patch_row(&p->tint_q16[c], ends, n);
+        for (int32_t i = 0; i < n; i++, tint.at += tint.step)
+            p->node_q24[i][c] = (int32_t)((int64_t)p->node_q24[i][c] * tint.at >> 16);
+    }
+}
+
+/* Pixels that are not linear, a node each; textured ones under linear light have two. */
+GN_HOT static void draw_patch_nodes(gn_shading *s, const gn_row_value colour[3], const gn_patch_weights ends[2], int32_t x,
+                              int32_t y, int32_t n)
+{
+    gn_patch *p = &s->patch;
+    const int each = p->n_lights | p->tinted;
+    const int32_t n_nodes = each ? n : 2;
+    gn_pixel_line line = {.node = (const int32_t(*)[3])p->node_q24, .spacing_log2 = each ? 0 : 4, .inside = 1};
+    for (int c = 0; c < 3; c++)
+        for (int32_t i = 0, at = colour[c].at; i < n_nodes; i++, at += each ? colour[c].step : 16 * colour[c].step)
+            p->node_q24[i][c] = at;
+    for (int32_t i = 0; i < p->n_lights; i++) add_light_nodes(s, &p->light[i], ends, x, y, n);
+    if (p->tinted) tint_nodes(p, ends, n);
+#if GN_TEXTURES
+    if (p->textured) {
+        gn_texture_line texels;
+        for (int i = 0; i < 2; i++) {
+            const gn_row_value at = gn_patch_row(&p->texel_q17[i], ends, n);
+            texels.at_q17[i] = at.at, texels.step_q17[i] = at.step, texels.step_change_q17[i] = 0;
+        }
+        for (int32_t i = 0; i < n_nodes; i++)
+            for (int c = 0; c < 3; c++) line.inside &= (uint32_t)(p->node_q24[i][c] - 64) <= (1U << 24) - 64;
+        gn_texture_row(p->texture, &texels, (1U << n) - 1, p->texel);
+        line.texel = p->texel;
+    }
+#endif
+    gn_pixel_store_line(s->frame, &s->rows, x, y, (1U << n) - 1, &line);
+}
+
+GN_HOT static void draw_patch_row(gn_shading *s, int32_t x, int32_t y, int32_t n)
+{
+    gn_patch *p = &s->patch;
+    gn_patch_weights ends[2];
+    gn_row_value colour[3];
+    ends[0] = gn_record_weights(&p->record, s->frame, x, y);
+    if (n > 1) ends[1] = gn_record_weights(&p->record, s->frame, x + n - 1, y);
+    for (int c = 0; c < 3; c++) colour[c] = gn_patch_row(&p->colour[c], ends, n);
+    if (p->n_lights | p->tinted | p->textured) {
+        draw_patch_nodes(s, colour, ends, x, y, n);
+        return;
+    }
+    const int32_t from[3] = {colour[0].at, colour[1].at, colour[2].at},
+                  step[3] = {colour[0].step, colour[1].step, colour[2].step};
+    gn_pixel_store_run(s->frame, &s->rows, x, y, n, from, step);
+}
+
+GN_HOT void gn_patch_draw(gn_shading *s, gn_run_taker *taker)
+{
+    const uint32_t stride = (uint32_t)GN_K(s->frame, tile_width);
+    gn_patch *p = &s->patch;
+    uint32_t packed = 0, q20[3];
+    const int raw = GN_RAW_VIEWS && s->frame->picture.format == GN_FORMAT_RAW32;
+    for (int c = 0; c < 3; c++) q20[c] = (uint32_t)gn_max32(p->colour_q24[c][0], 0) >> 4;
+    if (!p->varies && !raw) packed = gn_exact_pack(s, q20);
+    do {
+        int32_t x = s->rect.x0 + (int32_t)(taker->first % stride), left = taker->n_px;
+        const int32_t y = s->rect.y0 + (int32_t)(taker->first / stride);
+        GN_COUNT(runs, 1);
+        GN_COUNT(patch_pixels, left);
+        if (!p->varies && !raw) {
+            gn_pixel_fill(s->frame, &s->rows, x, y, left, packed);
+            continue;
+        }
+        for (; left > 0; left -= GN_PATCH_ROW_PX, x += GN_PATCH_ROW_PX)
+            draw_patch_row(s, x, y, gn_min32(left, GN_PATCH_ROW_PX));
+    } while (gn_runs_take(taker, stride));
+}
+
+#endif

@@ -1,0 +1,46 @@
+/* Small triangles: patches. [R4] */
+#ifndef GN_PATCH_H
+#define GN_PATCH_H
+
+#include "gnomon.h"
+#include "visible/gn_runs.h"
+
+#if GN_INTERPOLATES
+
+/* Begins a screen tile. */
+void gn_patch_begin_tile(gn_shading *s);
+
+/* Begins a triangle by its identity. Returns 0 if it is not small, or not one for patches: a surface has to shade it.
+ * That depends on its record, its object, the lights and their maps alone. */
+int gn_patch_begin(gn_shading *s, uint32_t id);
+
+/* Draws its runs, from the one on that is taken. */
+void gn_patch_draw(gn_shading *s, gn_run_taker *taker);
+
+/* ---- Between its files ------------------------------------------------------------------------------------------- */
+
+/* What the triangles of an object have in common. */
+void gn_patch_use_object(gn_shading *s, const gn_object *object);
+
+/* Light and shadow of the triangle at hand. Returns 0 if pixels have to find them. */
+int gn_patch_find_lights(gn_shading *s);
+
+/* Where the light's shadow is looked up, and how strong it is. Returns 0 if pixels have to find that; sets view to
+ * NULL if there is none. */
+int gn_patch_find_shadow(gn_shading *s, uint32_t light_idx, gn_patch_light *light);
+
+/* The face's normal, found once. */
+const int32_t *gn_patch_face(gn_shading *s);
+
+/* Attenuation of n pixels of a row, into patch.attenuation. */
+void gn_patch_attenuation(gn_shading *s, const gn_patch_light *light, const gn_patch_weights ends[2], int32_t x,
+                          int32_t y, int32_t n);
+
+#if GN_TEXTURES
+/* The level of the texture and its coordinates. Returns 0 if they do not fit. */
+int gn_patch_find_texture(gn_shading *s);
+#endif
+
+#endif
+
+#endif

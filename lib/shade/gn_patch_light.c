@@ -1,0 +1,298 @@
+/* Light on patches: what lamps give at the corners of small triangles. */
+#include "gn_internal.h"
+
+#include "base/gn_count.h"
+#include "base/gn_math.h"
+#include "base/gn_q.h"
+#include "geometry/gn_skin.h"
+#include "geometry/gn_xform.h"
+#include "light/gn_punctual.h"
+#include "shade/gn_patch.h"
+#include "shade/gn_record.h"
+#include "visible/gn_layers.h"
+
+#if GN_INTERPOLATES
+
+/* ---- Objects ----------------------------------------------------------------------------------------------------- */
+
+/* A raw view of the shadow shows what is left of one light whose colour is 1. */
+GN_HOT static inline int shows_shadow(const gn_frame *frame)
+{
+    return GN_RAW_VIEWS && frame->picture.format == GN_FORMAT_RAW32;
+}
+
+/* Whether all that an object needs is linear on small triangles. */
+GN_HOT static int is_patched(const gn_frame *frame, const gn_object *object)
+{
+    const uint32_t *specular = object->specular_uq16;
+    if (GN_FLAT_Q16(frame) || GN_K(frame, persp_step) == 1) return 0;
+    if (shows_shadow(frame)) return frame->picture.view == GN_VIEW_SHADOW;
+    if (GN_SPECULAR && !(object->flags & GN_OBJECT_UNLIT) && (specular[0] | specular[1] | specular[2])) return 0;
+    if (GN_BAKED_LIGHT && object->baked_uq12) return 0;
+    return !(GN_LAYERS(frame) && object->visible_alpha == GN_ALPHA_BLEND);
+}
+
+/* Ambient light, and what it emits. Returns 0 if that is too bright, or would be dimmed by what comes after. */
+GN_HOT static int find_base(const gn_frame *frame, gn_patch_object *of)
+{
+    const gn_object *object = of->object;
+    const int unlit = (object->flags & GN_OBJECT_UNLIT) != 0;
+    const uint32_t *emissive = object->emissive_uq16;
+    const int glows = GN_EMISSIVE && !unlit && (emissive[0] | emissive[1] | emissive[2]);
+    if (glows && (object->texture || object->emissive_texture || object->mesh->rgb_uq16)) return shows_shadow(frame);
+    for (int c = 0; c < 3; c++) {
+        uint32_t q20 = unlit ? object->albedo_uq16[c] << 4
+                             : (uint32_t)(((uint64_t)object->albedo_uq16[c] * frame->scene->ambient_uq16[c] + 2048U) >> 12);
+        if (glows) q20 += emissive[c] << 4;
+        if (q20 > 1U << 23) return shows_shadow(frame);
+        of->base_q24[c] = (int32_t)q20 << 4;
+    }
+    return 1;
+}
+
+GN_HOT void gn_patch_use_object(gn_shading *s, const gn_object *object)
+{
+    gn_patch_object *of = &s->patch.of;
+    const int unlit = (object->flags & GN_OBJECT_UNLIT) != 0;
+    of->object = object;
+    of->patched = (uint8_t)(is_patched(s->frame, object) && find_base(s->frame, of));
+#if GN_MASKS
+    if (s->frame->scene->shadow.mixing != GN_MIXING_NONE && (object->mask_u8 || object->mask_image)) of->patched = 0;
+#endif
+    of->lit = (uint8_t)(!unlit || shows_shadow(s->frame));
+    of->receives = (uint8_t)(object->flags & GN_OBJECT_RECEIVES && !unlit);
+    for (int c = 0; shows_shadow(s->frame) && c < 3; c++) of->base_q24[c] = 0;
+    if (!of->patched || !GN_VERTEX_NORMALS || !object->mesh->nrm_q15) return;
+    int32_t matrix[3][3];
+    gn_xform_normal_matrix(matrix, object->to_world.m_q30);
+    for (int k = 0; k < 9; k++) of->normal_q14[k / 3][k % 3] = matrix[k / 3][k % 3] >> 16;
+}
+
+/* ---- Normals ----------------------------------------------------------------------------------------------------- */
+
+GN_HOT const int32_t *gn_patch_face(gn_shading *s)
+{
+    gn_patch *p = &s->patch;
+    if (p->has_face) return p->face_q30;
+    gn_record_face(&p->record, s->frame, p->view_q14);
+    for (int i = 0; i < 3; i++) {
+        int32_t sum = 0; /* 3 * 2^28 */
+        for (int k = 0; k < 3; k++) sum += p->view_q14[k] * (s->frame->cam.axis_q30[k][i] >> 16);
+        p->face_q30[i] = sum * 4; /* 2^30: a row has length 1 */
+    }
+    p->has_face = 1;
+    return p->face_q30;
+}
+
+#if GN_VERTEX_NORMALS
+/* A vertex's normal in the world, before the triangle's back is turned. */
+GN_HOT static GN_NOINLINE void make_patch_normal(const gn_shading *s, uint32_t vertex_idx, int16_t out_q14[3])
+{
+    const gn_patch_object *of = &s->patch.of;
+    const gn_normal *nrm = of->object->mesh->nrm_q15 + 3 * (size_t)vertex_idx;
+    int32_t n[3] = {nrm[0], nrm[1], nrm[2]}, turned[3];
+    if (GN_VERTEX_JOINTS && GN_SKIN(of->object)) gn_skin_direction(n, of->object->skin, vertex_idx);
+    for (int i = 0; i < 3; i++) { /* rows and normals are below 2^15: 2^31.6 in all is not reached, rows have length 1 */
+        const int32_t *row = of->normal_q14[i];
+        turned[i] = (row[0] * (n[0] >> 1) + row[1] * (n[1] >> 1) + row[2] * (n[2] >> 1)) >> 2;
+    }
+    gn_patch_unit(turned);
+    for (int i = 0; i < 3; i++) out_q14[i] = (int16_t)turned[i];
+}
+
+GN_HOT static const gn_patch_normal *patch_normal(gn_shading *s, uint32_t vertex_idx)
+{
+    gn_patch_normal *entry = &s->patch.normal[vertex_idx & (GN_PATCH_NORMALS - 1)];
+    const uint32_t tag = gn_vertex_tag(s->patch.record.tri->source.object_idx, vertex_idx);
+    if (entry->tag != tag) {
+        make_patch_normal(s, vertex_idx, entry->q14);
+        entry->tag = tag;
+    }
+    return entry;
+}
+#endif
+
+/* Normals at the corners, Q14; of a flat triangle all are the face's. Returns 0 if they turn so much that light between
+ * them is not linear. */
+GN_HOT static int find_patch_normals(gn_shading *s, int32_t n[3][3])
+{
+    gn_patch *p = &s->patch;
+#if GN_VERTEX_NORMALS
+    const gn_normal *nrm = p->of.object->mesh->nrm_q15;
+    if (nrm) {
+        const uint16_t *v = p->record.vertex;
+        const int32_t turn = p->record.back ? -1 : 1;
+        int32_t nearest = 1 << 14;
+        for (int k = 0; k < 3; k++) {
+            const gn_patch_normal *at = patch_normal(s, v[k]);
+            for (int i = 0; i < 3; i++) n[k][i] = turn * at->q14[i];
+        }
+        for (int k = 0; k < 3; k++) {
+            const int32_t *a = n[k], *b = n[k == 2 ? 0 : k + 1];
+            nearest = gn_min32(nearest, (a[0] * b[0] + a[1] * b[1] + a[2] * b[2]) >> 14);
+        }
+        p->smooth = 1;
+        return GN_K(s->frame, vertex_light) || nearest >= (p->record.px > 12 ? 15 << 10 : 14 << 10);
+    }
+#endif
+    const int32_t *face = gn_patch_face(s);
+    p->smooth = 0;
+    for (int k = 0; k < 3; k++)
+        for (int i = 0; i < 3; i++) n[k][i] = face[i] >> 16;
+    return 1;
+}
+
+/* ---- Irradiance -------------------------------------------------------------------------------------------------- */
+
+/* Of a directional light, at the corners, Q24. */
+GN_HOT static void sun_irradiance(const gn_shading *s, const gn_light_state *light, const int32_t n[3][3],
+                                  int32_t e_q24[3])
+{
+    const int32_t *l = light->to_light_q30;
+    for (int k = 0; k < 3; k++) {
+        int32_t cosine = (n[k][0] * (l[0] >> 16) + n[k][1] * (l[1] >> 16) + n[k][2] * (l[2] >> 16)) >> 14;
+        if (GN_K(s->frame, vertex_light) || !s->patch.smooth) cosine = gn_max32(cosine, 0);
+        e_q24[k] = cosine * 1024;
+    }
+}
+
+#if GN_PUNCTUAL_LIGHTS
+/* Whether light that is linear between the corners is close enough: the triangle is small beside the light's distance,
+ * and neither range nor cone ends near it. */
+GN_HOT static int lamp_is_even(const int32_t from[3][3], const int32_t e_q24[3])
+{
+    uint64_t nearest = UINT64_MAX, longest = 0;
+    for (int k = 0; k < 3; k++) {
+        const int32_t *a = from[k], *b = from[k == 2 ? 0 : k + 1];
+        const int32_t d[3] = {a[0] - b[0], a[1] - b[1], a[2] - b[2]};
+        const uint64_t far = (uint64_t)gn_dot64(a, a), side = (uint64_t)gn_dot64(d, d);
+        nearest = far < nearest ? far : nearest;
+        longest = side > longest ? side : longest;
+    }
+    const int32_t lo = gn_min32(gn_min32(e_q24[0], e_q24[1]), e_q24[2]), hi = gn_max32(gn_max32(e_q24[0], e_q24[1]), e_q24[2]);
+    return longest <= nearest >> 5 && hi - lo <= gn_max32(hi >> 1, 1 << 17);
+}
+
+/* Of a spot or point light. Returns 0 if it is not even. */
+GN_HOT static int lamp_irradiance(gn_shading *s, const gn_light_state *light, const int32_t n[3][3],
+                                  int32_t e_q24[3])
+{
+    int32_t(*from)[3] = s->patch.from_q16;
+    gn_record_find_depths(&s->patch.record, s->frame);
+    for (int k = 0; k < 3; k++) {
+        gn_punctual_point point;
+        for (int i = 0; i < 3; i++)
+            from[k][i] = gn_record_place(&s->patch.record, s->frame, k, &light->from_light[i], light->ray_shift);
+        const int32_t n_q30[3] = {n[k][0] * 65536, n[k][1] * 65536, n[k][2] * 65536};
+        const int64_t facing = -(gn_dot64(n_q30, from[k]) >> 30);
+        e_q24[k] = 0;
+        if (facing <= 0 || !gn_punctual_at(s->frame, light, from[k], &point)) continue;
+        GN_COUNT(lights_punctual, 1);
+        const int32_t cosine = gn_punctual_cosine_q30(&point, (int32_t)gn_clamp64(facing, 0, INT32_MAX));
+        e_q24[k] = gn_min32((int32_t)gn_punctual_irradiance_q24(&point, cosine), 1 << 27);
+    }
+    return lamp_is_even((const int32_t(*)[3])from, e_q24);
+}
+#endif
+
+/* ---- Lights ------------------------------------------------------------------------------------------------------ */
+
+/* A colour times irradiance, Q24, limited to 8. */
+GN_HOT static inline int32_t product_q24(uint32_t colour_uq16, int32_t e_q24)
+{
+    const uint64_t product = (uint64_t)colour_uq16 * (uint32_t)gn_max32(e_q24, 0);
+    return product >> 43 ? 1 << 27 : (int32_t)(product >> 16);
+}
+
+/* Light that pixels do not ask for. Returns 0 if it is too bright. */
+GN_HOT static int add_patch_light(gn_patch *p, const uint32_t colour_uq16[3], const int32_t e_q24[3])
+{
+    for (int c = 0; c < 3; c++)
+        for (int k = 0; k < 3; k++) {
+            p->colour_q24[c][k] += product_q24(colour_uq16[c], e_q24[k]);
+            if (p->colour_q24[c][k] > 1 << 27) return 0;
+        }
+    return 1;
+}
+
+/* Light that they do: irradiance becomes 15 bits, colours 16. */
+GN_HOT static int keep_patch_light(gn_patch *p, gn_patch_light *light, const uint32_t colour_uq16[3], const int32_t e_q24[3])
+{
+    const uint32_t any = gn_abs32(e_q24[0]) | gn_abs32(e_q24[1]) | gn_abs32(e_q24[2]) | 1U,
+                   bright = colour_uq16[0] | colour_uq16[1] | colour_uq16[2] | 1U;
+    const int32_t e_down = 17 - gn_clz32(any), colour_down = gn_max32(16 - gn_clz32(bright), 0);
+    int32_t e[3];
+    for (int k = 0; k < 3; k++) e[k] = e_down >= 0 ? e_q24[k] >> e_down : e_q24[k] * (1 << -e_down);
+    for (int c = 0; c < 3; c++) light->colour[c] = colour_uq16[c] >> colour_down;
+    light->down = 16 - e_down - colour_down; /* Q24 * Q16 >> 16 */
+    if (light->down < 4 || light->down > 31) return 0; /* brighter than 8, or far darker than a level */
+    gn_patch_set(&light->irradiance_q15, e[0], e[1], e[2]);
+    p->n_lights++;
+    return 1;
+}
+
+/* Returns 0 if pixels have to find it. */
+GN_HOT static int find_patch_light(gn_shading *s, uint32_t light_idx, const int32_t n[3][3])
+{
+    const gn_frame *frame = s->frame;
+    const gn_light_state *state = &frame->light[light_idx];
+    gn_patch *p = &s->patch;
+    gn_patch_light *light = &p->light[p->n_lights];
+    uint32_t colour[3];
+    int32_t e[3];
+    if (state->off || (shows_shadow(frame) && light_idx != frame->picture.view_light)) return 1;
+    if (state->kind == GN_LIGHT_DIRECTIONAL) sun_irradiance(s, state, n, e);
+#if GN_PUNCTUAL_LIGHTS
+    else if (!lamp_irradiance(s, state, n, e)) return 0;
+#endif
+    if (e[0] <= 0 && e[1] <= 0 && e[2] <= 0) return 1;
+    const int ends = (e[0] | e[1] | e[2]) < 0;
+    if (shows_shadow(frame)) {
+        if (ends || !e[0] || !e[1] || !e[2]) return 0;
+        e[0] = e[1] = e[2] = 1 << 24;
+    }
+    if (p->n_lights == GN_PATCH_LIGHTS) return 0;
+    for (int c = 0; c < 3; c++)
+        colour[c] = shows_shadow(frame) ? 65536U : gn_mul_uq16(state->colour_uq16[c], p->of.object->albedo_uq16[c]);
+    light->view = NULL;
+    if (GN_SHADOWS && p->of.receives && !gn_patch_find_shadow(s, light_idx, light)) return 0;
+    if (!light->view && !ends) return add_patch_light(p, colour, e);
+    return keep_patch_light(p, light, colour, e);
+}
+
+#if GN_PUNCTUAL_LIGHTS
+/* Those of the object's list, or all if it has none. [P9] */
+GN_HOT static int find_patch_lamps(gn_shading *s, const int32_t n[3][3])
+{
+    const gn_frame *frame = s->frame;
+    const gn_object_state *object = &frame->object[s->patch.record.tri->source.object_idx];
+    const int all = object->n_lights == GN_OBJECT_LIGHTS_ALL;
+    const uint32_t count = all ? frame->scene->n_lights : object->n_lights;
+    for (uint32_t i = 0; i < count; i++) {
+        const uint32_t l = all ? i : object->light[i];
+        if (frame->light[l].kind != GN_LIGHT_DIRECTIONAL && !find_patch_light(s, l, n)) return 0;
+    }
+    return 1;
+}
+#endif
+
+GN_HOT int gn_patch_find_lights(gn_shading *s)
+{
+    const gn_frame *frame = s->frame;
+    gn_patch *p = &s->patch;
+    int32_t n[3][3];
+    p->n_lights = 0;
+    for (int c = 0; c < 3; c++)
+        for (int k = 0; k < 3; k++) p->colour_q24[c][k] = p->of.base_q24[c];
+    if (!p->of.lit) return 1;
+    if (!find_patch_normals(s, n)) return 0;
+    for (uint32_t l = 0; l < frame->scene->n_lights; l++)
+        if (frame->light[l].kind == GN_LIGHT_DIRECTIONAL && !find_patch_light(s, l, (const int32_t(*)[3])n)) return 0;
+#if GN_PUNCTUAL_LIGHTS
+    return find_patch_lamps(s, (const int32_t(*)[3])n);
+#else
+    return 1;
+#endif
+}
+
+#endif

@@ -1,0 +1,108 @@
+/* Patches: small triangles, shaded from their records. Values are known at the three corners and linear between them. */
+#ifndef GN_PATCH_TYPES_H
+#define GN_PATCH_TYPES_H
+
+#include "shadow/gn_shadow_types.h"
+#include "visible/gn_visible_types.h"
+
+#if GN_INTERPOLATES
+
+enum { GN_PATCH_PX = 32 /* the largest box, each way */, GN_PATCH_ROW_PX = 16 /* pixels that are drawn at a time */ };
+
+/* Pixels are interpolated with weights of the corners 1 and 2, Q15, at least 0 and at most 1 in all. */
+typedef struct {
+    int32_t of[2];
+} gn_patch_weights;
+
+/* Linear over the triangle: the value at corner 0, and what it changes by to corners 1 and 2, in units of 2^shift,
+ * within +-2^15. */
+typedef struct {
+    int32_t at;
+    int32_t to[2];
+    int32_t shift;
+} gn_patch_value;
+
+/* Linear along a row of pixels. */
+typedef struct {
+    int32_t at, step;
+} gn_row_value;
+
+/* A record on the screen. */
+typedef struct {
+    const gn_tri *tri;
+    uint16_t vertex[3]; /* of the mesh, by corner */
+    uint8_t back;       /* seen from behind */
+    uint8_t deep;       /* weights need the corners' depths */
+    int32_t x0, y0;     /* the pixel that corner 0 lies in */
+    int32_t off[2];     /* from corner 0 to its centre, right and down, subpixel_bits fraction bits */
+    int32_t a[2], b[2]; /* from corner 0 to corners 1 and 2, likewise */
+    int32_t px;         /* the longer side of its box, pixels, rounded up */
+    uint32_t area;      /* twice its area, 2 subpixel_bits fraction bits */
+    uint32_t recip;     /* 2^47 over that, normalised: 16 bits */
+    int32_t clz;        /* leading zeros of the area */
+    uint32_t iz_q32[3]; /* near / Z at the corners */
+    uint32_t near_q14[2]; /* deep: near / Z of corners 1 and 2 over that of corner 0, at most 2 */
+    int32_t z[3], z_up;   /* view depths at the corners, Q16 times 2^z_up */
+} gn_patch_record;
+
+/* A light that pixels ask for: its shadow may fall on the triangle, or it ends there. */
+typedef struct {
+    const gn_light_view *view;     /* NULL: no shadow */
+    uint32_t colour[3];            /* of irradiance 1, 16 bits: times irradiance Q15 it is Q24 << down */
+    int32_t down;
+    gn_patch_value irradiance_q15; /* of its own scale; below 0 where it faces away */
+    gn_patch_value u_q16, v_q16, depth_q30; /* the place in the view: texels, and a share of its range */
+    gn_patch_value strength_q16;   /* of the shadow: the light's, less what fades with distance */
+} gn_patch_light;
+
+enum { GN_PATCH_LIGHTS = 3, GN_PATCH_NORMALS = 32 /* a power of two */ };
+
+/* A vertex's normal in the world, unit length. */
+typedef struct {
+    uint32_t tag; /* gn_vertex_tag(), 0: none */
+    int16_t q14[3];
+} gn_patch_normal;
+
+/* What an object's triangles have in common. */
+typedef struct {
+    const gn_object *object; /* NULL: none yet */
+    uint8_t patched;         /* its small triangles are patches */
+    uint8_t receives, lit;
+    int32_t base_q24[3]; /* albedo times ambient, and light of its own that nothing dims; at most 2^27 */
+    int32_t normal_q14[3][3];
+} gn_patch_object;
+
+enum { GN_REACH_UNKNOWN, GN_REACH_EVEN, GN_REACH_UNEVEN };
+
+/* The triangle at hand. */
+typedef struct {
+    gn_patch_object of;
+    gn_patch_record record;
+    gn_tri again; /* of groups: the record, made again */
+    int32_t view_q14[3], face_q30[3]; /* the face's normal towards the viewer: along the camera's axes, in the world */
+    uint8_t has_face, smooth, tinted, textured, varies;
+    uint8_t n_lights;
+    uint8_t reach;              /* GN_REACH_*: of shadows, over the triangle */
+    int32_t cascade;            /* of the corners */
+    uint32_t strength_uq16[3];  /* of shadows at the corners */
+    int32_t from_q16[3][3];     /* from the spot or point light at hand to the corners, world axes */
+    int32_t colour_q24[3][3]; /* by channel, at the corners: light that pixels do not ask for */
+    gn_patch_value colour[3];
+    gn_patch_light light[GN_PATCH_LIGHTS];
+    gn_patch_value tint_q16[3]; /* colours of the vertices */
+#if GN_TEXTURES
+    const gn_texture *texture; /* or the level of it that the triangle shows */
+    gn_patch_value texel_q17[2];
+#if GN_MIPMAPS
+    gn_texture level;
+#endif
+#endif
+    gn_patch_normal normal[GN_PATCH_NORMALS];
+    uint32_t attenuation[GN_PATCH_ROW_PX];
+    int32_t node_q24[GN_PATCH_ROW_PX][3];
+    gn_texel_rgb texel[GN_PATCH_ROW_PX];
+} gn_patch;
+
+#endif
+
+#endif

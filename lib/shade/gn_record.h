@@ -1,0 +1,75 @@
+/* A record as a small triangle on the screen: depth at its corners, weights of its pixels. All in 32 bits. */
+#ifndef GN_RECORD_H
+#define GN_RECORD_H
+
+#include "base/gn_hint.h"
+#include "base/gn_q.h"
+#include "gnomon.h"
+
+#if GN_INTERPOLATES
+
+/* Returns 0 if its box is larger than GN_PATCH_PX, it was cut, its plane of near / Z is not known, or depth doubles over
+ * it. */
+int gn_record_begin(gn_patch_record *r, const gn_frame *frame, const gn_tri *tri);
+
+/* View depths at the corners. */
+void gn_record_find_depths(gn_patch_record *r, const gn_frame *frame);
+
+/* That of corner k, Q16. */
+GN_HOT static inline int32_t gn_record_depth(const gn_patch_record *r, int k)
+{
+    return r->z_up >= 0 ? r->z[k] >> r->z_up : (int32_t)((uint32_t)r->z[k] << -r->z_up);
+}
+
+/* The face's normal along the camera's axes, Q14, length 1, towards the viewer. */
+void gn_record_face(const gn_patch_record *r, const gn_frame *frame, int32_t view_q14[3]);
+
+/* A vector of any length to length 1, Q14; 0 stays 0. */
+void gn_patch_unit(int32_t v[3]);
+
+/* Where a ray plane sees corner k, whose depth is known: Q16, within +-2^30. */
+int32_t gn_record_place(const gn_patch_record *r, const gn_frame *frame, int k, const gn_ray_plane *plane,
+                        int32_t ray_shift);
+
+/* The weights at the centre of pixel (x, y), which the triangle covers. */
+gn_patch_weights gn_record_weights(const gn_patch_record *r, const gn_frame *frame, int32_t x, int32_t y);
+
+/* floor(log2 of how many texels there are to a pixel where it is stretched most): twice the triangle's area in texels is
+ * texels * 2^log2. */
+int32_t gn_record_level2(const gn_patch_record *r, const gn_frame *frame, const int32_t view_q14[3], uint64_t texels,
+                         int32_t log2);
+
+/* ---- Values ------------------------------------------------------------------------------------------------------ */
+
+/* Through the values at the corners, within +-2^30. */
+GN_HOT static inline void gn_patch_set(gn_patch_value *out, int32_t v0, int32_t v1, int32_t v2)
+{
+    const int32_t d1 = v1 - v0, d2 = v2 - v0;
+    const int32_t shift = gn_max32(17 - gn_clz32(gn_abs32(d1) | gn_abs32(d2) | 1U), 0);
+    out->at = v0;
+    out->to[0] = d1 >> shift;
+    out->to[1] = d2 >> shift;
+    out->shift = shift;
+}
+
+GN_HOT static inline int32_t gn_patch_at(const gn_patch_value *v, gn_patch_weights w)
+{
+    return v->at + (((w.of[0] * v->to[0] + w.of[1] * v->to[1]) >> 15) << v->shift); /* 2^15 * 2^15 */
+}
+
+/* 2^32 / n, rounded down */
+extern const uint32_t gn_patch_parts_q32[GN_PATCH_ROW_PX];
+
+/* Along n pixels of a row, from its first to its last. */
+GN_HOT static inline gn_row_value gn_patch_row(const gn_patch_value *v, const gn_patch_weights ends[2], int32_t n)
+{
+    gn_row_value row = {gn_patch_at(v, ends[0]), 0};
+    if (n < 2) return row;
+    const int32_t change = gn_patch_at(v, ends[1]) - row.at;
+    row.step = n == 2 ? change : gn_mul_high(change, (int32_t)(gn_patch_parts_q32[n - 1] >> 1)) * 2;
+    return row;
+}
+
+#endif
+
+#endif
