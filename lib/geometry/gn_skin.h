@@ -22,9 +22,14 @@ void gn_skin_position(int32_t out_q16[3], const gn_object *object, uint32_t vert
  */
 void gn_skin_normal(int32_t out_q30[3], const gn_object *object, const int32_t matrix[3][3], uint32_t vertex_idx);
 
-/* A direction of 15 bits at a vertex, posed in the object's space by the same mean, any length up to 2^15: in 32 bits,
- * to 2^-9 of a right angle where the mean keeps half of a joint's size. */
-void gn_skin_direction(int32_t n[3], const gn_skin *skin, uint32_t vertex_idx);
+/* The joints of a vertex and their weights, n of each. */
+typedef struct {
+    const gn_affine *joint;
+    const uint8_t *idx, *weight_u8;
+    uint32_t n;
+} gn_vertex_joints;
+
+gn_vertex_joints gn_skin_joints(const gn_skin *skin, uint32_t vertex_idx);
 
 /* A vertex as the transforms take it: as it is stored, or with 16 fraction bits behind a skin. */
 GN_INLINE void gn_position_of(int32_t out[3], const gn_object *object, uint32_t vertex_idx)

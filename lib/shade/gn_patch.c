@@ -60,13 +60,13 @@ GN_HOT static void find_tint(gn_patch *p)
 /* Colours between the corners, and whether pixels differ at all. */
 GN_HOT static void find_colours(gn_patch *p)
 {
-    uint32_t differs = (uint32_t)(p->n_lights | p->textured | p->tinted);
-    for (int c = 0; c < 3; c++) {
-        const int32_t *at = p->colour_q24[c];
-        differs |= (uint32_t)(at[0] ^ at[1]) | (uint32_t)(at[0] ^ at[2]);
-        gn_patch_set(&p->colour[c], at[0], at[1], at[2]);
-    }
-    p->varies = differs != 0;
+    uint32_t differs = 0;
+    for (int c = 0; c < 3; c++)
+        differs |= (uint32_t)(p->colour_q24[c][0] ^ p->colour_q24[c][1]) | (uint32_t)(p->colour_q24[c][0] ^ p->colour_q24[c][2]);
+    p->graded = differs != 0;
+    p->varies = (uint8_t)(p->graded | p->n_lights | p->textured | p->tinted);
+    for (int c = 0; p->graded && c < 3; c++)
+        gn_patch_set(&p->colour[c], p->colour_q24[c][0], p->colour_q24[c][1], p->colour_q24[c][2]);
 }
 
 GN_HOT int gn_patch_begin(gn_shading *s, uint32_t id)
@@ -125,31 +125,37 @@ GN_HOT static void tint_nodes(gn_patch *p, const gn_patch_weights ends[2], int32
     }
 }
 
+#if GN_TEXTURES
+/* Texels of a row; whether its nodes are within 2^-18 .. 1. */
+GN_HOT static void find_row_texels(gn_patch *p, const gn_patch_weights ends[2], int32_t n, int32_t n_nodes,
+                               gn_pixel_line *line)
+{
+    const gn_row_value u = gn_patch_row(&p->texel_q17[0], ends, n), v = gn_patch_row(&p->texel_q17[1], ends, n);
+    const gn_texture_line texels = {{u.at, v.at}, {u.step, v.step}, {0, 0}};
+    uint32_t beyond = 0;
+    for (const int32_t(*node)[3] = line->node, (*end)[3] = node + n_nodes; node < end; node++)
+        beyond |= (uint32_t)((*node)[0] - 64) | (uint32_t)((*node)[1] - 64) | (uint32_t)((*node)[2] - 64);
+    line->inside = !(beyond >> 24);
+    gn_texture_row(p->texture, &texels, (1U << n) - 1, p->texel);
+    line->texel = p->texel;
+}
+#endif
+
 /* Pixels that are not linear, a node each; textured ones under linear light have two. */
-GN_HOT static void draw_patch_nodes(gn_shading *s, const gn_row_value colour[3], const gn_patch_weights ends[2], int32_t x,
-                              int32_t y, int32_t n)
+GN_HOT static void draw_patch_nodes(gn_shading *s, const int32_t from[3], const int32_t step[3],
+                                    const gn_patch_weights ends[2], int32_t x, int32_t y, int32_t n)
 {
     gn_patch *p = &s->patch;
-    const int each = p->n_lights | p->tinted;
-    const int32_t n_nodes = each ? n : 2;
-    gn_pixel_line line = {.node = (const int32_t(*)[3])p->node_q24, .spacing_log2 = each ? 0 : 4, .inside = 1};
-    for (int c = 0; c < 3; c++)
-        for (int32_t i = 0, at = colour[c].at; i < n_nodes; i++, at += each ? colour[c].step : 16 * colour[c].step)
-            p->node_q24[i][c] = at;
+    const int log2 = p->n_lights | p->tinted ? 0 : 4;
+    const int32_t n_nodes = log2 ? 2 : n, dr = step[0] << log2, dg = step[1] << log2, db = step[2] << log2;
+    gn_pixel_line line = {.node = (const int32_t(*)[3])p->node_q24, .spacing_log2 = log2};
+    int32_t r = from[0], g = from[1], b = from[2], (*node)[3] = p->node_q24;
+    for (int32_t(*end)[3] = node + n_nodes; node < end; node++, r += dr, g += dg, b += db)
+        (*node)[0] = r, (*node)[1] = g, (*node)[2] = b;
     for (int32_t i = 0; i < p->n_lights; i++) add_light_nodes(s, &p->light[i], ends, x, y, n);
     if (p->tinted) tint_nodes(p, ends, n);
 #if GN_TEXTURES
-    if (p->textured) {
-        gn_texture_line texels;
-        for (int i = 0; i < 2; i++) {
-            const gn_row_value at = gn_patch_row(&p->texel_q17[i], ends, n);
-            texels.at_q17[i] = at.at, texels.step_q17[i] = at.step, texels.step_change_q17[i] = 0;
-        }
-        for (int32_t i = 0; i < n_nodes; i++)
-            for (int c = 0; c < 3; c++) line.inside &= (uint32_t)(p->node_q24[i][c] - 64) <= (1U << 24) - 64;
-        gn_texture_row(p->texture, &texels, (1U << n) - 1, p->texel);
-        line.texel = p->texel;
-    }
+    if (p->textured) find_row_texels(p, ends, n, n_nodes, &line);
 #endif
     gn_pixel_store_line(s->frame, &s->rows, x, y, (1U << n) - 1, &line);
 }
@@ -158,17 +164,17 @@ GN_HOT static void draw_patch_row(gn_shading *s, int32_t x, int32_t y, int32_t n
 {
     gn_patch *p = &s->patch;
     gn_patch_weights ends[2];
-    gn_row_value colour[3];
+    int32_t from[3], step[3] = {0, 0, 0};
     ends[0] = gn_record_weights(&p->record, s->frame, x, y);
     if (n > 1) ends[1] = gn_record_weights(&p->record, s->frame, x + n - 1, y);
-    for (int c = 0; c < 3; c++) colour[c] = gn_patch_row(&p->colour[c], ends, n);
-    if (p->n_lights | p->tinted | p->textured) {
-        draw_patch_nodes(s, colour, ends, x, y, n);
-        return;
+    for (int c = 0; c < 3; c++) {
+        from[c] = p->colour_q24[c][0];
+        if (!p->graded) continue;
+        const gn_row_value row = gn_patch_row(&p->colour[c], ends, n);
+        from[c] = row.at, step[c] = row.step;
     }
-    const int32_t from[3] = {colour[0].at, colour[1].at, colour[2].at},
-                  step[3] = {colour[0].step, colour[1].step, colour[2].step};
-    gn_pixel_store_run(s->frame, &s->rows, x, y, n, from, step);
+    if (p->n_lights | p->tinted | p->textured) draw_patch_nodes(s, from, step, ends, x, y, n);
+    else gn_pixel_store_run(s->frame, &s->rows, x, y, n, from, step);
 }
 
 GN_HOT void gn_patch_draw(gn_shading *s, gn_run_taker *taker)

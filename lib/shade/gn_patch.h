@@ -25,8 +25,9 @@ void gn_patch_use_object(gn_shading *s, const gn_object *object);
 /* Light and shadow of the triangle at hand. Returns 0 if pixels have to find them. */
 int gn_patch_find_lights(gn_shading *s);
 
-/* Where the light's shadow is looked up, and how strong it is. Returns 0 if pixels have to find that; sets view to
- * NULL if there is none. */
+/* What the light's shadow does to the triangle: nothing; it hides the light; it has an edge there: light->view and the
+ * places of pixels in it are set; or corners do not tell. */
+enum { GN_PATCH_LIT, GN_PATCH_DARK, GN_PATCH_EDGE, GN_PATCH_UNEVEN };
 int gn_patch_find_shadow(gn_shading *s, uint32_t light_idx, gn_patch_light *light);
 
 /* The face's normal, found once. */

@@ -63,9 +63,10 @@ GN_HOT void gn_patch_use_object(gn_shading *s, const gn_object *object)
     of->receives = (uint8_t)(object->flags & GN_OBJECT_RECEIVES && !unlit);
     for (int c = 0; shows_shadow(s->frame) && c < 3; c++) of->base_q24[c] = 0;
     if (!of->patched || !GN_VERTEX_NORMALS || !object->mesh->nrm_q15) return;
-    int32_t matrix[3][3];
-    gn_xform_normal_matrix(matrix, object->to_world.m_q30);
-    for (int k = 0; k < 9; k++) of->normal_q14[k / 3][k % 3] = matrix[k / 3][k % 3] >> 16;
+    gn_xform_normal_matrix(of->to_world_q30, object->to_world.m_q30);
+#if GN_VERTEX_JOINTS
+    for (int i = 0; i < GN_PATCH_JOINTS; i++) s->patch.joint[i].tag = 0;
+#endif
 }
 
 /* ---- Normals ----------------------------------------------------------------------------------------------------- */
@@ -85,30 +86,82 @@ GN_HOT const int32_t *gn_patch_face(gn_shading *s)
 }
 
 #if GN_VERTEX_NORMALS
-/* A vertex's normal in the world, before the triangle's back is turned. */
-GN_HOT static GN_NOINLINE void make_patch_normal(const gn_shading *s, uint32_t vertex_idx, int16_t out_q14[3])
+/* A mesh's normal turned, any length below 2^15: rows have a length of 2^14 at most. */
+GN_HOT static inline void add_turned(int32_t out[3], const int16_t m_q14[9], const int32_t n[3], int32_t weight)
 {
-    const gn_patch_object *of = &s->patch.of;
-    const gn_normal *nrm = of->object->mesh->nrm_q15 + 3 * (size_t)vertex_idx;
-    int32_t n[3] = {nrm[0], nrm[1], nrm[2]}, turned[3];
-    if (GN_VERTEX_JOINTS && GN_SKIN(of->object)) gn_skin_direction(n, of->object->skin, vertex_idx);
-    for (int i = 0; i < 3; i++) { /* rows and normals are below 2^15: 2^31.6 in all is not reached, rows have length 1 */
-        const int32_t *row = of->normal_q14[i];
-        turned[i] = (row[0] * (n[0] >> 1) + row[1] * (n[1] >> 1) + row[2] * (n[2] >> 1)) >> 2;
+    GN_UNROLL
+    for (int i = 0; i < 3; i++) {
+        const int16_t *row = m_q14 + 3 * i;
+        out[i] += ((row[0] * n[0] + row[1] * n[1] + row[2] * n[2]) >> 14) * weight; /* 2^29; 2^14 * 255 */
     }
-    gn_patch_unit(turned);
-    for (int i = 0; i < 3; i++) out_q14[i] = (int16_t)turned[i];
 }
 
-GN_HOT static const gn_patch_normal *patch_normal(gn_shading *s, uint32_t vertex_idx)
+#if GN_VERTEX_JOINTS
+GN_HOT static GN_NOINLINE void make_patch_joint(const gn_shading *s, const gn_affine *joint, gn_patch_joint *out)
 {
+    const gn_patch_object *of = &s->patch.of;
+    int32_t posed[3][3];
+    gn_xform_normal_matrix(posed, joint->m_q30);
+    for (int k = 0; k < 9; k++) {
+        const int32_t *row = of->to_world_q30[k / 3];
+        int64_t sum = 0;
+        for (int i = 0; i < 3; i++) sum += (int64_t)row[i] * posed[i][k % 3];
+        out->m_q14[k] = (int16_t)gn_clamp64(gn_shr64(sum, 46), -16384, 16384);
+    }
+}
+
+/* The weighted mean of where joints turn it: of different sizes where joints stretch it, which is not seen. */
+GN_HOT static void turn_by_joints(gn_shading *s, uint32_t vertex_idx, const int32_t n[3], int32_t out[3])
+{
+    const gn_vertex_joints of = gn_skin_joints(s->patch.of.object->skin, vertex_idx);
+    for (uint32_t i = 0; i < of.n; i++) {
+        const uint32_t idx = of.idx[i];
+        gn_patch_joint *joint = &s->patch.joint[idx & (GN_PATCH_JOINTS - 1)];
+        if (!of.weight_u8[i]) continue;
+        if (joint->tag != idx + 1) {
+            make_patch_joint(s, &of.joint[idx], joint);
+            joint->tag = (uint16_t)(idx + 1);
+        }
+        add_turned(out, joint->m_q14, n, of.weight_u8[i]);
+    }
+}
+#endif
+
+/* A vertex's normal in the world, before the triangle's back is turned. */
+GN_HOT static GN_NOINLINE uint32_t make_patch_normal(gn_shading *s, uint32_t vertex_idx)
+{
+    const gn_object *object = s->patch.of.object;
+    const gn_normal *nrm = object->mesh->nrm_q15 + 3 * (size_t)vertex_idx;
+    const int32_t n[3] = {nrm[0] >> 1, nrm[1] >> 1, nrm[2] >> 1};
+    int32_t turned[3] = {0, 0, 0};
+#if GN_VERTEX_JOINTS
+    if (object->skin) turn_by_joints(s, vertex_idx, n, turned);
+#endif
+    if (!GN_SKIN(object)) {
+        int16_t m_q14[9];
+        for (int k = 0; k < 9; k++) m_q14[k] = (int16_t)(s->patch.of.to_world_q30[k / 3][k % 3] >> 16);
+        add_turned(turned, m_q14, n, 255);
+    }
+    gn_patch_unit(turned);
+    uint32_t packed = 0;
+    for (int i = 0; i < 3; i++) packed = packed << 10 | ((uint32_t)gn_min32(turned[i] + 16, 16383) >> 5 & 1023U);
+    return packed;
+}
+
+/* Corner k's normal, Q14, on the side that is seen. */
+GN_HOT static inline void patch_normal(gn_shading *s, int k, int32_t out_q14[3])
+{
+    const gn_patch_record *r = &s->patch.record;
+    const uint32_t vertex_idx = r->vertex[k], tag = gn_vertex_tag(r->tri->source.object_idx, vertex_idx);
     gn_patch_normal *entry = &s->patch.normal[vertex_idx & (GN_PATCH_NORMALS - 1)];
-    const uint32_t tag = gn_vertex_tag(s->patch.record.tri->source.object_idx, vertex_idx);
     if (entry->tag != tag) {
-        make_patch_normal(s, vertex_idx, entry->q14);
+        entry->packed = make_patch_normal(s, vertex_idx);
         entry->tag = tag;
     }
-    return entry;
+    const int32_t turn = r->back ? -1 : 1;
+    out_q14[0] = turn * ((int32_t)(entry->packed << 2) >> 22) * 32;
+    out_q14[1] = turn * ((int32_t)(entry->packed << 12) >> 22) * 32;
+    out_q14[2] = turn * ((int32_t)(entry->packed << 22) >> 22) * 32;
 }
 #endif
 
@@ -120,19 +173,15 @@ GN_HOT static int find_patch_normals(gn_shading *s, int32_t n[3][3])
 #if GN_VERTEX_NORMALS
     const gn_normal *nrm = p->of.object->mesh->nrm_q15;
     if (nrm) {
-        const uint16_t *v = p->record.vertex;
-        const int32_t turn = p->record.back ? -1 : 1;
         int32_t nearest = 1 << 14;
-        for (int k = 0; k < 3; k++) {
-            const gn_patch_normal *at = patch_normal(s, v[k]);
-            for (int i = 0; i < 3; i++) n[k][i] = turn * at->q14[i];
-        }
+        for (int k = 0; k < 3; k++) patch_normal(s, k, n[k]);
+        p->smooth = 1;
+        if (GN_K(s->frame, vertex_light)) return 1;
         for (int k = 0; k < 3; k++) {
             const int32_t *a = n[k], *b = n[k == 2 ? 0 : k + 1];
             nearest = gn_min32(nearest, (a[0] * b[0] + a[1] * b[1] + a[2] * b[2]) >> 14);
         }
-        p->smooth = 1;
-        return GN_K(s->frame, vertex_light) || nearest >= (p->record.px > 12 ? 15 << 10 : 14 << 10);
+        return nearest >= (p->record.px > 12 ? 15 << 10 : 14 << 10);
     }
 #endif
     const int32_t *face = gn_patch_face(s);
@@ -179,10 +228,13 @@ GN_HOT static int lamp_irradiance(gn_shading *s, const gn_light_state *light, co
 {
     int32_t(*from)[3] = s->patch.from_q16;
     gn_record_find_depths(&s->patch.record, s->frame);
+    for (int i = 0; i < 3; i++) {
+        int32_t at[3];
+        gn_record_places(&s->patch.record, s->frame, &light->from_light[i], light->ray_shift, at);
+        for (int k = 0; k < 3; k++) from[k][i] = at[k];
+    }
     for (int k = 0; k < 3; k++) {
         gn_punctual_point point;
-        for (int i = 0; i < 3; i++)
-            from[k][i] = gn_record_place(&s->patch.record, s->frame, k, &light->from_light[i], light->ray_shift);
         const int32_t n_q30[3] = {n[k][0] * 65536, n[k][1] * 65536, n[k][2] * 65536};
         const int64_t facing = -(gn_dot64(n_q30, from[k]) >> 30);
         e_q24[k] = 0;
@@ -255,7 +307,9 @@ GN_HOT static int find_patch_light(gn_shading *s, uint32_t light_idx, const int3
     for (int c = 0; c < 3; c++)
         colour[c] = shows_shadow(frame) ? 65536U : gn_mul_uq16(state->colour_uq16[c], p->of.object->albedo_uq16[c]);
     light->view = NULL;
-    if (GN_SHADOWS && p->of.receives && !gn_patch_find_shadow(s, light_idx, light)) return 0;
+    const int said = GN_SHADOWS && p->of.receives ? gn_patch_find_shadow(s, light_idx, light) : GN_PATCH_LIT;
+    if (said == GN_PATCH_UNEVEN) return 0;
+    if (said == GN_PATCH_DARK) return 1;
     if (!light->view && !ends) return add_patch_light(p, colour, e);
     return keep_patch_light(p, light, colour, e);
 }

@@ -3,12 +3,14 @@
 
 #include "base/gn_count.h"
 #include "base/gn_q.h"
+#include "base/gn_tables.h"
 #include "light/gn_bias.h"
 #include "shade/gn_patch.h"
 #include "shade/gn_record.h"
 #include "shade/gn_shadow.h"
 #include "shadow/gn_filter.h"
 #include "shadow/gn_persp.h"
+#include "shadow/gn_texel_rows.h"
 
 #if GN_INTERPOLATES
 
@@ -63,11 +65,13 @@ GN_HOT static int place_in_ortho(gn_shading *s, const gn_light_view *view, gn_au
     gn_bias_auto_face(view, form, gn_patch_face(s), face);
     gn_bias_auto_ortho(view, form, face, offset);
     if (offset[2] <= -TOO_FAR) return 0;
+    gn_record_places(&s->patch.record, s->frame, &fit->ray[0], fit->ray_shift, out->u);
+    gn_record_places(&s->patch.record, s->frame, &fit->ray[1], fit->ray_shift, out->v);
+    gn_record_places(&s->patch.record, s->frame, &fit->ray[2], fit->ray_shift, out->depth);
     for (int k = 0; k < 3; k++) {
-        out->u[k] = gn_record_place(&s->patch.record, s->frame, k, &fit->ray[0], fit->ray_shift) + offset[0];
-        out->v[k] = gn_record_place(&s->patch.record, s->frame, k, &fit->ray[1], fit->ray_shift) + offset[1];
-        const int32_t depth = gn_record_place(&s->patch.record, s->frame, k, &fit->ray[2], fit->ray_shift) + offset[2];
-        out->depth[k] = depth_share_q30(view, depth);
+        out->u[k] += offset[0];
+        out->v[k] += offset[1];
+        out->depth[k] = depth_share_q30(view, out->depth[k] + offset[2]);
     }
     return 1;
 }
@@ -102,12 +106,73 @@ GN_HOT static int place_in_persp(gn_shading *s, const gn_light_view **view, cons
 }
 #endif
 
-/* Sets the values that pixels look up. */
-GN_HOT static void set_places(gn_patch_light *light, const patch_places *at)
+/* ---- Texels before the triangle's plane -------------------------------------------------------------------------- */
+
+enum { ASK_PX = 4 /* smaller triangles are looked up at once */, FAR_Q30 = 0xFFFF << 14 };
+enum { TEXELS_UNKNOWN, TEXELS_LIT, TEXELS_DARK, TEXELS_EDGE };
+
+GN_HOT static inline int32_t smallest(const int32_t v[3])
 {
+    return gn_min32(gn_min32(v[0], v[1]), v[2]);
+}
+
+GN_HOT static inline int32_t largest(const int32_t v[3])
+{
+    return gn_max32(gn_max32(v[0], v[1]), v[2]);
+}
+
+/* Sets the texels that pixels may read. Returns 0 if they are many, or beyond the tile. */
+GN_HOT static int find_texels_read(const gn_light_view *view, const patch_places *at, gn_patch_texels *out)
+{
+    const int32_t k = view->filter_idx, part = 1 << 10; /* roundings of places between the corners */
+    out->u = ((smallest(at->u) - part + 32768) >> 16) - (k + 1);
+    out->v = ((smallest(at->v) - part + 32768) >> 16) - (k + 1);
+    out->w = ((largest(at->u) + part + 32768) >> 16) + k + 1 - out->u;
+    out->h = ((largest(at->v) + part + 32768) >> 16) + k + 1 - out->v;
+    if ((out->u | out->v) < 0 || out->u + out->w > view->tile_texels || out->v + out->h > GN_TILE_ROWS(view)) return 0;
+    return out->w <= GN_PATCH_TEXELS && out->h <= GN_PATCH_TEXELS;
+}
+
+/* Compares texels with the plane through the places, which bias has moved: what a filter's taps, which are compared with
+ * the pixel's own depth, do on average. Only directional views: places in others need the filter's precision near a
+ * caster's foot. */
+GN_HOT static int ask_texels(gn_shading *s, const gn_light_view *view, const patch_places *at, gn_patch_texels *out)
+{
+    int32_t slope_q28[2];
+    if (s->patch.record.px < ASK_PX || view->perspective || GN_VIEW_BITS(view) != 16) return TEXELS_UNKNOWN;
+    if (view->filter > GN_FILTER_3X3 || !find_texels_read(view, at, out)) return TEXELS_UNKNOWN;
+    gn_shadow_plane_slopes(view, gn_patch_face(s), NULL, slope_q28);
+    if ((gn_abs32(slope_q28[0]) | gn_abs32(slope_q28[1])) >> 23) return TEXELS_UNKNOWN; /* 2^-5 of the range per texel */
+    const int32_t across = slope_q28[0] * 4, down = slope_q28[1] * 4, rise = across * (out->w - 1), fall = down * (out->h - 1);
+    const int64_t to_u = out->u * 65536 + 32768 - at->u[0], to_v = out->v * 65536 + 32768 - at->v[0]; /* 2^22 */
+    int32_t depth = at->depth[0] + (int32_t)((across * to_u + down * to_v) >> 16);
+    const uint16_t *texel = view->depth.d16 + out->v * view->tile_texels + out->u;
+    uint32_t any = 0, all = UINT32_MAX >> (32 - out->w);
+    if (depth + gn_min32(rise, 0) + gn_min32(fall, 0) < 0) return TEXELS_UNKNOWN;
+    if (depth + gn_max32(rise, 0) + gn_max32(fall, 0) > FAR_Q30) return TEXELS_UNKNOWN;
+    GN_COUNT(windows, 1);
+    for (int32_t row = 0; row < out->h; row++, texel += view->tile_texels, depth += down) {
+        const uint32_t bits = gn_texels_before(texel, out->w, depth, across);
+        out->word[row] = bits;
+        any |= bits;
+        all &= bits;
+    }
+    if (!any) return TEXELS_LIT;
+    return all == UINT32_MAX >> (32 - out->w) ? TEXELS_DARK : TEXELS_EDGE;
+}
+
+/* Sets the values that pixels look up, if any. Returns what gn_patch_find_shadow() does. */
+GN_HOT static int set_places(gn_shading *s, const gn_light_view *view, const patch_places *at, gn_patch_light *light)
+{
+    const int said = ask_texels(s, view, at, &light->texels);
+    if (said == TEXELS_LIT) return GN_PATCH_LIT;
+    if (said == TEXELS_DARK && !light->fades) return GN_PATCH_DARK;
+    light->view = view;
+    light->has_words = said == TEXELS_EDGE;
     gn_patch_set(&light->u_q16, at->u[0], at->u[1], at->u[2]);
     gn_patch_set(&light->v_q16, at->v[0], at->v[1], at->v[2]);
     gn_patch_set(&light->depth_q30, at->depth[0], at->depth[1], at->depth[2]);
+    return GN_PATCH_EDGE;
 }
 
 GN_HOT int gn_patch_find_shadow(gn_shading *s, uint32_t light_idx, gn_patch_light *light)
@@ -118,54 +183,95 @@ GN_HOT int gn_patch_find_shadow(gn_shading *s, uint32_t light_idx, gn_patch_ligh
     const gn_light_view *view = &frame->view[state->view_idx];
     uint32_t k[3], any = 0;
     patch_places at;
-    if (!gn_shadow_is_realtime(state, 65536)) return 1;
-    if (!state->auto_bias || gn_shadow_has_plane(frame, view) || !find_patch_cascade(s)) return 0;
+    if (!gn_shadow_is_realtime(state, 65536)) return GN_PATCH_LIT;
+    if (!state->auto_bias || gn_shadow_has_plane(frame, view) || !find_patch_cascade(s)) return GN_PATCH_UNEVEN;
     for (int i = 0; i < 3; i++) any |= k[i] = gn_mul_uq16(state->strength_uq16, p->strength_uq16[i]);
-    if (!any) return 1;
-    gn_patch_set(&light->strength_q16, (int32_t)k[0], (int32_t)k[1], (int32_t)k[2]);
+    if (!any) return GN_PATCH_LIT;
+    light->fades = (k[0] & k[1] & k[2]) != 65536; /* at most that */
+    if (light->fades) gn_patch_set(&light->strength_q16, (int32_t)k[0], (int32_t)k[1], (int32_t)k[2]);
 #if GN_PUNCTUAL_LIGHTS
     if (view->perspective) {
         const int placed = place_in_persp(s, &view, state, &at);
-        if (placed != 1) return placed;
-        light->view = view;
-        set_places(light, &at);
-        return 1;
+        if (placed != 1) return placed ? GN_PATCH_LIT : GN_PATCH_UNEVEN;
+        return set_places(s, view, &at, light);
     }
 #endif
     if (!view->border_lit) view += p->cascade;
-    if (!place_in_ortho(s, view, (gn_auto_bias)state->auto_bias, &at)) return 1;
-    light->view = view;
-    set_places(light, &at);
-    return 1;
+    if (!place_in_ortho(s, view, (gn_auto_bias)state->auto_bias, &at)) return GN_PATCH_LIT;
+    return set_places(s, view, &at, light);
+}
+
+/* What a filter makes of its taps, a bit each that is dark, rows from the lowest on; u and v of the first. */
+GN_HOT static inline uint32_t taps_say(int32_t filter, uint32_t mask, int32_t u_q16, int32_t v_q16)
+{
+#if GN_FILTER_MAX >= 2
+    if (filter == GN_FILTER_3X3) {
+        const uint16_t *across = gn_tent_sums[u_q16 >> 11 & 31], *down = gn_tent_sums[v_q16 >> 11 & 31];
+        const uint32_t dark = (uint32_t)across[mask & 15U] * down[1] + (uint32_t)across[mask >> 4 & 15U] * down[2] +
+                              (uint32_t)across[mask >> 8 & 15U] * down[4] + (uint32_t)across[mask >> 12] * down[8];
+        return 65536U - (dark >> 8); /* 2^12 * 2^12 */
+    }
+#endif
+    if (filter == GN_FILTER_HARD) /* of 2x2 taps the nearest */
+        return mask >> ((u_q16 >> 15 & 1) + 2 * (v_q16 >> 15 & 1)) & 1U ? 0 : 65536U;
+    const uint32_t wu = (uint32_t)u_q16 >> 8 & 255U, wv = (uint32_t)v_q16 >> 8 & 255U;
+    const uint32_t upper = (mask & 1U ? 256 - wu : 0) + (mask & 2U ? wu : 0),
+                   lower = (mask & 4U ? 256 - wu : 0) + (mask & 8U ? wu : 0);
+    return 65536U - (upper * (256 - wv) + lower * wv);
+}
+
+/* Attenuations by the words of texels. */
+GN_HOT static void attenuation_by_words(gn_patch *p, const gn_patch_light *light, gn_row_value u, gn_row_value v, int32_t n)
+{
+    const gn_patch_texels *t = &light->texels;
+    const int32_t filter = light->view->filter, taps = filter == GN_FILTER_3X3 ? 4 : 2;
+    const uint32_t ones = (1U << taps) - 1, full = (1U << taps * taps) - 1;
+    u.at += 32768 - taps * 32768 - t->u * 65536, v.at += 32768 - taps * 32768 - t->v * 65536; /* of the first tap */
+    for (uint32_t *out = p->attenuation, *end = out + n; out < end; out++, u.at += u.step, v.at += v.step) {
+        const int32_t left = gn_max32(0, gn_min32(u.at >> 16, t->w - taps)), /* roundings: up to a texel beyond */
+                      top = gn_max32(0, gn_min32(v.at >> 16, t->h - taps));
+        const uint32_t *word = t->word + top;
+        uint32_t mask = (word[0] >> left & ones) | (word[1] >> left & ones) << taps;
+        if (taps == 4) mask |= (word[2] >> left & ones) << 8 | (word[3] >> left & ones) << 12;
+        *out = !mask ? 65536U : mask == full ? 0 : taps_say(filter, mask, u.at, v.at);
+    }
+}
+
+/* The same by the filter. */
+GN_HOT static void attenuation_by_filter(gn_shading *s, const gn_patch_light *light, const gn_patch_weights ends[2],
+                                         gn_receiver *r, int32_t u_step, int32_t v_step, int32_t n)
+{
+    gn_row_value depth = gn_patch_row(&light->depth_q30, ends, n);
+    for (uint32_t *out = s->patch.attenuation, *end = out + n; out < end; out++, depth.at += depth.step) {
+        r->depth_q32 = (uint32_t)gn_max32(0, gn_min32(depth.at, (1 << 30) - 1)) << 2;
+        *out = gn_filter_attenuation(s->frame, light->view, r);
+        r->u_q16 += u_step;
+        r->v_q16 += v_step;
+        r->pixel_x++;
+    }
 }
 
 GN_HOT void gn_patch_attenuation(gn_shading *s, const gn_patch_light *light, const gn_patch_weights ends[2], int32_t x,
                                  int32_t y, int32_t n)
 {
-    const gn_row_value u = gn_patch_row(&light->u_q16, ends, n), v = gn_patch_row(&light->v_q16, ends, n),
-                       depth = gn_patch_row(&light->depth_q30, ends, n),
-                       strength = gn_patch_row(&light->strength_q16, ends, n);
-    gn_receiver r = {u.at, v.at, 0, {0, 0}, x, y};
-    int32_t depth_q30 = depth.at, strength_q16 = strength.at;
+    const gn_row_value u = gn_patch_row(&light->u_q16, ends, n), v = gn_patch_row(&light->v_q16, ends, n);
     uint32_t *out = s->patch.attenuation;
     GN_COUNT(edge_lookups, n);
-    for (const uint32_t *end = out + n; out < end; out++) {
-        r.depth_q32 = (uint32_t)gn_max32(0, gn_min32(depth_q30, (1 << 30) - 1)) << 2;
-        *out = gn_filter_attenuation(s->frame, light->view, &r);
-        if (strength_q16 != 65536)
-            *out = 65536U - gn_mul_uq16(65536U - *out, (uint32_t)gn_max32(0, gn_min32(strength_q16, 65536)));
-        r.u_q16 += u.step;
-        r.v_q16 += v.step;
-        depth_q30 += depth.step;
-        strength_q16 += strength.step;
-        r.pixel_x++;
+    if (light->has_words) attenuation_by_words(&s->patch, light, u, v, n);
+    else {
+        gn_receiver r = {u.at, v.at, 0, {0, 0}, x, y};
+        attenuation_by_filter(s, light, ends, &r, u.step, v.step, n);
     }
+    if (!light->fades) return;
+    gn_row_value strength = gn_patch_row(&light->strength_q16, ends, n);
+    for (int32_t i = 0; i < n; i++, strength.at += strength.step)
+        out[i] = 65536U - gn_mul_uq16(65536U - out[i], (uint32_t)gn_max32(0, gn_min32(strength.at, 65536)));
 }
 #else
 GN_HOT int gn_patch_find_shadow(gn_shading *s, uint32_t light_idx, gn_patch_light *light)
 {
     (void)s, (void)light_idx, (void)light;
-    return 1;
+    return GN_PATCH_LIT;
 }
 
 GN_HOT void gn_patch_attenuation(gn_shading *s, const gn_patch_light *light, const gn_patch_weights ends[2], int32_t x,

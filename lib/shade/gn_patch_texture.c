@@ -36,19 +36,15 @@ GN_HOT static int32_t find_patch_level(gn_shading *s, const gn_texture *texture)
 
 /* Texels along an axis at the corners, Q17; a bilinear texture's are half a texel less. Returns 0 beyond 2^12 texels.
  */
-GN_HOT static int find_patch_axis(gn_patch *p, int axis)
+GN_HOT static int find_patch_axis(gn_patch *p, const int16_t *a, const int16_t *b, const int16_t *c, int axis)
 {
-    const int32_t frac = p->of.object->mesh->uv_frac_bits, size = (int32_t)gn_texture_size(p->texture, axis);
-    const int32_t less = p->texture->flags & GN_TEXTURE_BILINEAR ? 65536 - 256 : 0;
+    const int32_t frac = p->of.object->mesh->uv_frac_bits, size = (int32_t)gn_texture_size(p->texture, axis),
+                  less = p->texture->flags & GN_TEXTURE_BILINEAR ? 65536 - 256 : 0, limit = 12 + frac, up = 17 - frac;
     /* whole turns change nothing where a texture repeats */
-    const int32_t first = uv_of(p, 0)[axis], turns = gn_texture_clamps(p->texture, axis) ? 0 : first & -(1 << frac);
-    int32_t at[3];
-    for (int k = 0; k < 3; k++) {
-        const int32_t texels = (uv_of(p, k)[axis] - turns) * size; /* 2^16 * 2^12 */
-        if (gn_abs32(texels) >> 12 >> frac) return 0;
-        at[k] = (frac <= 17 ? texels * (1 << (17 - frac)) : texels >> (frac - 17)) - less;
-    }
-    gn_patch_set(&p->texel_q17[axis], at[0], at[1], at[2]);
+    const int32_t turns = gn_texture_clamps(p->texture, axis) ? 0 : a[axis] & -(1 << frac);
+    const int32_t t0 = (a[axis] - turns) * size, t1 = (b[axis] - turns) * size, t2 = (c[axis] - turns) * size; /* 2^29 */
+    if ((gn_abs32(t0) | gn_abs32(t1) | gn_abs32(t2)) >> limit) return 0;
+    gn_patch_set(&p->texel_q17[axis], t0 * (1 << up) - less, t1 * (1 << up) - less, t2 * (1 << up) - less);
     return 1;
 }
 
@@ -62,7 +58,8 @@ GN_HOT int gn_patch_find_texture(gn_shading *s)
         p->texture = &p->level;
     }
 #endif
-    return find_patch_axis(p, 0) && find_patch_axis(p, 1);
+    const int16_t *a = uv_of(p, 0), *b = uv_of(p, 1), *c = uv_of(p, 2);
+    return find_patch_axis(p, a, b, c, 0) && find_patch_axis(p, a, b, c, 1);
 }
 
 #endif

@@ -45,6 +45,14 @@ typedef struct {
     int32_t z[3], z_up;   /* view depths at the corners, Q16 times 2^z_up */
 } gn_patch_record;
 
+/* Texels of a view that a triangle's pixels may read, and which of them may keep some pixel from the light: bit i of row
+ * j is texel (u + i, v + j). */
+enum { GN_PATCH_TEXELS = 32 };
+typedef struct {
+    int32_t u, v, w, h;
+    uint32_t word[GN_PATCH_TEXELS];
+} gn_patch_texels;
+
 /* A light that pixels ask for: its shadow may fall on the triangle, or it ends there. */
 typedef struct {
     const gn_light_view *view;     /* NULL: no shadow */
@@ -52,24 +60,36 @@ typedef struct {
     int32_t down;
     gn_patch_value irradiance_q15; /* of its own scale; below 0 where it faces away */
     gn_patch_value u_q16, v_q16, depth_q30; /* the place in the view: texels, and a share of its range */
-    gn_patch_value strength_q16;   /* of the shadow: the light's, less what fades with distance */
+    int32_t has_words;
+    gn_patch_texels texels;        /* if it has */
+    int32_t fades;                 /* the shadow is not of full strength: */
+    gn_patch_value strength_q16;   /* the light's, less what fades with distance */
 } gn_patch_light;
 
-enum { GN_PATCH_LIGHTS = 3, GN_PATCH_NORMALS = 32 /* a power of two */ };
+enum { GN_PATCH_LIGHTS = 3, GN_PATCH_NORMALS = 64 /* a power of two */ };
 
-/* A vertex's normal in the world, unit length. */
+/* A vertex's normal in the world, unit length: three axes of 10 bits, the first in the highest. */
 typedef struct {
     uint32_t tag; /* gn_vertex_tag(), 0: none */
-    int16_t q14[3];
+    uint32_t packed;
 } gn_patch_normal;
+
+#if GN_VERTEX_JOINTS
+/* From a mesh's normals to the world, by a joint of the object's skin, Q14. */
+typedef struct {
+    uint16_t tag; /* the joint's index + 1, 0: none */
+    int16_t m_q14[9];
+} gn_patch_joint;
+enum { GN_PATCH_JOINTS = 32 /* a power of two */ };
+#endif
 
 /* What an object's triangles have in common. */
 typedef struct {
     const gn_object *object; /* NULL: none yet */
     uint8_t patched;         /* its small triangles are patches */
     uint8_t receives, lit;
+    int32_t to_world_q30[3][3]; /* of normals */
     int32_t base_q24[3]; /* albedo times ambient, and light of its own that nothing dims; at most 2^27 */
-    int32_t normal_q14[3][3];
 } gn_patch_object;
 
 enum { GN_REACH_UNKNOWN, GN_REACH_EVEN, GN_REACH_UNEVEN };
@@ -81,6 +101,7 @@ typedef struct {
     gn_tri again; /* of groups: the record, made again */
     int32_t view_q14[3], face_q30[3]; /* the face's normal towards the viewer: along the camera's axes, in the world */
     uint8_t has_face, smooth, tinted, textured, varies;
+    uint8_t graded; /* colours differ between the corners */
     uint8_t n_lights;
     uint8_t reach;              /* GN_REACH_*: of shadows, over the triangle */
     int32_t cascade;            /* of the corners */
@@ -98,6 +119,9 @@ typedef struct {
 #endif
 #endif
     gn_patch_normal normal[GN_PATCH_NORMALS];
+#if GN_VERTEX_JOINTS
+    gn_patch_joint joint[GN_PATCH_JOINTS]; /* of the object at hand */
+#endif
     uint32_t attenuation[GN_PATCH_ROW_PX];
     int32_t node_q24[GN_PATCH_ROW_PX][3];
     gn_texel_rgb texel[GN_PATCH_ROW_PX];

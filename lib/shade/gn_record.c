@@ -114,15 +114,18 @@ GN_HOT static inline int32_t record_scaled(int32_t v, int32_t s)
     return s >= 0 ? (int32_t)((uint32_t)v << gn_min32(s, 31)) : v >> gn_min32(-s, 31);
 }
 
-GN_HOT int32_t gn_record_place(const gn_patch_record *r, const gn_frame *frame, int k, const gn_ray_plane *plane,
-                               int32_t ray_shift)
+GN_HOT void gn_record_places(const gn_patch_record *r, const gn_frame *frame, const gn_ray_plane *plane,
+                             int32_t ray_shift, int32_t out_q16[3])
 {
-    const int32_t bits = GN_K(frame, subpixel_bits), one = 1 << bits, x = r->tri->x[k], y = -r->tri->y[k];
-    /* rays are of half pixels: 2 x / 2^bits. The sum is below 2^31, whole pixels are modulo 2^32 */
-    const uint32_t whole = (uint32_t)plane->ax * (uint32_t)(x >> bits) + (uint32_t)plane->ay * (uint32_t)(y >> bits);
-    const int32_t part = (plane->ax >> bits) * (x & (one - 1)) + (plane->ay >> bits) * (y & (one - 1));
-    const int32_t ray = (int32_t)((uint32_t)plane->a0 + 2U * (whole + (uint32_t)part));
-    return record_scaled(gn_mul_high(r->z[k], ray), 32 - ray_shift - r->z_up) + (int32_t)plane->d_q16;
+    const int32_t bits = GN_K(frame, subpixel_bits), up = 32 - ray_shift - r->z_up, d = (int32_t)plane->d_q16;
+    const int32_t px = 2 * r->x0 + 1 - frame->picture.width, py = frame->picture.height - 1 - 2 * r->y0;
+    /* rays are of half pixels, and their sums below 2^31: those of corners from that of the record's pixel */
+    const uint32_t ray = (uint32_t)plane->a0 + (uint32_t)plane->ax * (uint32_t)px + (uint32_t)plane->ay * (uint32_t)py;
+    const int32_t right = plane->ax >> (bits - 1), below = -plane->ay >> (bits - 1), *off = r->off;
+    const int32_t from = (int32_t)(ray - (uint32_t)(right * off[0] + below * off[1]));
+    out_q16[0] = record_scaled(gn_mul_high(r->z[0], from), up) + d;
+    out_q16[1] = record_scaled(gn_mul_high(r->z[1], from + right * r->a[0] + below * r->a[1]), up) + d;
+    out_q16[2] = record_scaled(gn_mul_high(r->z[2], from + right * r->b[0] + below * r->b[1]), up) + d;
 }
 
 GN_HOT void gn_patch_unit(int32_t v[3])

@@ -27,9 +27,9 @@ void gn_record_face(const gn_patch_record *r, const gn_frame *frame, int32_t vie
 /* A vector of any length to length 1, Q14; 0 stays 0. */
 void gn_patch_unit(int32_t v[3]);
 
-/* Where a ray plane sees corner k, whose depth is known: Q16, within +-2^30. */
-int32_t gn_record_place(const gn_patch_record *r, const gn_frame *frame, int k, const gn_ray_plane *plane,
-                        int32_t ray_shift);
+/* Where a ray plane sees the corners, whose depths are known: Q16, within +-2^30. */
+void gn_record_places(const gn_patch_record *r, const gn_frame *frame, const gn_ray_plane *plane, int32_t ray_shift,
+                      int32_t out_q16[3]);
 
 /* The weights at the centre of pixel (x, y), which the triangle covers. */
 gn_patch_weights gn_record_weights(const gn_patch_record *r, const gn_frame *frame, int32_t x, int32_t y);
