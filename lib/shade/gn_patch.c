@@ -18,6 +18,7 @@ GN_HOT void gn_patch_begin_tile(gn_shading *s)
 {
     s->patch.of.object = NULL;
     for (int i = 0; i < GN_PATCH_NORMALS; i++) s->patch.normal[i].tag = 0;
+    gn_patch_begin_reach(s);
 }
 
 /* ---- A triangle -------------------------------------------------------------------------------------------------- */

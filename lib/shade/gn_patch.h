@@ -30,6 +30,9 @@ int gn_patch_find_lights(gn_shading *s);
 enum { GN_PATCH_LIT, GN_PATCH_DARK, GN_PATCH_EDGE, GN_PATCH_UNEVEN };
 int gn_patch_find_shadow(gn_shading *s, uint32_t light_idx, gn_patch_light *light);
 
+/* How far shadows reach, once per screen tile. */
+void gn_patch_begin_reach(gn_shading *s);
+
 /* The face's normal, found once. */
 const int32_t *gn_patch_face(gn_shading *s);
 

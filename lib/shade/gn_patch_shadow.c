@@ -23,31 +23,84 @@ typedef struct {
     int32_t u[3], v[3], depth[3];
 } patch_places;
 
+/* ---- Reach ------------------------------------------------------------------------------------------------------- */
+
+GN_HOT void gn_patch_begin_reach(gn_shading *s)
+{
+    gn_patch *p = &s->patch;
+    uint64_t most = 1;
+    for (int32_t i = 0; i < GN_N_CASCADES(s->frame); i++)
+        if (s->frame->cascade[i].radius2_q32 > most) most = s->frame->cascade[i].radius2_q32;
+    p->sphere_down = gn_max32((65 - gn_clz64(most)) / 2 - 15, 0);
+    for (int32_t i = 0; i < GN_N_CASCADES(s->frame); i++) {
+        const gn_cascade_state *c = &s->frame->cascade[i];
+        gn_patch_sphere *sphere = &p->sphere[i];
+        sphere->centre = c->centre_q16 >> p->sphere_down;
+        sphere->radius2 = (uint32_t)(c->radius2_q32 >> 2 * p->sphere_down);
+        sphere->inner2 = (uint32_t)(c->inner2_q32 >> 2 * p->sphere_down);
+        sphere->per_fade = 0xFFFFFFFFU / (sphere->radius2 - sphere->inner2 + 1);
+    }
+}
+
+/* The cascade of a corner, GN_CASCADE_NONE: none; and its fade factor. [D4] [D6] */
+GN_HOT static int32_t cascade_of_corner(const gn_shading *s, int k, uint32_t *fade_uq16)
+{
+    const gn_frame *frame = s->frame;
+    const gn_patch *p = &s->patch;
+    const gn_tri *tri = p->record.tri;
+    const int32_t bits = GN_K(frame, subpixel_bits) - 1, x = tri->x[k] >> bits, y = tri->y[k] >> bits; /* half pixels */
+    const uint32_t z = (uint32_t)gn_record_depth(&p->record, k) >> p->sphere_down;
+    if (z >> 16) return GN_CASCADE_NONE; /* beyond twice the radius */
+    const uint32_t tan2_q24 = (uint32_t)((uint64_t)(uint32_t)(x * x + y * y) * (uint32_t)frame->tan2_per_px2_q44 >> 20);
+    const uint64_t across = (uint64_t)(z * z) * tan2_q24 >> 24; /* 2^32 * 2^32 */
+    for (int32_t i = 0; i < GN_N_CASCADES(frame); i++) {
+        const gn_patch_sphere *c = &p->sphere[i];
+        const int32_t dz = (int32_t)z - c->centre;
+        const uint64_t d2 = across + (uint32_t)(dz * dz);
+        if (d2 >= c->radius2) continue;
+        *fade_uq16 = 65536;
+        if (d2 > c->inner2) *fade_uq16 = (uint32_t)((c->radius2 - d2) * c->per_fade >> 16);
+        return i;
+    }
+    return GN_CASCADE_NONE;
+}
+
+/* 65536 up to the start of the fade, 0 from the largest distance on. [D5] */
+GN_HOT static uint32_t distance_strength(const gn_frame *frame, int32_t z_q16)
+{
+    if ((uint32_t)z_q16 <= frame->fade_start_q16 || frame->scene->shadow.distance_mode != GN_DISTANCE_DEPTH) return 65536;
+    const int32_t left = frame->scene->shadow.max_distance_q16 - z_q16;
+    return left <= 0 ? 0 : (uint32_t)gn_clamp64(gn_bf_apply(left, frame->fade_scale, 32), 0, 65536);
+}
+
 /* The cascade of all three corners, and the strength of shadows at each. Returns 0 if the corners differ, or cascades
- * are blended. Found once. */
-GN_HOT static int find_patch_cascade(gn_shading *s)
+ * are blended, or distance is measured from the camera. Found once. */
+GN_HOT static int find_patch_reach(gn_shading *s)
 {
     gn_patch *p = &s->patch;
     const gn_frame *frame = s->frame;
-    const gn_patch_record *r = &p->record;
+    const int blends = GN_BLENDED_CASCADES && frame->scene->shadow.blend != GN_BLEND_HARD;
     if (p->reach != GN_REACH_UNKNOWN) return p->reach == GN_REACH_EVEN;
     p->reach = GN_REACH_UNEVEN;
-    s->surface.shadowed = 1;
+    if (frame->scene->shadow.distance_mode == GN_DISTANCE_RADIUS || frame->tan2_q24 >> 26) return 0; /* tan < 2 */
     gn_record_find_depths(&p->record, frame);
+    p->cascade = 0;
     for (int k = 0; k < 3; k++) {
-        const int32_t bits = GN_K(frame, subpixel_bits) - 1, z_q16 = gn_record_depth(r, k);
-        gn_sample_find_cascade(frame, r->tri->x[k] >> bits, -r->tri->y[k] >> bits, z_q16, &s->sample);
-        p->strength_uq16[k] = gn_shadow_distance(frame, &s->surface, &s->sample);
-        if (k && s->sample.cascade != p->cascade) return 0;
-        p->cascade = s->sample.cascade;
-        const int blends = GN_BLENDED_CASCADES && frame->scene->shadow.blend != GN_BLEND_HARD;
-        if (blends && p->cascade != GN_CASCADE_NONE && p->cascade != GN_LAST_CASCADE(frame) &&
-            s->sample.value[GN_VALUE_FADE] != 65536)
-            return 0;
+        uint32_t fade = 65536;
+        p->strength_uq16[k] = distance_strength(frame, gn_record_depth(&p->record, k));
+        if (!frame->has_cascades) continue;
+        const int32_t cascade = cascade_of_corner(s, k, &fade);
+        if (k && cascade != p->cascade) return 0;
+        p->cascade = cascade;
+        if (cascade == GN_CASCADE_NONE) p->strength_uq16[k] = 0;
+        else if (cascade == GN_LAST_CASCADE(frame)) p->strength_uq16[k] = gn_mul_uq16(p->strength_uq16[k], fade);
+        else if (blends && fade != 65536) return 0;
     }
     p->reach = GN_REACH_EVEN;
     return 1;
 }
+
+/* ---- Places ------------------------------------------------------------------------------------------------------ */
 
 /* Texels along a directional view's axis, Q16, as a share of its range. */
 GN_HOT static inline int32_t depth_share_q30(const gn_light_view *view, int32_t depth_q16)
@@ -184,7 +237,7 @@ GN_HOT int gn_patch_find_shadow(gn_shading *s, uint32_t light_idx, gn_patch_ligh
     uint32_t k[3], any = 0;
     patch_places at;
     if (!gn_shadow_is_realtime(state, 65536)) return GN_PATCH_LIT;
-    if (!state->auto_bias || gn_shadow_has_plane(frame, view) || !find_patch_cascade(s)) return GN_PATCH_UNEVEN;
+    if (!state->auto_bias || gn_shadow_has_plane(frame, view) || !find_patch_reach(s)) return GN_PATCH_UNEVEN;
     for (int i = 0; i < 3; i++) any |= k[i] = gn_mul_uq16(state->strength_uq16, p->strength_uq16[i]);
     if (!any) return GN_PATCH_LIT;
     light->fades = (k[0] & k[1] & k[2]) != 65536; /* at most that */
@@ -268,6 +321,11 @@ GN_HOT void gn_patch_attenuation(gn_shading *s, const gn_patch_light *light, con
         out[i] = 65536U - gn_mul_uq16(65536U - out[i], (uint32_t)gn_max32(0, gn_min32(strength.at, 65536)));
 }
 #else
+GN_HOT void gn_patch_begin_reach(gn_shading *s)
+{
+    (void)s;
+}
+
 GN_HOT int gn_patch_find_shadow(gn_shading *s, uint32_t light_idx, gn_patch_light *light)
 {
     (void)s, (void)light_idx, (void)light;

@@ -92,6 +92,15 @@ typedef struct {
     int32_t base_q24[3]; /* albedo times ambient, and light of its own that nothing dims; at most 2^27 */
 } gn_patch_object;
 
+#if GN_SHADOWS
+/* A cascade's sphere in units of 2^down of Q16, in which it has 15 bits: depth of its centre, squares of its radius and
+ * of where it begins to fade, and 2^32 over their difference. */
+typedef struct {
+    int32_t centre;
+    uint32_t radius2, inner2, per_fade;
+} gn_patch_sphere;
+#endif
+
 enum { GN_REACH_UNKNOWN, GN_REACH_EVEN, GN_REACH_UNEVEN };
 
 /* The triangle at hand. */
@@ -105,6 +114,10 @@ typedef struct {
     uint8_t n_lights;
     uint8_t reach;              /* GN_REACH_*: of shadows, over the triangle */
     int32_t cascade;            /* of the corners */
+#if GN_SHADOWS
+    int32_t sphere_down;
+    gn_patch_sphere sphere[4];
+#endif
     uint32_t strength_uq16[3];  /* of shadows at the corners */
     int32_t from_q16[3][3];     /* from the spot or point light at hand to the corners, world axes */
     int32_t colour_q24[3][3]; /* by channel, at the corners: light that pixels do not ask for */
