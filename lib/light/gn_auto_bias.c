@@ -6,18 +6,11 @@
 #include "base/gn_q.h"
 #include "light/gn_bias.h"
 
-/* sqrt2 * (1 + delta) covers sqrt2 * (R + delta) of every filter; T * 2^-bits is the part of depth steps along the
- * normal. */
-GN_HOT int32_t gn_bias_auto_reach_q16(const gn_frame *frame, const gn_light_view *view)
+GN_HOT int32_t gn_bias_auto_reach_q16(const gn_frame *frame, const gn_light_view *view, gn_auto_bias form)
 {
+    if (form == GN_AUTO_BIAS_DEPTH) return 0;
     return gn_mul_shr(65536 + gn_bias_auto_delta_q16(frame), GN_SQRT2_Q16, 16) +
            (int32_t)((view->tile_texels * (int64_t)65536) >> GN_VIEW_BITS(view)) + 1;
-}
-
-GN_HOT int32_t gn_bias_auto_curved_q16(const gn_light_view *view)
-{
-    return view->perspective ? gn_mul_shr(view->offset_q16 + gn_bias_auto_more_q16(view), GN_SQRT2_Q16, 16)
-                             : view->auto_place;
 }
 
 GN_HOT void gn_bias_auto_face(const gn_light_view *view, gn_auto_bias form, const int32_t face_q30[3], int32_t out[3])

@@ -83,17 +83,14 @@ GN_HOT static GN_NOINLINE int add_offsets(const gn_shading *shading, uint32_t sl
 }
 
 /* Adds offsets along the vertices' normals. */
-GN_HOT static inline void add_lifts(const gn_surface *s, const gn_light_state *light, const gn_view_matrix *matrix,
-                                    vertex_places *p)
+GN_HOT static inline void add_lifts(const gn_surface *s, const gn_view_matrix *matrix, vertex_places *p)
 {
-    int32_t lifted[3], n[3][3];
-    const int32_t *first = gn_sample_lifted(s, light, s->normal_q30[0], lifted);
-    const int same = first == lifted && GN_BENT(s);
+    int32_t n[3][3];
     GN_UNROLL
     for (int i = 0; i < 3; i++) {
-        n[0][i] = first[i];
-        n[1][i] = first[i] + (same ? 0 : s->normal_q30[1][i]);
-        n[2][i] = first[i] + (same ? 0 : s->normal_q30[2][i]);
+        n[0][i] = s->normal_q30[0][i];
+        n[1][i] = s->normal_q30[0][i] + s->normal_q30[1][i];
+        n[2][i] = s->normal_q30[0][i] + s->normal_q30[2][i];
     }
     for (int i = 0; i < 3; i++) {
         const int32_t *lift = matrix->lift_q18[i];
@@ -139,7 +136,7 @@ GN_HOT static GN_NOINLINE int place_vertices(gn_shading *shading, uint32_t slot,
     const int offsets = gn_corner_offsets(&shading->lattice.light[slot], s, light, view, &along);
     if (offsets == GN_OFFSET_ALONG) {
         if (!use_lift(matrix, view, along)) return 0;
-        add_lifts(s, light, matrix, out);
+        add_lifts(s, matrix, out);
     } else if (!add_offsets(shading, slot, view, offsets == GN_OFFSET_OF_FACE, out)) return 0;
     for (int k = 0; k < 3; k++) out->at[2][k] = depth_q30_of(view, out->at[2][k]);
     return 1;
