@@ -4,6 +4,7 @@
 #define COORDINATE_LSB 0x1p-16 /* of texels */
 #define PLANE_ERROR    0x1p-12 /* of planes through far corners of large casters, texels */
 #define PLACE_UNITS    8.0     /* roundings of a point and of its triangle's corners, in units of length */
+#define LEAST_SLOPE    0.5     /* depth form: of both slopes together */
 #define MAX_RATIO      2.0     /* of the light-plane distance: farther no point is moved along its normal */
 
 static double half_cell(int bits)
@@ -104,7 +105,8 @@ static vec3 ortho_bias(const ref_frame *frame, const ref_light_view *view, scene
     if (form == SCENE_AUTO_BIAS_NORMAL && fmax(fabs(n.x), fabs(n.y)) > max * fabs(n.z))
         return (vec3){0.0, 0.0, -2.0 * max};
     if (form == SCENE_AUTO_BIAS_NORMAL) return vec3_scale(n, radius * (fabs(n.x) + fabs(n.y)) + step * fabs(n.z));
-    return (vec3){0.0, 0.0, -radius * (steepness(n.x, n.z, max) + steepness(n.y, n.z, max)) - step};
+    const double slopes = fmax(LEAST_SLOPE, steepness(n.x, n.z, max) + steepness(n.y, n.z, max));
+    return (vec3){0.0, 0.0, -radius * slopes - step};
 }
 
 /* Of depths in a perspective view: steps over the tile, and the plane that is stepped. */
@@ -123,7 +125,7 @@ static vec3 persp_bias(const ref_frame *frame, const ref_light_view *view, scene
     const double a = radius * view->texel * across + *less * h / view->near, left = 1.0 - a * fmax(0.0, m.z),
                  ratio = a / left;
     if (form == SCENE_AUTO_BIAS_DEPTH || a > MAX_RATIO || left < 0.5 || ratio > MAX_RATIO) {
-        *less += fmin(2.0, radius * view->near * view->texel * across / h);
+        *less += fmin(2.0, radius * view->near * view->texel * fmax(LEAST_SLOPE, across) / h);
         return vec3_scale(m, lift);
     }
     *less = view->near * view->texel * fmax(fabs(m.x), fabs(m.y)) > 2.0 * h ? 2.0 : 0.0;

@@ -20,8 +20,8 @@ typedef struct {
     int32_t offset_q16[3]; /* of the receiver, texels */
 } surface;
 
-/* Automatic bias [B6]: less depth by r (|n_u| + |n_v|) / |n_w| + eps_0, texels, Q16. A unit of Q14 covers what each
- * component is rounded by. */
+/* Automatic bias [B6]: less depth by r max(1/2, (|n_u| + |n_v|) / |n_w|) + eps_0, texels, Q16. A unit of Q14 covers
+ * what each component is rounded by. */
 static int32_t less_depth_q16(const gn_frame *frame, const int16_t n[3])
 {
     uint32_t across = gn_abs32(n[0]) + gn_abs32(n[1]) + 2; /* < 2^16 */
@@ -29,6 +29,7 @@ static int32_t less_depth_q16(const gn_frame *frame, const int16_t n[3])
     if (along <= 0) return 1 << 30; /* lit */
     int32_t clz = gn_clz32((uint32_t)along);
     uint64_t slope_q16 = ((uint64_t)across * gn_recip_norm((uint32_t)along << clz, 2)) >> (47 - clz);
+    if (slope_q16 < 32768) slope_q16 = 32768; /* MODEL 7 */
     return (int32_t)gn_clamp64((int64_t)(slope_q16 * (uint32_t)frame->offset_q16 >> 16) + 1 + frame->flat_offset_q16, 0,
                                1 << 30);
 }

@@ -494,7 +494,7 @@ static void check_automatic(const gn_light_view *view, const receiver *r, const 
     for (int k = 0; k < 3; k++)
         record(STAGE_LIFT + is_point(), fabs((moved[k] - r->from_q16[k]) * LSB16 - lift * face[k]),
                fabs(face[k]) * off + LSB16 / 2, LSB16);
-    const double slope = near * across / h, lsb = ldexp(1, -32);
+    const double slope = near * fmax(across, 0.5 * reach * r->tau) / h, lsb = ldexp(1, -32);
     if (is_normal || slope > 1.9) return;
     const double bound = slope * ((1.5 * LSB16 + r->distance * ldexp(5.2, -30)) / h + ldexp(1, -26)) +
                          near / h * r->tau * ldexp(1, -26) + 3 * lsb;
