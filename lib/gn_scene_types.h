@@ -118,10 +118,11 @@ typedef enum { GN_LIGHT_REALTIME, GN_LIGHT_MIXED, GN_LIGHT_BAKED } gn_light_mode
 /* A light's filter: that of its atlas; 2x2; that of its atlas, but at least 5x5. */
 typedef enum { GN_SOFTNESS_DEFAULT, GN_SOFTNESS_HARD, GN_SOFTNESS_SOFT } gn_softness;
 typedef enum {
-    GN_AUTO_BIAS_DEFAULT, /* normal; off if bias_normal_q16 or bias_receiver_q16 is set. Where automatic bias is not
+    GN_AUTO_BIAS_DEFAULT, /* depth; off if bias_normal_q16 or bias_receiver_q16 is set. Where automatic bias is not
                              built, a light that casts shadows must set another bias, or say off */
-    GN_AUTO_BIAS_DEPTH,   /* less depth */
-    GN_AUTO_BIAS_NORMAL,  /* along the face's normal: the smallest gap at a caster's foot */
+    GN_AUTO_BIAS_DEPTH,   /* less depth: nearest to exact shadows */
+    GN_AUTO_BIAS_NORMAL,  /* along the face's normal: the smallest gap at a caster's foot, but corners between walls
+                             are dark */
     GN_AUTO_BIAS_OFF
 } gn_auto_bias;
 

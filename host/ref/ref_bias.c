@@ -4,8 +4,8 @@
 #define COORDINATE_LSB 0x1p-16 /* of texels */
 #define PLANE_ERROR    0x1p-12 /* of planes through far corners of large casters, texels */
 #define PLACE_UNITS    8.0     /* roundings of a point and of its triangle's corners, in units of length */
+#define LEAST_SLOPE    0.5     /* depth form: of both slopes together */
 #define MAX_RATIO      2.0     /* of the light-plane distance: farther no point is moved along its normal */
-#define MIN_ALONG      0.875   /* of corners' normals along the face's: with less, they say nothing of its place */
 
 static double half_cell(int bits)
 {
@@ -62,6 +62,7 @@ double ref_lateral_margin(const ref_options *options, const ref_light_view *view
 {
     if (light->auto_bias == SCENE_AUTO_BIAS_OFF)
         return sqrt(2.0) * light->bias_normal + light->bias_receiver[2] + light->bias_receiver[3];
+    if (light->auto_bias == SCENE_AUTO_BIAS_DEPTH) return 0.0;
     const int bits = view_bits(options, view);
     return sqrt(2.0) * (1.0 + tap_error(options)) + (bits > 0 ? ldexp(view->tile_texels, -bits) : 0.0);
 }
@@ -96,23 +97,16 @@ static double steepness(double part, double along, double max)
     return fabs(part) > 0.0 ? fmin(max, fabs(part / along)) : 0.0;
 }
 
-/* Of a curved surface: along N', as far as any plane needs. */
-static double smooth_radius(const ref_light_view *view, double radius)
-{
-    return view->filter == SCENE_FILTER_HARD ? radius + 0.5 : radius;
-}
-
-static vec3 ortho_bias(const ref_frame *frame, const ref_light_view *view, scene_auto_bias form, const ref_surface *at,
-                       vec3 n)
+static vec3 ortho_bias(const ref_frame *frame, const ref_light_view *view, scene_auto_bias form, vec3 n)
 {
     const double error = place_error(frame, farthest(frame, view)) / view->texel + PLANE_ERROR;
     const double radius = tap_radius(view) + tap_error(frame->options) + error, max = 2.0 * view->depth_range;
     const double step = view->depth_range * step_error(frame->options, view) + 3.0 * COORDINATE_LSB + error;
-    if (at->curved) return vec3_scale(n, hypot(sqrt(2.0) * smooth_radius(view, radius), step));
     if (form == SCENE_AUTO_BIAS_NORMAL && fmax(fabs(n.x), fabs(n.y)) > max * fabs(n.z))
         return (vec3){0.0, 0.0, -2.0 * max};
     if (form == SCENE_AUTO_BIAS_NORMAL) return vec3_scale(n, radius * (fabs(n.x) + fabs(n.y)) + step * fabs(n.z));
-    return (vec3){0.0, 0.0, -radius * (steepness(n.x, n.z, max) + steepness(n.y, n.z, max)) - step};
+    const double slopes = fmax(LEAST_SLOPE, steepness(n.x, n.z, max) + steepness(n.y, n.z, max));
+    return (vec3){0.0, 0.0, -radius * slopes - step};
 }
 
 /* Of depths in a perspective view: steps over the tile, and the plane that is stepped. */
@@ -121,35 +115,21 @@ static double plane_error(const ref_options *o, const ref_light_view *view)
     return view_bits(o, view) > 0 ? ldexp(64.0, -32) : 0.0;
 }
 
-static vec3 persp_bias(const ref_frame *frame, const ref_light_view *view, scene_auto_bias form, const ref_surface *at,
-                       vec3 m, vec3 point, double view_depth, double *less)
+static vec3 persp_bias(const ref_frame *frame, const ref_light_view *view, scene_auto_bias form, vec3 m, vec3 point,
+                       double view_depth, double *less)
 {
     const ref_options *o = frame->options;
     const double radius = tap_radius(view) + tap_error(o) + view->tile_texels / 2.0 * quotient_error(o);
     const double across = fabs(m.x) + fabs(m.y), lift = place_error(frame, view_depth), h = fabs(vec3_dot(m, point));
     *less = step_error(o, view) + quotient_error(o) + plane_error(o, view);
-    if (at->curved) return vec3_scale(m, lift + point.z * view->texel * sqrt(2.0) * smooth_radius(view, radius));
     const double a = radius * view->texel * across + *less * h / view->near, left = 1.0 - a * fmax(0.0, m.z),
                  ratio = a / left;
     if (form == SCENE_AUTO_BIAS_DEPTH || a > MAX_RATIO || left < 0.5 || ratio > MAX_RATIO) {
-        *less += fmin(2.0, radius * view->near * view->texel * across / h);
+        *less += fmin(2.0, radius * view->near * view->texel * fmax(LEAST_SLOPE, across) / h);
         return vec3_scale(m, lift);
     }
     *less = view->near * view->texel * fmax(fabs(m.x), fabs(m.y)) > 2.0 * h ? 2.0 : 0.0;
     return vec3_scale(m, lift + point.z * ratio);
-}
-
-/* N' of a curved triangle: its part along the face's normal is nowhere below 1. */
-static vec3 curved_normal(const ref_surface *at, vec3 face)
-{
-    const ref_triangle *t = &at->triangle;
-    double min = 1.0;
-    for (int k = 0; k < 3; k++) {
-        const double along = vec3_dot(t->instance->normal[t->idx[k]], face);
-        min = fmin(min, at->behind ? -along : along);
-    }
-    if (min < MIN_ALONG) return face;
-    return vec3_add(at->interpolated, vec3_scale(face, 1.0 - min));
 }
 
 /* The least bias that leaves a plane without a shadow of its own, in two forms. [B6] */
@@ -158,10 +138,9 @@ vec3 ref_auto_bias(const ref_frame *frame, const ref_light_view *view, scene_aut
 {
     const vec3 ray = frame->camera.parallel ? frame->camera.forward : vec3_sub(at->world, frame->camera.position);
     const vec3 face = vec3_dot(at->face, ray) > 0.0 ? vec3_scale(at->face, -1.0) : at->face;
-    const vec3 f = at->curved ? curved_normal(at, face) : face;
-    const vec3 n = {vec3_dot(f, vec3_load(view->axis[0])), vec3_dot(f, vec3_load(view->axis[1])),
-                    vec3_dot(f, vec3_load(view->axis[2]))};
+    const vec3 n = {vec3_dot(face, vec3_load(view->axis[0])), vec3_dot(face, vec3_load(view->axis[1])),
+                    vec3_dot(face, vec3_load(view->axis[2]))};
     *less = 0.0;
-    if (!view->perspective) return ortho_bias(frame, view, form, at, n);
-    return persp_bias(frame, view, form, at, n, in_light, at->view_depth, less);
+    if (!view->perspective) return ortho_bias(frame, view, form, n);
+    return persp_bias(frame, view, form, n, in_light, at->view_depth, less);
 }

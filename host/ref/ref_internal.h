@@ -98,7 +98,6 @@ typedef struct ref_surface {
     vec3 world;
     vec3 face;         /* unit normal of the triangle itself */
     vec3 interpolated; /* N, turned towards the viewer */
-    bool curved;       /* N changes over the triangle */
     vec3 normal;       /* n */
     bool behind;       /* seen from behind: the normals of vertices count with the other sign */
     bool layer;        /* a transparent surface: views do not show it */

@@ -74,7 +74,7 @@ static double attenuation_in(const ref_frame *frame, const ref_surface *at, size
     if (light->receiver_plane || how.edge) set_plane(&how, view, at, unmoved);
     vec3 p = ref_project(view, moved);
     const double end = view->tile_texels, end_row = view->tile_rows;
-    if (view->perspective && light->auto_bias == SCENE_AUTO_BIAS_NORMAL && !at->curved &&
+    if (view->perspective && light->auto_bias == SCENE_AUTO_BIAS_NORMAL &&
         (p.x < 0.0 || p.y < 0.0 || p.x > end || p.y > end_row)) {
         const vec3 along = vec3_add(unmoved, ref_auto_bias(frame, view, SCENE_AUTO_BIAS_DEPTH, at, unmoved, &less));
         if (!(along.z > view->near)) return 1.0;

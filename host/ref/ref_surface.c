@@ -1,17 +1,6 @@
 /* Surface attributes at the hit points (MODEL 2, 8). */
 #include "ref_internal.h"
 
-/* Whether the normals of its corners differ by 2^-10 or more along an axis: less is a flat triangle's. */
-static bool is_curved(const ref_triangle *t)
-{
-    const vec3 *normal = t->instance->normal;
-    for (int k = 1; normal && k < 3; k++) {
-        const vec3 d = vec3_sub(normal[t->idx[k]], normal[t->idx[0]]);
-        if (fmax(fabs(d.x), fmax(fabs(d.y), fabs(d.z))) >= 0x1p-10) return true;
-    }
-    return false;
-}
-
 static vec3 interpolated_normal(const ref_triangle *t, const ref_hit *hit, vec3 face)
 {
     const vec3 *normal = t->instance->normal;
@@ -48,7 +37,6 @@ ref_surface ref_surface_of(const ref_frame *frame, size_t pixel, int64_t id, con
         .world = world,
         .face = face,
         .interpolated = n,
-        .curved = is_curved(&t),
         .normal = vec3_unit(n),
         .behind = hit->behind,
         .albedo = surface_albedo(frame, &t, hit->bary, view_depth),

@@ -20,16 +20,31 @@ typedef struct {
     int32_t offset_q16[3]; /* of the receiver, texels */
 } surface;
 
-/* The normal offset [B2], or by automatic bias [B6] r (|n_u| + |n_v|) + eps_0 |n_w| along the normal. */
+/* Automatic bias [B6]: less depth by r max(1/2, (|n_u| + |n_v|) / |n_w|) + eps_0, texels, Q16. A unit of Q14 covers
+ * what each component is rounded by. */
+static int32_t less_depth_q16(const gn_frame *frame, const int16_t n[3])
+{
+    uint32_t across = gn_abs32(n[0]) + gn_abs32(n[1]) + 2; /* < 2^16 */
+    int32_t along = (int32_t)gn_abs32(n[2]) - 1;
+    if (along <= 0) return 1 << 30; /* lit */
+    int32_t clz = gn_clz32((uint32_t)along);
+    uint64_t slope_q16 = ((uint64_t)across * gn_recip_norm((uint32_t)along << clz, 2)) >> (47 - clz);
+    if (slope_q16 < 32768) slope_q16 = 32768; /* MODEL 7 */
+    return (int32_t)gn_clamp64((int64_t)(slope_q16 * (uint32_t)frame->offset_q16 >> 16) + 1 + frame->flat_offset_q16, 0,
+                               1 << 30);
+}
+
+/* The normal offset [B2], or automatic bias. */
 static void move_receiver(const gn_frame *frame, surface *s, const gn_tri *tri)
 {
     const int16_t *n = tri->normal_q14;
-    int64_t along_q16 = frame->offset_q16;
-    if (GN_AUTO_BIAS && frame->flat_offset_q16)
-        along_q16 =
-            (along_q16 * (int64_t)(gn_abs32(n[0]) + gn_abs32(n[1])) + (int64_t)frame->flat_offset_q16 * -n[2]) >> 14;
-    for (int i = 0; i < 3; i++) s->offset_q16[i] = (int32_t)((along_q16 * n[i]) >> 14);
     s->tri = tri;
+    if (GN_AUTO_BIAS && frame->flat_offset_q16) {
+        s->offset_q16[0] = s->offset_q16[1] = 0;
+        s->offset_q16[2] = -less_depth_q16(frame, n);
+        return;
+    }
+    for (int i = 0; i < 3; i++) s->offset_q16[i] = (int32_t)(((int64_t)frame->offset_q16 * n[i]) >> 14);
 }
 
 static void surface_begin(const gn_frame *frame, surface *s, uint32_t id)

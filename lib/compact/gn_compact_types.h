@@ -116,7 +116,7 @@ typedef struct gn_frame {
     gn_compact_share distance, sphere; /* by view depth: Q16; by the sphere: texels^2, Q16 */
     int32_t centre_q16[3];             /* of the sphere: U, V, D */
     uint64_t radius2_q32;              /* texels^2 */
-    int32_t offset_q16;                /* along the normal, texels; automatic bias: r */
+    int32_t offset_q16;                /* B2: along the normal, texels; automatic bias: r */
     int32_t flat_offset_q16;           /* automatic bias: eps_0; else 0 */
     gn_stats stats;
     gn_detail detail;

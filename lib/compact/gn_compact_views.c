@@ -95,11 +95,10 @@ static gn_status lens(gn_frame *frame)
 
 /* ---- Light ------------------------------------------------------------------------------------------------------- */
 
-/* Whether the light has a bias that is built. Automatic bias along the normal; the general arithmetic's other form is
- * not there. */
+/* Whether the light has a bias that is built. Of automatic bias only the depth form is. */
 static int bias_ok(const gn_light *light)
 {
-    if (GN_AUTO_BIAS) return gn_scene_auto_bias(light) != GN_AUTO_BIAS_DEPTH;
+    if (GN_AUTO_BIAS) return gn_scene_auto_bias(light) != GN_AUTO_BIAS_NORMAL;
     return light->auto_bias == GN_AUTO_BIAS_OFF || (!light->auto_bias && light->bias_normal_q16);
 }
 
@@ -241,15 +240,14 @@ static int compose_to_light(gn_frame *frame)
     return gn_compact_compose(&frame->to_light, &frame->view[0].project, &frame->scene->camera.to_world, 16);
 }
 
-/* How far a receiver moves along its face's normal: by its own offset [B2], or automatically [B6] (NUMERICS 4.15). nu
- * of MODEL 7, for which the tile must have a margin. */
+/* How far a receiver moves along its face's normal [B2]; automatic bias [B6] does not move it. nu of MODEL 7, for which
+ * the tile must have a margin. */
 static int32_t receiver_reach(gn_frame *frame, const gn_light *light)
 {
     frame->offset_q16 = (int32_t)gn_compact_mul((uint32_t)light->bias_normal_q16, 0xB504F334U, 0)
                         << 1; /* sqrt(2) 2^31 */
     frame->flat_offset_q16 = 0;
-    if (GN_AUTO_BIAS && gn_scene_auto_bias(light))
-        return 92877 + GN_K(frame, atlas_size); /* sqrt(2) (1 + delta) + T 2^-16 */
+    if (GN_AUTO_BIAS && gn_scene_auto_bias(light)) return 0;
     return frame->offset_q16;
 }
 

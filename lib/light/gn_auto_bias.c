@@ -6,18 +6,15 @@
 #include "base/gn_q.h"
 #include "light/gn_bias.h"
 
-/* sqrt2 * (1 + delta) covers sqrt2 * (R + delta) of every filter; T * 2^-bits is the part of depth steps along the
- * normal. */
-GN_HOT int32_t gn_bias_auto_reach_q16(const gn_frame *frame, const gn_light_view *view)
+/* Depth form, both slopes together: planes that the light meets nearly at right angles have the bias of this slope, so
+ * that a steeper one beside them does not darken their edge. */
+#define GN_LEAST_SLOPE_Q10 512
+
+GN_HOT int32_t gn_bias_auto_reach_q16(const gn_frame *frame, const gn_light_view *view, gn_auto_bias form)
 {
+    if (form == GN_AUTO_BIAS_DEPTH) return 0;
     return gn_mul_shr(65536 + gn_bias_auto_delta_q16(frame), GN_SQRT2_Q16, 16) +
            (int32_t)((view->tile_texels * (int64_t)65536) >> GN_VIEW_BITS(view)) + 1;
-}
-
-GN_HOT int32_t gn_bias_auto_curved_q16(const gn_light_view *view)
-{
-    return view->perspective ? gn_mul_shr(view->offset_q16 + gn_bias_auto_more_q16(view), GN_SQRT2_Q16, 16)
-                             : view->auto_place;
 }
 
 GN_HOT void gn_bias_auto_face(const gn_light_view *view, gn_auto_bias form, const int32_t face_q30[3], int32_t out[3])
@@ -50,7 +47,8 @@ GN_HOT void gn_bias_auto_ortho(const gn_light_view *view, gn_auto_bias form, con
     int64_t most_q10 = (int64_t)1 << (11 + range_log2); /* twice the range: half of that lights all */
     u = u < most_q10 ? u : most_q10;
     v = v < most_q10 ? v : most_q10;
-    out_q16[2] = gn_sat32(-((reach_q16 * (u + v) >> 10) + view->auto_step + 1)); /* 2^21 * 2^32 */
+    const int64_t slopes_q10 = u + v > GN_LEAST_SLOPE_Q10 ? u + v : GN_LEAST_SLOPE_Q10;
+    out_q16[2] = gn_sat32(-((reach_q16 * slopes_q10 >> 10) + view->auto_step + 1)); /* 2^21 * 2^32 */
 }
 
 #if GN_PUNCTUAL_LIGHTS
@@ -89,6 +87,7 @@ GN_HOT static int too_steep(const gn_light_view *view, uint32_t m_q30, int64_t h
 GN_HOT static int64_t slope_share_q32(const gn_light_view *view, int32_t reach_q16, uint32_t across_q30, int64_t h_q16)
 {
     const gn_persp_fit *fit = &view->fit.persp;
+    if (across_q30 < GN_LEAST_SLOPE_Q10 << 20) across_q30 = GN_LEAST_SLOPE_Q10 << 20;
     gn_bfloat per_h = gn_bf_mul(gn_bf_recip(gn_bf_from_u64((uint64_t)h_q16 | 1U)), fit->texel_per_z);
     int64_t reach_q26 = (int64_t)((uint64_t)(uint32_t)reach_q16 * across_q30 >> 20); /* 2^21 * 2^31 * 2^-20 */
     return gn_clamp64(gn_bf_apply(reach_q26 * fit->near_q16, per_h, 6) + 1, 0, (int64_t)1 << 33); /* 2^32 * 2^29 */

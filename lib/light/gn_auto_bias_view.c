@@ -70,9 +70,4 @@ void gn_bias_auto_view(const gn_frame *frame, gn_light_view *view)
         gn_scale64(depth_step_q32(frame, view), 16 - view->tile_log2 - view->depth_log2) + 1; /* 2^25 * 2^4 */
     view->offset_q16 += place_q16;
     view->auto_step = (int32_t)gn_clamp64(step_q16 + 3 + place_q16, 0, INT32_MAX);
-    /* curved: sqrt(2 r^2 + e^2) is enough for any plane through its normal; r < 2^21, and a larger step e exceeds any
-     * range */
-    int64_t r_q16 = view->offset_q16 + gn_bias_auto_more_q16(view),
-            step = view->auto_step < 1 << 28 ? view->auto_step : 1 << 28;
-    view->auto_place = (int32_t)gn_isqrt64((uint64_t)(2 * r_q16 * r_q16 + step * step)) + 1;
 }

@@ -10,7 +10,8 @@
 
 GN_HOT int32_t gn_bias_reach_q16(const gn_frame *frame, const gn_light_view *view, const gn_light *light)
 {
-    if (GN_AUTO_BIAS && gn_scene_auto_bias(light)) return gn_bias_auto_reach_q16(frame, view);
+    if (GN_AUTO_BIAS && gn_scene_auto_bias(light))
+        return gn_bias_auto_reach_q16(frame, view, gn_scene_auto_bias(light));
     int32_t reach = gn_mul_shr(light->bias_normal_q16, GN_SQRT2_Q16, 16); /* <= 8 * 1.42 */
     if (GN_RECEIVER_BIAS) reach += light->bias_receiver_q16[2] + light->bias_receiver_q16[3];
     return reach;
@@ -22,14 +23,9 @@ typedef struct {
 } bias_terms;
 
 /* n_dot_l_q30: N . L of the interpolated normal, not normalised; only the four-term bias needs it. [B2] [B3] */
-GN_HOT static bias_terms bias_at(const gn_light_view *view, const gn_light *light, gn_auto_bias automatic,
-                                 int32_t n_dot_l_q30)
+GN_HOT static bias_terms bias_at(const gn_light_view *view, const gn_light *light, int32_t n_dot_l_q30)
 {
     bias_terms bias = {view->offset_q16, 0};
-    if (GN_AUTO_BIAS && automatic) { /* curved */
-        bias.along_q16 = gn_bias_auto_curved_q16(view);
-        return bias;
-    }
     const int32_t *b = light->bias_receiver_q16;
     if (!GN_RECEIVER_BIAS || !(b[0] | b[1] | b[3])) return bias;
     int32_t reach = view->filter_idx + 1;
@@ -47,7 +43,7 @@ GN_HOT void gn_bias_directional(const gn_frame *frame, const gn_light_view *view
 {
     const gn_light_state *state = &frame->light[view->light_idx];
     int32_t n_dot_l = GN_RECEIVER_BIAS ? (int32_t)gn_dot_q30(n_q30, state->to_light_q30) : 0;
-    bias_terms bias = bias_at(view, &frame->scene->lights[view->light_idx], (gn_auto_bias)state->auto_bias, n_dot_l);
+    bias_terms bias = bias_at(view, &frame->scene->lights[view->light_idx], n_dot_l);
     GN_UNROLL
     for (int i = 0; i < 3; i++) {
         int64_t along_q30 = gn_dot_q30(n_q30, view->axis_q30[i]); /* |n| <= 1 */
@@ -58,7 +54,7 @@ GN_HOT void gn_bias_directional(const gn_frame *frame, const gn_light_view *view
 
 #if GN_PUNCTUAL_LIGHTS
 GN_HOT void gn_bias_punctual(const gn_frame *frame, const gn_light_state *light, const int32_t n_q30[3],
-                             int32_t depth_q16, const int32_t from_q16[3], int32_t out_q16[3])
+                             const int32_t from_q16[3], int32_t out_q16[3])
 {
     const gn_light_view *view = &frame->view[light->view_idx];
     GN_ELEMENT(view);
@@ -82,10 +78,9 @@ GN_HOT void gn_bias_punctual(const gn_frame *frame, const gn_light_state *light,
         gn_normalise_q30(to_light, towards);
         n_dot_l = (int32_t)gn_clamp64(gn_dot_q30(n_q30, to_light), -(1 << 30), (1 << 30));
     }
-    bias_terms bias = bias_at(view, scene_light, (gn_auto_bias)light->auto_bias, n_dot_l);
+    bias_terms bias = bias_at(view, scene_light, n_dot_l);
     /* texels to units: 2^27 * 2^31 */
     int64_t along = gn_bf_apply(bias.along_q16 * z, view->fit.persp.texel_per_z, -16);
-    if (GN_AUTO_BIAS && light->auto_bias) along += gn_bias_auto_place_q16(view, depth_q16);
     int64_t towards = gn_bf_apply(bias.towards_q16 * z, view->fit.persp.texel_per_z, -16);
     GN_UNROLL
     for (int i = 0; i < 3; i++)

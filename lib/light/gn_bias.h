@@ -17,8 +17,8 @@ int32_t gn_bias_reach_q16(const gn_frame *frame, const gn_light_view *view, cons
 void gn_bias_directional(const gn_frame *frame, const gn_light_view *view, const int32_t n_q30[3], int32_t out_q16[3]);
 
 /* The same for spot and point lights: along the world's axes, in world units, Q16. `from_q16` is the surface point
- * minus the light, seen at view depth `depth_q16`. */
-void gn_bias_punctual(const gn_frame *frame, const gn_light_state *light, const int32_t n_q30[3], int32_t depth_q16,
+ * minus the light. */
+void gn_bias_punctual(const gn_frame *frame, const gn_light_state *light, const int32_t n_q30[3],
                       const int32_t from_q16[3], int32_t out_q16[3]);
 
 /* ---- Automatic bias (MODEL 7): gn_auto_bias.c, and of views gn_auto_bias_view.c ---------------------------------- */
@@ -30,21 +30,12 @@ GN_HOT static inline int32_t gn_bias_auto_delta_q16(const gn_frame *frame)
     return (1 << (15 - GN_K(frame, shadow_subpixel_bits))) + (1 << (15 - GN_K(frame, weight_bits))) + 2;
 }
 
-/* The hard filter reads at most half a texel away, but a curved surface also bends within the texel. */
-GN_HOT static inline int32_t gn_bias_auto_more_q16(const gn_light_view *view)
-{
-    return view->filter == GN_FILTER_HARD ? 32768 : 0;
-}
-
 /* Once per view, after its fit and filter. */
 void gn_bias_auto_view(const gn_frame *frame, gn_light_view *view);
 
-/* gn_bias_reach_q16 of automatic bias: sqrt2 * (1 + delta) covers sqrt2 * (R + delta) of every filter; T * 2^-bits is
- * the part of depth steps along the normal. */
-int32_t gn_bias_auto_reach_q16(const gn_frame *frame, const gn_light_view *view);
-
-/* Offset of a curved surface's receivers along their normals, texels, Q16. */
-int32_t gn_bias_auto_curved_q16(const gn_light_view *view);
+/* gn_bias_reach_q16 of automatic bias: the depth form moves nothing across. Normal: sqrt2 * (1 + delta) covers
+ * sqrt2 * (R + delta) of every filter; T * 2^-bits is the part of depth steps along the normal. */
+int32_t gn_bias_auto_reach_q16(const gn_frame *frame, const gn_light_view *view, gn_auto_bias form);
 
 #define GN_AUTO_UNITS 8 /* roundings of a point and of its triangle's corners, Q16 */
 

@@ -33,7 +33,7 @@ gn_auto_bias gn_scene_auto_bias(const gn_light *light)
     const int32_t *b = light->bias_receiver_q16;
     if (light->auto_bias == GN_AUTO_BIAS_OFF) return (gn_auto_bias)0;
     if (light->auto_bias != GN_AUTO_BIAS_DEFAULT) return light->auto_bias;
-    return light->bias_normal_q16 | b[0] | b[1] | b[2] | b[3] ? (gn_auto_bias)0 : GN_AUTO_BIAS_NORMAL;
+    return light->bias_normal_q16 | b[0] | b[1] | b[2] | b[3] ? (gn_auto_bias)0 : GN_AUTO_BIAS_DEPTH;
 }
 #endif
 

@@ -22,16 +22,11 @@ GN_HOT static int64_t move_point(const gn_surface *surface, int32_t z_q16, const
                                  int32_t out_q16[3])
 {
 #if GN_AUTO_BIAS
-    if (*form && !GN_CURVED(surface))
-        return gn_bias_auto_persp(view, form, surface->face_q30, z_q16, from_q16, out_q16);
+    if (*form) return gn_bias_auto_persp(view, form, surface->face_q30, z_q16, from_q16, out_q16);
 #endif
     (void)surface, (void)z_q16, (void)view, (void)form;
     for (int i = 0; i < 3; i++) out_q16[i] = gn_sat32((int64_t)from_q16[i] + offset_q16[i]);
-#if GN_AUTO_BIAS
-    return *form ? view->auto_step : 0;
-#else
     return 0;
-#endif
 }
 
 /* Where the view sees the point in that form. Returns 0 if it is nearer than its near plane. */
@@ -57,7 +52,7 @@ GN_HOT int gn_arrival_place(const gn_frame *frame, const gn_surface *surface, co
         GN_AUTO_BIAS ? (gn_auto_bias)frame->light[view->light_idx].auto_bias : GN_AUTO_BIAS_DEFAULT; /* none */
     int seen = place_in(frame, surface, z_q16, view, form, from_q16, offset_q16, out);
     const uint32_t end = (uint32_t)view->tile_texels << 16;
-    if (GN_AUTO_BIAS && seen && form == GN_AUTO_BIAS_NORMAL && !GN_CURVED(surface) &&
+    if (GN_AUTO_BIAS && seen && form == GN_AUTO_BIAS_NORMAL &&
         ((uint32_t)out->u_q16 > end || (uint32_t)out->v_q16 > end))
         seen = GN_SEEN_OUTSIDE * place_in(frame, surface, z_q16, view, GN_AUTO_BIAS_DEPTH, from_q16, offset_q16, out);
     return seen;

@@ -117,16 +117,16 @@ GN_HOT static inline int gn_corner_offsets(const gn_lattice_light *how, const gn
                                            const gn_light_state *light, const gn_light_view *view, int32_t *along_q16)
 {
     const int automatic = GN_AUTO_BIAS && light->auto_bias;
-    if (!GN_SMOOTH(s) || (automatic && !GN_CURVED(s))) return GN_OFFSET_OF_FACE;
-    if (!automatic && !how->lifts) return GN_OFFSET_OF_POINT;
-    *along_q16 = automatic ? gn_bias_auto_curved_q16(view) : view->offset_q16;
+    if (!GN_SMOOTH(s) || automatic) return GN_OFFSET_OF_FACE;
+    if (!how->lifts) return GN_OFFSET_OF_POINT;
+    *along_q16 = view->offset_q16;
     return GN_OFFSET_ALONG;
 }
 
 /* Texels, Q16, along an axis of a view, of what is moved along a normal. */
 GN_HOT static inline int32_t gn_corner_lift_q16(const int32_t n_q30[3], const int32_t axis_q30[3], int32_t along_q16)
 {
-    return 4 * gn_mul_high((int32_t)(gn_dot64(n_q30, axis_q30) >> 30), along_q16); /* |n| is 9/8 at most */
+    return 4 * gn_mul_high((int32_t)(gn_dot64(n_q30, axis_q30) >> 30), along_q16);
 }
 
 /* Sets u, v, depth in whichever way there is; once per corner, until another view is asked for. Where a spot's light

@@ -84,11 +84,10 @@ GN_HOT static GN_NOINLINE void place_directional(gn_lattice *l, const gn_frame *
     gn_corner_ray ray;
     const int fits = gn_corner_ray_begin(&ray, frame, view->fit.ortho.ray_shift, c->x, c->y, c->z_q16);
     const gn_light_state *light = s->light[slot].state;
-    int32_t lifted[3], along = 0;
+    int32_t along = 0;
     const int offsets = gn_corner_offsets(&l->light[slot], s, light, view, &along);
     const int32_t *flat = offsets == GN_OFFSET_OF_FACE ? flat_offset(l, frame, s, slot, view) : NULL;
-    if (fits && offsets != GN_OFFSET_OF_POINT)
-        coords_directional(&ray, gn_sample_lifted(s, light, normal_of(s, c), lifted), view, along, flat, coord);
+    if (fits && offsets != GN_OFFSET_OF_POINT) coords_directional(&ray, normal_of(s, c), view, along, flat, coord);
     else gn_sample_in_view(frame, s, slot, view, c->x, c->y, c->z_q16, normal_of(s, c), coord);
     at->u_q16 = coord[0];
     at->v_q16 = coord[1];
@@ -108,11 +107,8 @@ GN_HOT static inline int32_t coord_persp(int32_t x, int32_t clz, int32_t half, i
 GN_HOT static GN_NOINLINE void offset_of(const gn_frame *frame, const gn_surface *s, const gn_corner *c,
                                          const gn_light_state *light, const int32_t from[3], int32_t offset[3])
 {
-    int32_t lifted[3];
     offset[0] = offset[1] = offset[2] = 0;
-    if (!(GN_AUTO_BIAS && light->auto_bias && !GN_CURVED(s)))
-        gn_bias_punctual(frame, light, gn_sample_lifted(s, light, normal_of(s, c), lifted),
-                         c->z_q16 + GN_FLAT_Q16(frame), from, offset);
+    if (!(GN_AUTO_BIAS && light->auto_bias)) gn_bias_punctual(frame, light, normal_of(s, c), from, offset);
 }
 
 /* In any case. Returns how the point is seen. */
@@ -132,30 +128,22 @@ GN_HOT static GN_NOINLINE int place_carefully(const gn_frame *frame, const gn_su
     return at->seen;
 }
 
-/* Of a smooth surface. Returns 0 if that is to be done carefully. */
+/* Of a smooth surface, under B2. Returns 0 if that is to be done carefully. */
 GN_HOT static GN_NOINLINE int place_punctual(const gn_frame *frame, const gn_surface *s, const gn_lattice_light *how,
                                              const gn_corner *c, gn_corner_light *at, const gn_light_view *view)
 {
     const gn_light_state *light = &frame->light[view->light_idx];
     const uint32_t limit = 1U << 29;
-    const int automatic = GN_AUTO_BIAS && light->auto_bias;
-    int32_t from[3], lifted[3], moved[3], p[3], reach = 0;
-    const int32_t *n = gn_sample_lifted(s, light, normal_of(s, c), lifted); /* 9/8 */
+    const int32_t *n = normal_of(s, c);
+    int32_t from[3], moved[3], p[3], reach = 0;
     gn_corner_from(c, light, from);
-    if (!(automatic ? GN_CURVED(s) : how->lifts) || view->fit.persp.lift_q31 == INT32_MAX ||
-        view->fit.persp.focal2_q16 >> 30 ||
+    if (!how->lifts || view->fit.persp.lift_q31 == INT32_MAX || view->fit.persp.focal2_q16 >> 30 ||
         (((uint32_t)from[0] + limit) | ((uint32_t)from[1] + limit) | ((uint32_t)from[2] + limit)) >> 30)
         return 0; /* |from| < 2^29 */
     if (light->kind == GN_LIGHT_SPOT) reach = -(int32_t)gn_dot_q30(from, light->to_light_q30);
     else
         for (int i = 0; i < 3; i++) reach = gn_max32(reach, (int32_t)gn_abs32(from[i]));
-    int32_t lift = 2 * gn_mul_high(gn_max32(reach, 0), view->fit.persp.lift_q31), less_q30 = 0;
-#if GN_AUTO_BIAS
-    if (automatic) {
-        lift += (int32_t)gn_bias_auto_place_q16(view, c->z_q16 + GN_FLAT_Q16(frame)) + 2; /* as is rounded down */
-        less_q30 = (view->auto_step + 3) >> 2;
-    }
-#endif
+    int32_t lift = 2 * gn_mul_high(gn_max32(reach, 0), view->fit.persp.lift_q31);
     GN_UNROLL
     for (int i = 0; i < 3; i++) moved[i] = from[i] + 4 * gn_mul_high(lift, n[i]);
     GN_UNROLL
@@ -172,8 +160,7 @@ GN_HOT static GN_NOINLINE int place_punctual(const gn_frame *frame, const gn_sur
     at->u_q16 = coord_persp(p[0], clz, half, focal2, middle);
     at->v_q16 = coord_persp(p[1], clz, half, focal2, middle);
     /* 1 - n / z */
-    at->depth_q30 =
-        gn_max32((1 << 30) - 1 - less_q30 - (int32_t)((uint64_t)(uint32_t)near_q16 * recip >> (33 - clz)), 0);
+    at->depth_q30 = gn_max32((1 << 30) - 1 - (int32_t)((uint64_t)(uint32_t)near_q16 * recip >> (33 - clz)), 0);
     return 1;
 }
 #endif

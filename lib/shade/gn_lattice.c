@@ -202,7 +202,7 @@ GN_HOT static void begin_part(gn_shading *s)
 GN_HOT static int32_t cell_log2(const gn_frame *frame, const gn_surface *s, const gn_rect *box)
 {
     int32_t most = GN_K(frame, persp_step) >= 8 ? 4 : 3, log2 = GN_SMALLEST_CELL_LOG2;
-    int32_t w = box->x1 - box->x0, h = box->y1 - box->y0, across = GN_CURVED(s) ? gn_min32(w, h) : gn_max32(w, h);
+    int32_t w = box->x1 - box->x0, h = box->y1 - box->y0, across = GN_SMOOTH(s) ? gn_min32(w, h) : gn_max32(w, h);
     (void)frame, (void)s;
     while (log2 < most && 1 << log2 < across) log2++;
     return log2;

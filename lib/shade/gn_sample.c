@@ -103,17 +103,6 @@ GN_HOT static void point_on_ray(const gn_frame *frame, const gn_ray_plane ray[3]
 }
 #endif
 
-/* The direction of the receiver's offset: the normal, or automatic bias's own for a curved surface. */
-GN_HOT const int32_t *gn_sample_lifted(const gn_surface *s, const gn_light_state *light, const int32_t n_q30[3],
-                                       int32_t out_q30[3])
-{
-    if (!GN_AUTO_BIAS || !GN_CURVED(s) || !light->auto_bias) return n_q30;
-#if GN_AUTO_BIAS
-    for (int i = 0; i < 3; i++) out_q30[i] = s->lift_q30[i] + (GN_BENT(s) ? 0 : n_q30[i]);
-#endif
-    return out_q30;
-}
-
 #if GN_SHADOWS
 /* Tile coordinates of the point at depth z on a pixel's ray. */
 GN_HOT static void light_coords(const gn_frame *frame, const gn_light_view *view, int32_t px, int32_t py, int32_t z_q16,
@@ -186,17 +175,17 @@ GN_HOT static const int32_t *own_offset(const gn_frame *frame, const gn_surface 
 {
     const int32_t *flat = s->light[slot].flat_offset_q16;
     gn_auto_bias form = (gn_auto_bias)s->light[slot].state->auto_bias;
-    int32_t lifted[3];
-    if (GN_AUTO_BIAS && form && !GN_CURVED(s)) {
+    int32_t own[3];
+    if (GN_AUTO_BIAS && form) {
         if (turned(frame, view)) {
-            gn_bias_auto_face(view, form, GN_FACE_Q30(s), lifted);
-            flat = lifted;
+            gn_bias_auto_face(view, form, GN_FACE_Q30(s), own);
+            flat = own;
         }
         gn_bias_auto_ortho(view, form, flat, moved_q16);
         return moved_q16;
     }
     if (!GN_SMOOTH(s) && !(GN_DISK_FILTER && view->filter == GN_FILTER_DISK) && !turned(frame, view)) return flat;
-    gn_bias_directional(frame, view, gn_sample_lifted(s, s->light[slot].state, n_q30, lifted), moved_q16);
+    gn_bias_directional(frame, view, n_q30, moved_q16);
     return moved_q16;
 }
 
@@ -274,12 +263,9 @@ GN_HOT static void punctual_values(const gn_frame *frame, const gn_surface *s, u
     GN_UNROLL
     for (int i = 0; i < 3; i++) out[GN_LIGHT_POINT_AT + i] = (int32_t)gn_clamp64(at[i], -INT32_MAX, INT32_MAX);
     out[GN_LIGHT_FACING] = gn_sat32(-gn_dot_q30(unit_q30, out + GN_LIGHT_POINT_AT));
-    int own = GN_AUTO_BIAS && !GN_CURVED(s) && light->auto_bias; /* per pixel */
-    int32_t lifted[3];
+    int own = GN_AUTO_BIAS && light->auto_bias; /* of the face, later */
     if (GN_SHADOWS && light->view_idx >= 0 && s->shadowed && !own)
-        gn_bias_punctual(frame, light, gn_sample_lifted(s, light, n_q30, lifted),
-                         sample->value[GN_VALUE_Z] + GN_FLAT_Q16(frame), out + GN_LIGHT_POINT_AT,
-                         out + GN_LIGHT_OFFSET);
+        gn_bias_punctual(frame, light, n_q30, out + GN_LIGHT_POINT_AT, out + GN_LIGHT_OFFSET);
     else out[GN_LIGHT_OFFSET] = out[GN_LIGHT_OFFSET + 1] = out[GN_LIGHT_OFFSET + 2] = 0;
 }
 #else

@@ -33,8 +33,4 @@ int64_t gn_sample_inside_q32(const gn_frame *frame, int32_t x, int32_t y, int32_
 /* The cascade, its fade factor and the reach of shadows, of a point at view depth z on a pixel's ray. */
 void gn_sample_find_cascade(const gn_frame *frame, int32_t px, int32_t py, int32_t z_q16, gn_sample *sample);
 
-/* The direction of the receiver's offset: the normal, or automatic bias's own for a curved surface. */
-const int32_t *gn_sample_lifted(const gn_surface *surface, const gn_light_state *light, const int32_t n_q30[3],
-                                int32_t out_q30[3]);
-
 #endif

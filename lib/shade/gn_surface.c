@@ -147,7 +147,6 @@ static void normals(const gn_frame *frame, const gn_surface_cache *cache, gn_ver
         }
     }
     s->smooth = any != 0; /* three equal normals: a flat triangle after all */
-    s->curved = any >> 20 != 0;
 }
 
 /* Attribute i of the surface, by its values at the three vertices: 65535 means 1. */
@@ -428,7 +427,7 @@ void gn_surface_begin(const gn_frame *frame, gn_scratch *scratch, const gn_surfa
 #if GN_GLOW_TEXTURES
     s->glow = NULL;
 #endif
-    s->smooth = s->curved = s->bent = s->has_bary = s->textured = s->masked = s->baked = s->specular = 0;
+    s->smooth = s->has_bary = s->textured = s->masked = s->baked = s->specular = 0;
     s->first_value = GN_VALUE_Z;
     vertex_colours(s, idx);
     gn_plane_setup(&s->plane, v[0], v[1], v[2]);

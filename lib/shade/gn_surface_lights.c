@@ -109,27 +109,6 @@ void gn_surface_list_lights(const gn_frame *frame, const gn_surface_cache *cache
 /* ---- Shadows ----------------------------------------------------------------------------------------------------- */
 
 #if GN_SHADOWS
-#if GN_AUTO_BIAS
-#define GN_LEAST_ALONG_Q28 (7 << 25)
-
-/* Curved surfaces: with this the interpolated normal has a part of 1 or more along the face's everywhere. If a corner's
- * normal is too far from the face's, only the face's is used. [B6] */
-static void lift_normal(gn_surface *s)
-{
-    int32_t least = -4; /* Q28; roundings */
-    GN_UNROLL
-    for (int k = 2; k >= 0; k--) {
-        int32_t along = (int32_t)(gn_dot64(s->normal_q30[k], s->face_q30) >> 32);
-        if (k == 0) least += along;
-        else if (along < least) least = along;
-    }
-    if (least < GN_LEAST_ALONG_Q28) s->bent = 1, least = 0;
-    const int32_t lift_q30 = (1 << 30) - 4 * least; /* least is 0, or 7/8 to 1 and some LSB: 32 bits */
-    GN_UNROLL
-    for (int i = 0; i < 3; i++) s->lift_q30[i] = gn_mul_high(lift_q30, s->face_q30[i]) * 4;
-}
-#endif
-
 /* A light's bias over the surface, once per surface: the face's normal, a directional light's offset. */
 static void bias(const gn_frame *frame, gn_surface *s, uint32_t slot)
 {
@@ -144,8 +123,7 @@ static void bias(const gn_frame *frame, gn_surface *s, uint32_t slot)
 #endif
 #if GN_AUTO_BIAS
     if (light->auto_bias) {
-        if (GN_CURVED(s)) lift_normal(s);
-        else if (light->kind == GN_LIGHT_DIRECTIONAL)
+        if (light->kind == GN_LIGHT_DIRECTIONAL)
             gn_bias_auto_face(view, (gn_auto_bias)light->auto_bias, s->face_q30, s->light[slot].flat_offset_q16);
         return;
     }

@@ -34,9 +34,7 @@ typedef struct {
     uint8_t glows; /* its own light is not part of base_q20: colours of vertices or a texture, which would dim it, come
                       between */
 #endif
-    uint8_t smooth;   /* its vertices' normals differ, */
-    uint8_t curved;   /* by 2^-10 or more: automatic bias uses the interpolated normal */
-    uint8_t bent;     /* a corner's normal points away from the face's: automatic bias uses only lift_q30 */
+    uint8_t smooth;   /* its vertices' normals differ */
     uint8_t shadowed; /* some light's shadow may fall on it */
 #if GN_INTERPOLATES
     uint8_t joined; /* several triangles */
@@ -79,9 +77,6 @@ typedef struct {
 #else
 #define GN_FACE_Q30(surface) ((surface)->normal_q30[0])
 #endif
-#if GN_AUTO_BIAS
-    int32_t lift_q30[3]; /* curved: correction of the normal for automatic bias; likewise */
-#endif
     gn_surface_light light[GN_SURFACE_LIGHTS]; /* lights that can affect it */
 } gn_surface;
 
@@ -92,8 +87,6 @@ typedef struct {
 #define GN_JOINED(s) ((void)(s), 0)
 #endif
 #define GN_SMOOTH(s)   (GN_VERTEX_NORMALS && (s)->smooth)
-#define GN_CURVED(s)   (GN_VERTEX_NORMALS && (s)->curved)
-#define GN_BENT(s)     (GN_VERTEX_NORMALS && (s)->bent)
 #define GN_COLOURED(s) (GN_VERTEX_COLOURS && (s)->coloured)
 #if GN_GLOW_APART
 #define GN_GLOWS(s) ((s)->glows)

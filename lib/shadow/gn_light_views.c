@@ -92,14 +92,10 @@ static void fit(gn_frame *frame, gn_light_view *view, const gn_light *light, int
     }
     view->offset_q16 = gn_mul_shr(light->bias_normal_q16, 92682 * (view->filter_idx + 1), 16); /* sqrt(2) in Q16 */
     if (GN_RECEIVER_BIAS) view->offset_q16 += (view->filter_idx + 1) * light->bias_receiver_q16[2];
-    int32_t lift_q16 = view->offset_q16;
-    if (GN_AUTO_BIAS && frame->light[view->light_idx].auto_bias) {
-        gn_bias_auto_view(frame, view);
-        lift_q16 = gn_bias_auto_curved_q16(view);
-    }
     if (GN_PUNCTUAL_LIGHTS && view->perspective)
         view->fit.persp.lift_q31 =
-            (int32_t)gn_clamp64(gn_bf_apply(lift_q16, view->fit.persp.texel_per_z, 15), 0, INT32_MAX);
+            (int32_t)gn_clamp64(gn_bf_apply(view->offset_q16, view->fit.persp.texel_per_z, 15), 0, INT32_MAX);
+    if (GN_AUTO_BIAS && frame->light[view->light_idx].auto_bias) gn_bias_auto_view(frame, view);
 }
 
 /* Whether the schedule lets a cascade keep its tile of an earlier frame, which is still in slot `idx`. After a frame

@@ -104,8 +104,8 @@ typedef struct {
     int32_t guard_q16[2];       /* |x|, |y| <= guard * z after clipping to the guard band */
     int32_t side_q16[2];        /* the same for the tile's own border, a little wider: a caster outside it is skipped */
     int64_t ratio_max_q28;      /* x / z beyond this would overflow, times focal2 */
-    int32_t lift_q31;           /* receivers (automatic bias: curved ones): offset along the normal per light-plane
-                                   distance; INT32_MAX: 1 or more */
+    int32_t lift_q31;           /* receivers, B2: offset along the normal per light-plane distance; INT32_MAX: 1 or
+                                   more */
     int32_t constant_share_q30; /* casters: min(1, constant bias * 2t / T) */
 } gn_persp_fit;
 
@@ -117,8 +117,7 @@ typedef struct {
 #if GN_AUTO_BIAS
     int32_t auto_step;  /* automatic bias: the part for rounded depths. Directional: texels, Q16; spot, point: fraction
                            of the depth range, Q32 */
-    int32_t auto_place; /* automatic bias, directional: offset of curved surfaces, texels, Q16; spot, point: error of a
-                           point per view depth, Q40 */
+    int32_t auto_place; /* automatic bias, spot and point: error of a point per view depth, Q40 */
 #endif
     int32_t disk_radius_q16; /* texels */
     int32_t bias_constant_q16, bias_slope_q16;

@@ -22,7 +22,7 @@ else fail "a command fails: $(grep '^+' "$tmp/log" | tail -n 1): $(tail -n 1 "$t
 # what the text says of their output
 says() { grep -q -e "$1" "$tmp/log" && pass || fail "no command says: $1"; }
 says 'added: ground, camera, light'
-says '^      bias: set by hand, bias_normal 1, bias_constant 24; automatic alone: --set bias_constant@0=0 --set auto_bias@0=normal$'
+says '^      bias: set by hand, bias_normal 1, bias_constant 24; automatic alone: --set bias_constant@0=0 --set auto_bias@0=depth$'
 says '^      bias: automatic$'
 says 'does not fit that: .*nearest that does: '
 says '^  fits that: '

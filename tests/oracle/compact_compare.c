@@ -211,7 +211,7 @@ static void random_scenes(void)
         random_scene(&f);
         settings set = settings_for(&f.s);
         f.lights[0].bias_normal = all.n % 2 ? random_between(1, 2) : 0;
-        f.lights[0].auto_bias = all.n % 2 ? SCENE_AUTO_BIAS_OFF : SCENE_AUTO_BIAS_NORMAL;
+        f.lights[0].auto_bias = all.n % 2 ? SCENE_AUTO_BIAS_OFF : SCENE_AUTO_BIAS_DEPTH;
         if (CHECK_EQ_INT(compare(&m, &f.s, &set, all.n ? NULL : "random"), 0)) add(&all, &m, 36, "random", all.n);
         else break;
         end(&f);
@@ -237,7 +237,7 @@ static void planes_without_acne(void)
                                .colour = {1, 1, 1},
                                .shadow = true,
                                .strength = 0.5,
-                               .auto_bias = SCENE_AUTO_BIAS_NORMAL};
+                               .auto_bias = SCENE_AUTO_BIAS_DEPTH};
         const settings set = settings_for(&f.s);
         if (CHECK_EQ_INT(engine_fixed(&p, &f.s, &set, WIDTH, HEIGHT, ENGINE_ALL, error, sizeof error), 0)) {
             for (size_t i = 0; i < WIDTH * HEIGHT; i++) {

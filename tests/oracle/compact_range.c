@@ -135,8 +135,8 @@ static void refusals(void)
     REFUSED(sun.softness = GN_SOFTNESS_SOFT, GN_ERR_LIGHT_KIND);
     REFUSED(memset(sun.direction, 0, sizeof sun.direction), GN_ERR_LIGHT_DIRECTION);
     REFUSED(sun.bias_normal_q16 = 0, GN_AUTO_BIAS ? GN_OK : GN_ERR_LIGHT_BIAS); /* asks for automatic bias */
-    REFUSED(sun.auto_bias = GN_AUTO_BIAS_NORMAL, GN_AUTO_BIAS ? GN_OK : GN_ERR_LIGHT_BIAS);
-    REFUSED(sun.auto_bias = GN_AUTO_BIAS_DEPTH, GN_ERR_LIGHT_BIAS);
+    REFUSED(sun.auto_bias = GN_AUTO_BIAS_DEPTH, GN_AUTO_BIAS ? GN_OK : GN_ERR_LIGHT_BIAS);
+    REFUSED(sun.auto_bias = GN_AUTO_BIAS_NORMAL, GN_ERR_LIGHT_BIAS);
     REFUSED(sun.bias_normal_q16 = GN_Q16(8), GN_ERR_LIGHT_BIAS);
     REFUSED(sun.bias_slope_q16 = -1, GN_ERR_LIGHT_BIAS);
     REFUSED(sun.bias_caster_q16 = 1, GN_ERR_LIGHT_BIAS);
@@ -344,7 +344,7 @@ static void spoil_sun(uint32_t what)
         break;
     default:
         sun.bias_constant_q16 = any();
-        sun.auto_bias = GN_AUTO_BIAS_NORMAL;
+        sun.auto_bias = GN_AUTO_BIAS_DEPTH;
         break;
     }
 }

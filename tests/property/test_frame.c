@@ -121,8 +121,8 @@ static void test_automatic_by_default(void)
         gn_auto_bias automatic;
         int32_t normal_q16, receiver_q16;
     } set[] = {{GN_AUTO_BIAS_DEFAULT, 0, 0},
-               {GN_AUTO_BIAS_NORMAL, 0, 0},
-               {GN_AUTO_BIAS_NORMAL, GN_Q16(3), GN_Q16(2)},
+               {GN_AUTO_BIAS_DEPTH, 0, 0},
+               {GN_AUTO_BIAS_DEPTH, GN_Q16(3), GN_Q16(2)},
                {GN_AUTO_BIAS_OFF, 0, 0},
                {GN_AUTO_BIAS_DEFAULT, GN_Q16(3), 0},
                {GN_AUTO_BIAS_OFF, GN_Q16(3), 0},

@@ -52,7 +52,7 @@ static void test_spot(void)
     CHECK_NEAR(l->inner, 6258 / 65536.0, 0);                      /* 0.3 / pi turns: 6258.23 steps */
     CHECK_NEAR(l->outer, 12516 / 65536.0, 0);
     CHECK(l->shadow && l->mode == SCENE_REALTIME && l->mask_channel == -1 && l->softness == SCENE_SOFT_DEFAULT &&
-          !l->receiver_plane && l->auto_bias == SCENE_AUTO_BIAS_NORMAL);
+          !l->receiver_plane && l->auto_bias == SCENE_AUTO_BIAS_DEPTH);
     CHECK_NEAR(l->bias_normal, 1, 0);
     CHECK_NEAR(l->strength, 0.5, 0);
     scene_free(&s);
@@ -163,7 +163,7 @@ static void test_light_knobs(void)
 {
     static const char knobs[] =
         "\"bias_constant\":0.5,\"bias_caster\":0.25,\"bias_receiver\":[1,2,3,4],\"receiver_plane\":1,"
-        "\"near\":0.125,\"auto_bias\":\"depth\","
+        "\"near\":0.125,\"auto_bias\":\"normal\","
         "\"softness\":\"soft\",\"mode\":\"mixed\",\"mask_channel\":3,\"shadow\":false,\"bias_normal\":0";
     const char *text = replaced(without_animation(base_json), "\"strength\":0.9,\"bias_slope\":2", knobs);
     text = replaced(text, "\"type\":\"directional\"", "\"type\":\"point\"");
@@ -175,7 +175,7 @@ static void test_light_knobs(void)
     CHECK_NEAR(l->bias_normal, 0, 0);
     CHECK_NEAR(l->near, 0.125, 0);
     for (int i = 0; i < 4; i++) CHECK_NEAR(l->bias_receiver[i], ((const double[]){1, 2, 3, 4})[i], 0);
-    CHECK_EQ_INT(l->auto_bias, SCENE_AUTO_BIAS_DEPTH);
+    CHECK_EQ_INT(l->auto_bias, SCENE_AUTO_BIAS_NORMAL);
     CHECK(l->receiver_plane && !l->shadow && l->softness == SCENE_SOFT_HARD && l->mode == SCENE_MIXED &&
           l->mask_channel == 3);
     scene_free(&s);

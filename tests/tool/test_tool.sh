@@ -92,7 +92,7 @@ good info "$glb" --size 32x24
 good render "$cube" -o "$tmp/without.png" --size 64x48
 good info "$cube" --size 64x48
 grep -q -x '      bias: automatic' "$tmp/out" && pass || fail "info does not say that the bias is automatic"
-for bias in bias_constant=64 bias_slope=9 bias_caster=4 auto_bias=off bias_normal=5 bias_receiver=4 auto_bias=depth "bias_normal=5 --set bias_constant=9 --set bias_caster=1"; do
+for bias in bias_constant=64 bias_slope=9 bias_caster=4 auto_bias=off bias_normal=5 bias_receiver=4 auto_bias=normal "bias_normal=5 --set bias_constant=9 --set bias_caster=1"; do
     # shellcheck disable=SC2086
     good info "$cube" --size 64x48 --set $bias
     mend=$(sed -n 's/^      bias: .*; automatic alone: //p' "$tmp/out")

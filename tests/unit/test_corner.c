@@ -493,29 +493,20 @@ static double coord_of(const gn_light_view *view, const known_point *k, double z
     return (along + eye) / texel - view->fit.ortho.origin[i];
 }
 
-/* Offsets in 32 bits against those in 64, automatic bias included: a cut of 2^-32 of the length and one of four units.
- */
+/* Offsets along normals in 32 bits against those in 64: a cut of 2^-32 of the length and one of four units. */
 static long n_along;
 
 static void check_offsets(const gn_lattice *l, const gn_surface *s, const gn_corner *c, uint32_t slot)
 {
-    static const uint8_t form[3] = {0, GN_AUTO_BIAS_DEPTH, GN_AUTO_BIAS_NORMAL};
     const gn_frame *frame = &renderer.frame;
     const gn_light_state *own = s->light[slot].state;
+    int32_t along = -1, want[3];
     if (c->cascade == GN_CASCADE_NONE) return;
     const gn_light_view *view = &frame->view[own->view_idx + c->cascade];
-    gn_light_state *changed = &renderer.frame.light[view->light_idx];
-    if (!CHECK(own == changed)) return;
-    for (int f = 0; f < 1 + 2 * GN_AUTO_BIAS; f++) {
-        int32_t along = -1, want[3], lifted[3];
-        changed->auto_bias = form[f];
-        if (gn_corner_offsets(&l->light[slot], s, own, view, &along) != GN_OFFSET_ALONG) continue;
-        const int32_t *n = gn_sample_lifted(s, own, c->normal_q30, lifted);
-        gn_sample_offset(frame, s, slot, view, c->normal_q30, want);
-        for (int i = 0; i < 3; i++) CHECK(abs(gn_corner_lift_q16(n, view->axis_q30[i], along) - want[i]) <= 5);
-        n_along++;
-    }
-    changed->auto_bias = 0;
+    if (gn_corner_offsets(&l->light[slot], s, own, view, &along) != GN_OFFSET_ALONG) return;
+    gn_sample_offset(frame, s, slot, view, c->normal_q30, want);
+    for (int i = 0; i < 3; i++) CHECK(abs(gn_corner_lift_q16(c->normal_q30, view->axis_q30[i], along) - want[i]) <= 5);
+    n_along++;
 }
 
 static void check_ortho(gn_lattice *l, const gn_surface *s, const known_point *k, gn_corner *c, uint32_t slot)

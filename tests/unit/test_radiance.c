@@ -20,8 +20,7 @@ enum {
     STAGE_ATTENUATION_DISTANCE,
     STAGE_RADIANCE,
     STAGE_OFFSET, /* of spot lights; each is followed by that of point lights */
-    STAGE_CURVED = STAGE_OFFSET + 2,
-    STAGE_LIFT = STAGE_CURVED + 2,
+    STAGE_LIFT = STAGE_OFFSET + 2,
     STAGE_LESS = STAGE_LIFT + 2,
     STAGE_COUNT = STAGE_LESS + 2
 };
@@ -36,8 +35,6 @@ static const char *const stage_name[STAGE_COUNT] = {
     "shading, samples: radiance in linear light, LSB of Q20",
     "bias, spot: offset by B2 and B3, LSB of Q15.16",
     "bias, point: offset by B2 and B3, LSB of Q15.16",
-    "bias, spot: automatic, curved surfaces, LSB of Q15.16",
-    "bias, point: automatic, curved surfaces, LSB of Q15.16",
     "bias, spot: automatic, along the face's normal, LSB of Q15.16",
     "bias, point: automatic, along the face's normal, LSB of Q15.16",
     "bias, spot: automatic, depth, LSB of Q32",
@@ -450,7 +447,7 @@ static void check_offset(const gn_light_view *view, const receiver *r, const int
     const double along_off = LSB16 * (1 + (b[3] > 0 ? reach : 0)) + beta * ldexp(1, -20) + reach * b[3] * sine_off;
     const double to_off = (b[1] > 0 ? LSB16 * reach : 0) + reach * b[1] * tangent_off;
     int32_t got[3];
-    gn_bias_punctual(frame, &frame->light[0], n_q30, r->depth_q16, r->from_q16, got);
+    gn_bias_punctual(frame, &frame->light[0], n_q30, r->from_q16, got);
     for (int k = 0; k < 3; k++) {
         const double want = wide * (along * n[k] + to * towards[k]);
         const double bound =
@@ -466,18 +463,6 @@ static void check_offset(const gn_light_view *view, const receiver *r, const int
 static double place_of(const gn_light_view *view, const receiver *r)
 {
     return ldexp(view->auto_place, -40) * r->depth_q16 * LSB16 + 8 * LSB16;
-}
-
-static void check_curved(const gn_light_view *view, const receiver *r, const int32_t n_q30[3], const double n[3])
-{
-    const gn_frame *frame = &renderer.frame;
-    const double reach = sqrt(2) * (view->offset_q16 * LSB16 + (view->filter == GN_FILTER_HARD ? 0.5 : 0));
-    const double sigma = place_of(view, r) + reach * r->tau * r->z, z_off = LSB16 / 2 + r->distance * ldexp(5.2, -30);
-    const double off = r->tau * r->z * (LSB16 + reach * ldexp(1, -17)) + reach * r->tau * z_off + 3 * LSB16;
-    int32_t got[3];
-    gn_bias_punctual(frame, &frame->light[0], n_q30, r->depth_q16, r->from_q16, got);
-    for (int k = 0; k < 3; k++)
-        record(STAGE_CURVED + is_point(), fabs(got[k] * LSB16 - sigma * n[k]), fabs(n[k]) * off + LSB16 / 2, LSB16);
 }
 
 /* The plane m . P = -h through the point, seen from its front. */
@@ -509,7 +494,7 @@ static void check_automatic(const gn_light_view *view, const receiver *r, const 
     for (int k = 0; k < 3; k++)
         record(STAGE_LIFT + is_point(), fabs((moved[k] - r->from_q16[k]) * LSB16 - lift * face[k]),
                fabs(face[k]) * off + LSB16 / 2, LSB16);
-    const double slope = near * across / h, lsb = ldexp(1, -32);
+    const double slope = near * fmax(across, 0.5 * reach * r->tau) / h, lsb = ldexp(1, -32);
     if (is_normal || slope > 1.9) return;
     const double bound = slope * ((1.5 * LSB16 + r->distance * ldexp(5.2, -30)) / h + ldexp(1, -26)) +
                          near / h * r->tau * ldexp(1, -26) + 3 * lsb;
@@ -553,8 +538,7 @@ static void check_view(const gn_knobs *knobs, const gn_light_view *view)
         for (int k = 0; k < 3; k++) n_q30[k] = (int32_t)floor(ldexp(n[k], 30));
         axis_of(n_q30, n);
         if (!lamp.auto_bias) check_offset(view, &r, n_q30, n);
-        else check_curved(view, &r, n_q30, n);
-        if (lamp.auto_bias && dot(n, r.from) < 0) check_automatic(view, &r, n_q30, n);
+        else if (dot(n, r.from) < 0) check_automatic(view, &r, n_q30, n);
     }
 }
 

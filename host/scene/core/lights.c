@@ -31,7 +31,7 @@ void light_set_defaults(scene_light *light)
     light->shadow = true;
     light->strength = 1;
     light->bias_normal = 1; /* where it is not automatic */
-    light->auto_bias = SCENE_AUTO_BIAS_NORMAL;
+    light->auto_bias = SCENE_AUTO_BIAS_DEPTH;
 }
 
 static double farthest_corner(const double *from, const double *low, const double *high)

@@ -126,7 +126,7 @@ typedef struct {
     double bias_receiver[4];   /* (B3), default 0 */
     double bias_caster;        /* (B4), texels, default 0 */
     bool receiver_plane;       /* (B5) */
-    scene_auto_bias auto_bias; /* (B6), default normal; off for lights that set B2 or B3 */
+    scene_auto_bias auto_bias; /* (B6), default depth; off for lights that set B2 or B3 */
     double near_offset;        /* directional: world units (D9), default 0 */
     double near;               /* spot, point: nothing nearer than this light-plane distance casts; > 0 */
 } scene_light;

@@ -240,19 +240,19 @@ static void text_own_bias(const scene_light *l)
 static void text_bias(const scene_light *l, size_t i)
 {
     const double *b = l->bias_receiver;
-    const bool by_hand = l->auto_bias == SCENE_AUTO_BIAS_OFF, along_normal = l->auto_bias == SCENE_AUTO_BIAS_NORMAL;
+    const bool by_hand = l->auto_bias == SCENE_AUTO_BIAS_OFF, in_depth = l->auto_bias == SCENE_AUTO_BIAS_DEPTH;
     const bool adds = l->bias_constant > 0 || l->bias_slope > 0 || l->bias_caster > 0;
-    printf("      bias: %s", by_hand ? "set by hand" : along_normal ? "automatic" : "automatic, depth");
+    printf("      bias: %s", by_hand ? "set by hand" : in_depth ? "automatic" : "automatic, along the normal");
     if (by_hand) printf(", bias_normal %g", l->bias_normal);
     if (by_hand && (b[0] > 0 || b[1] > 0 || b[2] > 0 || b[3] > 0))
         printf(", bias_receiver %g,%g,%g,%g", b[0], b[1], b[2], b[3]);
     text_own_bias(l);
     if (!by_hand && adds) printf(", still added: it detaches shadows");
-    if (adds || !along_normal) printf("; automatic alone:");
+    if (adds || !in_depth) printf("; automatic alone:");
     if (l->bias_constant > 0) printf(" --set bias_constant@%zu=0", i);
     if (l->bias_slope > 0) printf(" --set bias_slope@%zu=0", i);
     if (l->bias_caster > 0) printf(" --set bias_caster@%zu=0", i);
-    if (!along_normal) printf(" --set auto_bias@%zu=normal", i);
+    if (!in_depth) printf(" --set auto_bias@%zu=depth", i);
     printf("\n");
 }
 

@@ -44,7 +44,7 @@ void settings_compact_scene(scene *s)
     s->shadow.fit = SCENE_FIT_STABLE;
     s->shadow.tiles = SCENE_TILES_EQUAL;
     for (size_t i = 0; i < s->n_lights; i++)
-        if (s->lights[i].auto_bias == SCENE_AUTO_BIAS_DEPTH) s->lights[i].auto_bias = SCENE_AUTO_BIAS_NORMAL;
+        if (s->lights[i].auto_bias == SCENE_AUTO_BIAS_NORMAL) s->lights[i].auto_bias = SCENE_AUTO_BIAS_DEPTH;
 }
 
 /* NUMERICS 4.15: 8 fraction bits of pixels and texels; a tap is one texel */

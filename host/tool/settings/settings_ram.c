@@ -164,7 +164,6 @@ static void put_work(layout *out, const settings *s)
     if (has_glow(s)) put(&surface, 1, 4, 4);
     if (has_levels(s) && has_glow(s)) put(&surface, 1, 8, 8); /* glow_depth2_q32 */
     if (s->feature.receiver_plane || s->quality.edge || s->feature.auto_bias) put(&surface, 3, 4, 4);
-    if (s->feature.auto_bias) put(&surface, 3, 4, 4); /* lift_q30 */
     put(&surface, s->capacity.surface_lights, s->quality.vertex_light ? 44 : 36, 4);
     pad(&surface, surface.align);
     put(&all, 1, 40, 4);  /* frame to rows */
