@@ -14,7 +14,8 @@
 
 #if GN_INTERPOLATES
 
-#if GN_SHADOWS
+/* Other bias than the automatic one is of each pixel. */
+#if GN_SHADOWS && GN_AUTO_BIAS
 
 enum { TOO_FAR = 1 << 29 /* texels, Q16: of an offset that no tile is deep enough for */ };
 
@@ -328,8 +329,8 @@ GN_HOT void gn_patch_begin_reach(gn_shading *s)
 
 GN_HOT int gn_patch_find_shadow(gn_shading *s, uint32_t light_idx, gn_patch_light *light)
 {
-    (void)s, (void)light_idx, (void)light;
-    return GN_PATCH_LIT;
+    (void)light;
+    return GN_SHADOWS && gn_shadow_is_realtime(&s->frame->light[light_idx], 65536) ? GN_PATCH_UNEVEN : GN_PATCH_LIT;
 }
 
 GN_HOT void gn_patch_attenuation(gn_shading *s, const gn_patch_light *light, const gn_patch_weights ends[2], int32_t x,

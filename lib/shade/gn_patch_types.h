@@ -92,7 +92,7 @@ typedef struct {
     int32_t base_q24[3]; /* albedo times ambient, and light of its own that nothing dims; at most 2^27 */
 } gn_patch_object;
 
-#if GN_SHADOWS
+#if GN_SHADOWS && GN_AUTO_BIAS
 /* A cascade's sphere in units of 2^down of Q16, in which it has 15 bits: depth of its centre, squares of its radius and
  * of where it begins to fade, and 2^32 over their difference. */
 typedef struct {
@@ -114,7 +114,7 @@ typedef struct {
     uint8_t n_lights;
     uint8_t reach;              /* GN_REACH_*: of shadows, over the triangle */
     int32_t cascade;            /* of the corners */
-#if GN_SHADOWS
+#if GN_SHADOWS && GN_AUTO_BIAS
     int32_t sphere_down;
     gn_patch_sphere sphere[4];
 #endif
