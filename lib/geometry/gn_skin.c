@@ -11,7 +11,7 @@ gn_vertex_joints gn_skin_joints(const gn_skin *skin, uint32_t vertex_idx)
 {
     const uint32_t n = GN_VERTEX_JOINTS > 1 ? skin->per_vertex : 1;
     const gn_vertex_joints of = {skin->joint, skin->joint_idx + (size_t)n * vertex_idx,
-                              skin->weight_u8 + (size_t)n * vertex_idx, n};
+                                 skin->weight_u8 + (size_t)n * vertex_idx, n};
     return of;
 }
 

@@ -82,8 +82,8 @@ typedef struct {
     uint8_t bent;    /* rows are placed each for itself */
     uint8_t follows; /* the window is made anew for rows that it does not cover */
     gn_flat_patch u_q16, v_q16, depth_q30;
-    gn_flat_patch more_q24[3]; /* what it adds where it is not in shadow; of the second of two faces, which adds the same,
-                             the first one tells the border between them */
+    gn_flat_patch more_q24[3]; /* what it adds where it is not in shadow; of the second of two faces, which adds the
+                             same, the first one tells the border between them */
     int32_t slope_q28[2];
 } gn_lattice_edge;
 
@@ -129,10 +129,10 @@ typedef struct {
     gn_texture glow_level;
 #endif
 #if GN_MIPMAPS
-    uint32_t level_ends;   /* 1: two levels of the texture meet in the cell, */
+    uint32_t level_ends;        /* 1: two levels of the texture meet in the cell, */
     gn_flat_patch nearness_q30; /* by the least depth over the pixel's: */
-    int32_t end_q30;       /* the finer one's pixels are above it, and the others not; */
-    uint32_t other;        /* which are drawn now: all ones, or 0 */
+    int32_t end_q30;            /* the finer one's pixels are above it, and the others not; */
+    uint32_t other;             /* which are drawn now: all ones, or 0 */
 #endif
 } gn_cell_textures;
 #endif
@@ -142,7 +142,7 @@ typedef struct {
     struct gn_shading *s;
     int32_t x, y, size_log2;
     gn_flat_patch base_q24[3]; /* colours without the light of edges */
-    int32_t first, n;     /* nodes of a row: from this pixel on */
+    int32_t first, n;          /* nodes of a row: from this pixel on */
     gn_pixel_line line;
 #if GN_TEXTURES
     gn_cell_textures textures;

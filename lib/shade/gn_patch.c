@@ -63,7 +63,8 @@ GN_HOT static void find_colours(gn_patch *p)
 {
     uint32_t differs = 0;
     for (int c = 0; c < 3; c++)
-        differs |= (uint32_t)(p->colour_q24[c][0] ^ p->colour_q24[c][1]) | (uint32_t)(p->colour_q24[c][0] ^ p->colour_q24[c][2]);
+        differs |= (uint32_t)(p->colour_q24[c][0] ^ p->colour_q24[c][1]) |
+                   (uint32_t)(p->colour_q24[c][0] ^ p->colour_q24[c][2]);
     p->graded = differs != 0;
     p->varies = (uint8_t)(p->graded | p->n_lights | p->textured | p->tinted);
     for (int c = 0; p->graded && c < 3; c++)
@@ -98,8 +99,8 @@ GN_HOT int gn_patch_begin(gn_shading *s, uint32_t id)
 /* ---- Rows of pixels ---------------------------------------------------------------------------------------------- */
 
 /* Adds a light that pixels ask for to n nodes from (x, y) of the picture on. */
-GN_HOT static void add_light_nodes(gn_shading *s, const gn_patch_light *light, const gn_patch_weights ends[2], int32_t x,
-                             int32_t y, int32_t n)
+GN_HOT static void add_light_nodes(gn_shading *s, const gn_patch_light *light, const gn_patch_weights ends[2],
+                                   int32_t x, int32_t y, int32_t n)
 {
     gn_patch *p = &s->patch;
     gn_row_value e = gn_patch_row(&light->irradiance_q15, ends, n);
@@ -129,7 +130,7 @@ GN_HOT static void tint_nodes(gn_patch *p, const gn_patch_weights ends[2], int32
 #if GN_TEXTURES
 /* Texels of a row; whether its nodes are within 2^-18 .. 1. */
 GN_HOT static void find_row_texels(gn_patch *p, const gn_patch_weights ends[2], int32_t n, int32_t n_nodes,
-                               gn_pixel_line *line)
+                                   gn_pixel_line *line)
 {
     const gn_row_value u = gn_patch_row(&p->texel_q17[0], ends, n), v = gn_patch_row(&p->texel_q17[1], ends, n);
     const gn_texture_line texels = {{u.at, v.at}, {u.step, v.step}, {0, 0}};

@@ -41,8 +41,9 @@ GN_HOT static int find_base(const gn_frame *frame, gn_patch_object *of)
     const int glows = GN_EMISSIVE && !unlit && (emissive[0] | emissive[1] | emissive[2]);
     if (glows && (object->texture || object->emissive_texture || object->mesh->rgb_uq16)) return shows_shadow(frame);
     for (int c = 0; c < 3; c++) {
-        uint32_t q20 = unlit ? object->albedo_uq16[c] << 4
-                             : (uint32_t)(((uint64_t)object->albedo_uq16[c] * frame->scene->ambient_uq16[c] + 2048U) >> 12);
+        uint32_t q20 =
+            unlit ? object->albedo_uq16[c] << 4
+                  : (uint32_t)(((uint64_t)object->albedo_uq16[c] * frame->scene->ambient_uq16[c] + 2048U) >> 12);
         if (glows) q20 += emissive[c] << 4;
         if (q20 > 1U << 23) return shows_shadow(frame);
         of->base_q24[c] = (int32_t)q20 << 4;
@@ -218,13 +219,13 @@ GN_HOT static int lamp_is_even(const int32_t from[3][3], const int32_t e_q24[3])
         nearest = far < nearest ? far : nearest;
         longest = side > longest ? side : longest;
     }
-    const int32_t lo = gn_min32(gn_min32(e_q24[0], e_q24[1]), e_q24[2]), hi = gn_max32(gn_max32(e_q24[0], e_q24[1]), e_q24[2]);
+    const int32_t lo = gn_min32(gn_min32(e_q24[0], e_q24[1]), e_q24[2]),
+                  hi = gn_max32(gn_max32(e_q24[0], e_q24[1]), e_q24[2]);
     return longest <= nearest >> 5 && hi - lo <= gn_max32(hi >> 1, 1 << 17);
 }
 
 /* Of a spot or point light. Returns 0 if it is not even. */
-GN_HOT static int lamp_irradiance(gn_shading *s, const gn_light_state *light, const int32_t n[3][3],
-                                  int32_t e_q24[3])
+GN_HOT static int lamp_irradiance(gn_shading *s, const gn_light_state *light, const int32_t n[3][3], int32_t e_q24[3])
 {
     int32_t(*from)[3] = s->patch.from_q16;
     gn_record_find_depths(&s->patch.record, s->frame);
@@ -268,7 +269,8 @@ GN_HOT static int add_patch_light(gn_patch *p, const uint32_t colour_uq16[3], co
 }
 
 /* Light that they do: irradiance becomes 15 bits, colours 16. */
-GN_HOT static int keep_patch_light(gn_patch *p, gn_patch_light *light, const uint32_t colour_uq16[3], const int32_t e_q24[3])
+GN_HOT static int keep_patch_light(gn_patch *p, gn_patch_light *light, const uint32_t colour_uq16[3],
+                                   const int32_t e_q24[3])
 {
     const uint32_t any = gn_abs32(e_q24[0]) | gn_abs32(e_q24[1]) | gn_abs32(e_q24[2]) | 1U,
                    bright = colour_uq16[0] | colour_uq16[1] | colour_uq16[2] | 1U;
@@ -276,7 +278,7 @@ GN_HOT static int keep_patch_light(gn_patch *p, gn_patch_light *light, const uin
     int32_t e[3];
     for (int k = 0; k < 3; k++) e[k] = e_down >= 0 ? e_q24[k] >> e_down : e_q24[k] * (1 << -e_down);
     for (int c = 0; c < 3; c++) light->colour[c] = colour_uq16[c] >> colour_down;
-    light->down = 16 - e_down - colour_down; /* Q24 * Q16 >> 16 */
+    light->down = 16 - e_down - colour_down;           /* Q24 * Q16 >> 16 */
     if (light->down < 4 || light->down > 31) return 0; /* brighter than 8, or far darker than a level */
     gn_patch_set(&light->irradiance_q15, e[0], e[1], e[2]);
     p->n_lights++;

@@ -69,7 +69,8 @@ GN_HOT static int32_t cascade_of_corner(const gn_shading *s, int k, uint32_t *fa
 /* 65536 up to the start of the fade, 0 from the largest distance on. [D5] */
 GN_HOT static uint32_t distance_strength(const gn_frame *frame, int32_t z_q16)
 {
-    if ((uint32_t)z_q16 <= frame->fade_start_q16 || frame->scene->shadow.distance_mode != GN_DISTANCE_DEPTH) return 65536;
+    if ((uint32_t)z_q16 <= frame->fade_start_q16 || frame->scene->shadow.distance_mode != GN_DISTANCE_DEPTH)
+        return 65536;
     const int32_t left = frame->scene->shadow.max_distance_q16 - z_q16;
     return left <= 0 ? 0 : (uint32_t)gn_clamp64(gn_bf_apply(left, frame->fade_scale, 32), 0, 65536);
 }
@@ -133,7 +134,8 @@ GN_HOT static int place_in_ortho(gn_shading *s, const gn_light_view *view, gn_au
 #if GN_PUNCTUAL_LIGHTS
 /* In a spot's view, or the face of a cube that sees all corners. Returns 0 if the corners differ, or places between
  * them are not linear; 2 where nothing is nearer than the near plane. */
-GN_HOT static int place_in_persp(gn_shading *s, const gn_light_view **view, const gn_light_state *light, patch_places *out)
+GN_HOT static int place_in_persp(gn_shading *s, const gn_light_view **view, const gn_light_state *light,
+                                 patch_places *out)
 {
     const gn_patch *p = &s->patch;
     int32_t nearest = INT32_MAX, farthest = 0, seen = 0;
@@ -144,8 +146,8 @@ GN_HOT static int place_in_persp(gn_shading *s, const gn_light_view **view, cons
         gn_persp_place at;
         int32_t moved[3];
         if (light->kind == GN_LIGHT_POINT && gn_persp_face(p->from_q16[k]) != face) return 0;
-        const int64_t less = gn_bias_auto_persp(*view, &form, gn_patch_face(s), gn_record_depth(&p->record, k),
-                                                p->from_q16[k], moved);
+        const int64_t less =
+            gn_bias_auto_persp(*view, &form, gn_patch_face(s), gn_record_depth(&p->record, k), p->from_q16[k], moved);
         if (form != (gn_auto_bias)light->auto_bias) return 0;
         seen += gn_persp_find_place(s->frame, *view, moved, less, &at);
         out->u[k] = at.u_q16, out->v[k] = at.v_q16, out->depth[k] = (int32_t)(at.depth_q32 >> 2);
@@ -187,17 +189,19 @@ GN_HOT static int find_texels_read(const gn_light_view *view, const patch_places
     return out->w <= GN_PATCH_TEXELS && out->h <= GN_PATCH_TEXELS;
 }
 
-/* Compares texels with the plane through the places, which bias has moved: what a filter's taps, which are compared with
- * the pixel's own depth, do on average. Only directional views: places in others need the filter's precision near a
- * caster's foot. */
+/* Compares texels with the plane through the places, which bias has moved: what a filter's taps, which are compared
+ * with the pixel's own depth, do on average. Only directional views: places in others need the filter's precision near
+ * a caster's foot. */
 GN_HOT static int ask_texels(gn_shading *s, const gn_light_view *view, const patch_places *at, gn_patch_texels *out)
 {
     int32_t slope_q28[2];
     if (s->patch.record.px < ASK_PX || view->perspective || GN_VIEW_BITS(view) != 16) return TEXELS_UNKNOWN;
     if (view->filter > GN_FILTER_3X3 || !find_texels_read(view, at, out)) return TEXELS_UNKNOWN;
     gn_shadow_plane_slopes(view, gn_patch_face(s), NULL, slope_q28);
-    if ((gn_abs32(slope_q28[0]) | gn_abs32(slope_q28[1])) >> 23) return TEXELS_UNKNOWN; /* 2^-5 of the range per texel */
-    const int32_t across = slope_q28[0] * 4, down = slope_q28[1] * 4, rise = across * (out->w - 1), fall = down * (out->h - 1);
+    if ((gn_abs32(slope_q28[0]) | gn_abs32(slope_q28[1])) >> 23)
+        return TEXELS_UNKNOWN; /* 2^-5 of the range per texel */
+    const int32_t across = slope_q28[0] * 4, down = slope_q28[1] * 4, rise = across * (out->w - 1),
+                  fall = down * (out->h - 1);
     const int64_t to_u = out->u * 65536 + 32768 - at->u[0], to_v = out->v * 65536 + 32768 - at->v[0]; /* 2^22 */
     int32_t depth = at->depth[0] + (int32_t)((across * to_u + down * to_v) >> 16);
     const uint16_t *texel = view->depth.d16 + out->v * view->tile_texels + out->u;
@@ -275,7 +279,8 @@ GN_HOT static inline uint32_t taps_say(int32_t filter, uint32_t mask, int32_t u_
 }
 
 /* Attenuations by the words of texels. */
-GN_HOT static void attenuation_by_words(gn_patch *p, const gn_patch_light *light, gn_row_value u, gn_row_value v, int32_t n)
+GN_HOT static void attenuation_by_words(gn_patch *p, const gn_patch_light *light, gn_row_value u, gn_row_value v,
+                                        int32_t n)
 {
     const gn_patch_texels *t = &light->texels;
     const int32_t filter = light->view->filter, taps = filter == GN_FILTER_3X3 ? 4 : 2;
@@ -283,7 +288,7 @@ GN_HOT static void attenuation_by_words(gn_patch *p, const gn_patch_light *light
     u.at += 32768 - taps * 32768 - t->u * 65536, v.at += 32768 - taps * 32768 - t->v * 65536; /* of the first tap */
     for (uint32_t *out = p->attenuation, *end = out + n; out < end; out++, u.at += u.step, v.at += v.step) {
         const int32_t left = gn_max32(0, gn_min32(u.at >> 16, t->w - taps)), /* roundings: up to a texel beyond */
-                      top = gn_max32(0, gn_min32(v.at >> 16, t->h - taps));
+            top = gn_max32(0, gn_min32(v.at >> 16, t->h - taps));
         const uint32_t *word = t->word + top;
         uint32_t mask = (word[0] >> left & ones) | (word[1] >> left & ones) << taps;
         if (taps == 4) mask |= (word[2] >> left & ones) << 8 | (word[3] >> left & ones) << 12;

@@ -27,7 +27,8 @@ GN_HOT static int32_t find_patch_level(gn_shading *s, const gn_texture *texture)
     if (!area) return 0;
     const uint64_t texels = (uint64_t)area * (gn_texture_size(texture, 0) * gn_texture_size(texture, 1)); /* 2^54 */
     gn_patch_face(s);
-    const int32_t level2 = gn_record_level2(&p->record, s->frame, p->view_q14, texels, 2 - 2 * p->of.object->mesh->uv_frac_bits);
+    const int32_t level2 =
+        gn_record_level2(&p->record, s->frame, p->view_q14, texels, 2 - 2 * p->of.object->mesh->uv_frac_bits);
     int32_t level = level2 < 0 ? 0 : (level2 + 1) >> 1, n = 0;
     while (n < level && ((gn_texture_size(texture, 0) | gn_texture_size(texture, 1)) >> n) > 1) n++;
     return n;
@@ -42,7 +43,8 @@ GN_HOT static int find_patch_axis(gn_patch *p, const int16_t *a, const int16_t *
                   less = p->texture->flags & GN_TEXTURE_BILINEAR ? 65536 - 256 : 0, limit = 12 + frac, up = 17 - frac;
     /* whole turns change nothing where a texture repeats */
     const int32_t turns = gn_texture_clamps(p->texture, axis) ? 0 : a[axis] & -(1 << frac);
-    const int32_t t0 = (a[axis] - turns) * size, t1 = (b[axis] - turns) * size, t2 = (c[axis] - turns) * size; /* 2^29 */
+    const int32_t t0 = (a[axis] - turns) * size, t1 = (b[axis] - turns) * size,
+                  t2 = (c[axis] - turns) * size; /* 2^29 */
     if ((gn_abs32(t0) | gn_abs32(t1) | gn_abs32(t2)) >> limit) return 0;
     gn_patch_set(&p->texel_q17[axis], t0 * (1 << up) - less, t1 * (1 << up) - less, t2 * (1 << up) - less);
     return 1;

@@ -1,4 +1,5 @@
-/* Patches: small triangles, shaded from their records. Values are known at the three corners and linear between them. */
+/* Patches: small triangles, shaded from their records. Values are known at the three corners and linear between them.
+ */
 #ifndef GN_PATCH_TYPES_H
 #define GN_PATCH_TYPES_H
 
@@ -30,23 +31,23 @@ typedef struct {
 /* A record on the screen. */
 typedef struct {
     const gn_tri *tri;
-    uint16_t vertex[3]; /* of the mesh, by corner */
-    uint8_t back;       /* seen from behind */
-    uint8_t deep;       /* weights need the corners' depths */
-    int32_t x0, y0;     /* the pixel that corner 0 lies in */
-    int32_t off[2];     /* from corner 0 to its centre, right and down, subpixel_bits fraction bits */
-    int32_t a[2], b[2]; /* from corner 0 to corners 1 and 2, likewise */
-    int32_t px;         /* the longer side of its box, pixels, rounded up */
-    uint32_t area;      /* twice its area, 2 subpixel_bits fraction bits */
-    uint32_t recip;     /* 2^47 over that, normalised: 16 bits */
-    int32_t clz;        /* leading zeros of the area */
-    uint32_t iz_q32[3]; /* near / Z at the corners */
+    uint16_t vertex[3];   /* of the mesh, by corner */
+    uint8_t back;         /* seen from behind */
+    uint8_t deep;         /* weights need the corners' depths */
+    int32_t x0, y0;       /* the pixel that corner 0 lies in */
+    int32_t off[2];       /* from corner 0 to its centre, right and down, subpixel_bits fraction bits */
+    int32_t a[2], b[2];   /* from corner 0 to corners 1 and 2, likewise */
+    int32_t px;           /* the longer side of its box, pixels, rounded up */
+    uint32_t area;        /* twice its area, 2 subpixel_bits fraction bits */
+    uint32_t recip;       /* 2^47 over that, normalised: 16 bits */
+    int32_t clz;          /* leading zeros of the area */
+    uint32_t iz_q32[3];   /* near / Z at the corners */
     uint32_t near_q14[2]; /* deep: near / Z of corners 1 and 2 over that of corner 0, at most 2 */
     int32_t z[3], z_up;   /* view depths at the corners, Q16 times 2^z_up */
 } gn_patch_record;
 
-/* Texels of a view that a triangle's pixels may read, and which of them may keep some pixel from the light: bit i of row
- * j is texel (u + i, v + j). */
+/* Texels of a view that a triangle's pixels may read, and which of them may keep some pixel from the light: bit i of
+ * row j is texel (u + i, v + j). */
 enum { GN_PATCH_TEXELS = 32 };
 typedef struct {
     int32_t u, v, w, h;
@@ -55,15 +56,15 @@ typedef struct {
 
 /* A light that pixels ask for: its shadow may fall on the triangle, or it ends there. */
 typedef struct {
-    const gn_light_view *view;     /* NULL: no shadow */
-    uint32_t colour[3];            /* of irradiance 1, 16 bits: times irradiance Q15 it is Q24 << down */
+    const gn_light_view *view; /* NULL: no shadow */
+    uint32_t colour[3];        /* of irradiance 1, 16 bits: times irradiance Q15 it is Q24 << down */
     int32_t down;
-    gn_patch_value irradiance_q15; /* of its own scale; below 0 where it faces away */
+    gn_patch_value irradiance_q15;          /* of its own scale; below 0 where it faces away */
     gn_patch_value u_q16, v_q16, depth_q30; /* the place in the view: texels, and a share of its range */
     int32_t has_words;
-    gn_patch_texels texels;        /* if it has */
-    int32_t fades;                 /* the shadow is not of full strength: */
-    gn_patch_value strength_q16;   /* the light's, less what fades with distance */
+    gn_patch_texels texels;      /* if it has */
+    int32_t fades;               /* the shadow is not of full strength: */
+    gn_patch_value strength_q16; /* the light's, less what fades with distance */
 } gn_patch_light;
 
 enum { GN_PATCH_LIGHTS = 3, GN_PATCH_NORMALS = 64 /* a power of two */ };
@@ -89,7 +90,7 @@ typedef struct {
     uint8_t patched;         /* its small triangles are patches */
     uint8_t receives, lit;
     int32_t to_world_q30[3][3]; /* of normals */
-    int32_t base_q24[3]; /* albedo times ambient, and light of its own that nothing dims; at most 2^27 */
+    int32_t base_q24[3];        /* albedo times ambient, and light of its own that nothing dims; at most 2^27 */
 } gn_patch_object;
 
 #if GN_SHADOWS && GN_AUTO_BIAS
@@ -107,20 +108,20 @@ enum { GN_REACH_UNKNOWN, GN_REACH_EVEN, GN_REACH_UNEVEN };
 typedef struct {
     gn_patch_object of;
     gn_patch_record record;
-    gn_tri again; /* of groups: the record, made again */
+    gn_tri again;                     /* of groups: the record, made again */
     int32_t view_q14[3], face_q30[3]; /* the face's normal towards the viewer: along the camera's axes, in the world */
     uint8_t has_face, smooth, tinted, textured, varies;
     uint8_t graded; /* colours differ between the corners */
     uint8_t n_lights;
-    uint8_t reach;              /* GN_REACH_*: of shadows, over the triangle */
-    int32_t cascade;            /* of the corners */
+    uint8_t reach;   /* GN_REACH_*: of shadows, over the triangle */
+    int32_t cascade; /* of the corners */
 #if GN_SHADOWS && GN_AUTO_BIAS
     int32_t sphere_down;
     gn_patch_sphere sphere[4];
 #endif
-    uint32_t strength_uq16[3];  /* of shadows at the corners */
-    int32_t from_q16[3][3];     /* from the spot or point light at hand to the corners, world axes */
-    int32_t colour_q24[3][3]; /* by channel, at the corners: light that pixels do not ask for */
+    uint32_t strength_uq16[3]; /* of shadows at the corners */
+    int32_t from_q16[3][3];    /* from the spot or point light at hand to the corners, world axes */
+    int32_t colour_q24[3][3];  /* by channel, at the corners: light that pixels do not ask for */
     gn_patch_value colour[3];
     gn_patch_light light[GN_PATCH_LIGHTS];
     gn_patch_value tint_q16[3]; /* colours of the vertices */

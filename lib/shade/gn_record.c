@@ -9,8 +9,8 @@
 #if GN_INTERPOLATES
 
 #define PART(n) (0xFFFFFFFFU / (n))
-const uint32_t gn_patch_parts_q32[GN_PATCH_ROW_PX] = {0,       PART(1), PART(2),  PART(3),  PART(4),  PART(5),
-                                                      PART(6), PART(7), PART(8),  PART(9),  PART(10), PART(11),
+const uint32_t gn_patch_parts_q32[GN_PATCH_ROW_PX] = {0,        PART(1),  PART(2),  PART(3), PART(4),  PART(5),
+                                                      PART(6),  PART(7),  PART(8),  PART(9), PART(10), PART(11),
                                                       PART(12), PART(13), PART(14), PART(15)};
 
 /* 2^47 / m of m in 2^31 .. 2^32, 15 to 16 bits: relative error below 2^-14.9, never more than 2^16 - 1. */
@@ -18,8 +18,7 @@ GN_HOT static inline uint32_t recip_16(uint32_t m)
 {
     uint32_t r;
     if (GN_CORE_DIVIDES) r = 0x7FFFFFFFU / (m >> 16);
-    else { /* the same floor, from the table and one step */
-        const uint32_t m16 = m >> 16;
+    else { /* the same floor, from the table and one step */ const uint32_t m16 = m >> 16;
         r = gn_recip_norm(m16 << 16, 1) >> 16;
         if (r * m16 > 0x7FFFFFFFU) r--;
         else if (0x7FFFFFFFU - r * m16 >= m16) r++;
@@ -71,7 +70,8 @@ GN_HOT int gn_record_begin(gn_patch_record *r, const gn_frame *frame, const gn_t
     const int32_t x0 = tri->x[0], y0 = tri->y[0];
     if (order == GN_TRI_CUT || order == GN_TRI_STEEP || gn_tri_is_bounded(tri)) return 0;
     const int32_t ax = tri->x[1] - x0, ay = tri->y[1] - y0, bx = tri->x[2] - x0, by = tri->y[2] - y0;
-    const int32_t w = gn_max32(gn_max32(ax, bx), 0) - gn_min32(gn_min32(ax, bx), 0), h = gn_max32(ay, by); /* 0 is top */
+    const int32_t w = gn_max32(gn_max32(ax, bx), 0) - gn_min32(gn_min32(ax, bx), 0),
+                  h = gn_max32(ay, by); /* 0 is top */
     r->px = (gn_max32(w, h) + one - 1) >> bits;
     if (r->px > GN_PATCH_PX) return 0;
     r->tri = tri;
@@ -132,7 +132,7 @@ GN_HOT void gn_patch_unit(int32_t v[3])
 {
     const int32_t down = 18 - gn_clz32(gn_abs32(v[0]) | gn_abs32(v[1]) | gn_abs32(v[2]) | 1U);
     int32_t n[3];
-    for (int i = 0; i < 3; i++) n[i] = down >= 0 ? v[i] >> down : v[i] * (1 << -down); /* below 2^14 */
+    for (int i = 0; i < 3; i++) n[i] = down >= 0 ? v[i] >> down : v[i] * (1 << -down);               /* below 2^14 */
     const uint32_t n2 = (uint32_t)(n[0] * n[0]) + (uint32_t)(n[1] * n[1]) + (uint32_t)(n[2] * n[2]); /* 3 * 2^28 */
     const int32_t up = gn_clz32(n2 | 1U) & ~1, more = up >> 1;
     const int32_t root = (int32_t)(gn_rsqrt_norm(n2 << up, 1) >> 1); /* 2^(46 - more) / length */
@@ -188,7 +188,8 @@ GN_HOT gn_patch_weights gn_record_weights(const gn_patch_record *r, const gn_fra
                   qy = (y - r->y0) * (1 << bits) + r->off[1];
     const uint32_t e1 = (uint32_t)(r->b[0] * qy - r->b[1] * qx), e2 = (uint32_t)(r->a[1] * qx - r->a[0] * qy);
     /* 0 up to the area: 16 bits each */
-    gn_patch_weights w = {{(int32_t)((e1 << r->clz >> 16) * r->recip >> 16), (int32_t)((e2 << r->clz >> 16) * r->recip >> 16)}};
+    gn_patch_weights w = {
+        {(int32_t)((e1 << r->clz >> 16) * r->recip >> 16), (int32_t)((e2 << r->clz >> 16) * r->recip >> 16)}};
     if (!r->deep) return w;
     const uint32_t w1 = (uint32_t)w.of[0] * r->near_q14[0] >> 14, w2 = (uint32_t)w.of[1] * r->near_q14[1] >> 14,
                    all = 32768U - (uint32_t)(w.of[0] + w.of[1]) + w1 + w2; /* 2^14 .. 2^16 */

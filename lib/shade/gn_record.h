@@ -8,8 +8,8 @@
 
 #if GN_INTERPOLATES
 
-/* Returns 0 if its box is larger than GN_PATCH_PX, it was cut, its plane of near / Z is not known, or depth doubles over
- * it. */
+/* Returns 0 if its box is larger than GN_PATCH_PX, it was cut, its plane of near / Z is not known, or depth doubles
+ * over it. */
 int gn_record_begin(gn_patch_record *r, const gn_frame *frame, const gn_tri *tri);
 
 /* View depths at the corners. */
@@ -34,8 +34,8 @@ void gn_record_places(const gn_patch_record *r, const gn_frame *frame, const gn_
 /* The weights at the centre of pixel (x, y), which the triangle covers. */
 gn_patch_weights gn_record_weights(const gn_patch_record *r, const gn_frame *frame, int32_t x, int32_t y);
 
-/* floor(log2 of how many texels there are to a pixel where it is stretched most): twice the triangle's area in texels is
- * texels * 2^log2. */
+/* floor(log2 of how many texels there are to a pixel where it is stretched most): twice the triangle's area in texels
+ * is texels * 2^log2. */
 int32_t gn_record_level2(const gn_patch_record *r, const gn_frame *frame, const int32_t view_q14[3], uint64_t texels,
                          int32_t log2);
 

@@ -278,8 +278,7 @@ GN_NOINLINE void gn_screen_triangle(const gn_screen_job *job, const gn_projected
     GN_ELEMENT(frame);
     grid_triangle t;
     if (!order_corners(&t, job, p0, p1, p2)) return;
-    const gn_rect bounds =
-        gn_setup_bounds_of(frame, t.left, t.right, t.a.y, t.bottom, job->add_px[0], job->add_px[1]);
+    const gn_rect bounds = gn_setup_bounds_of(frame, t.left, t.right, t.a.y, t.bottom, job->add_px[0], job->add_px[1]);
     if (bounds.x0 >= bounds.x1 || bounds.y0 >= bounds.y1) return;
 #if GN_GROUPS
     if (GN_K(frame, triangle_groups)) {

@@ -233,7 +233,6 @@ int engine_fixed(engine_picture *out, const scene *s, const settings *set, int w
     count_reset();
     if (!failed) failed = draw_panel(&j, picture, out->rgb8);
     out->counts = count_get();
-    if (getenv("CNT")) for (int i = 0; i < GN_COUNT_N; i++) if (out->counts.n[i]) fprintf(stderr, "%s %lu\n", count_name[i], (unsigned long)out->counts.n[i]);
     if (!failed) {
         out->stats = *lib->get_stats(renderer);
         failed = copy_atlas(&j, out, what);
