@@ -113,9 +113,9 @@ GN_HOT static inline int place_points(const gn_surface *s, const gn_light_view *
     GN_UNROLL
     for (int i = 0; i < 3; i++) {
         wide |= ((uint32_t)s->lo_q16[i] + (1U << 30 >> up)) | ((uint32_t)s->hi_q16[i] + (1U << 30 >> up));
-        v[0][i] = s->v_q16[0][i] * (1 << up);
-        v[1][i] = s->v_q16[1][i] * (1 << up);
-        v[2][i] = s->v_q16[2][i] * (1 << up);
+        v[0][i] = (int32_t)((uint32_t)s->v_q16[0][i] << up);
+        v[1][i] = (int32_t)((uint32_t)s->v_q16[1][i] << up);
+        v[2][i] = (int32_t)((uint32_t)s->v_q16[2][i] << up);
     }
     if (wide >> (31 - up)) return 0;
     for (int i = 0; i < 3; i++) {
