@@ -49,21 +49,22 @@ shipped() {
     SCENES=${asked:-100000} record $? shipped
 }
 
-# by_coverage TARGET: test_TARGET as a libFuzzer. What it has reached is kept in build/soak/corpus for the next time; an input that fails is named in its output
+# by_coverage NAME TARGET: test_TARGET as a libFuzzer. What it has reached is kept in build/soak/corpus for the next time; an input that fails is named in its output
 by_coverage() {
-    minutes=${MINUTES:-60} corpus=$build/corpus/$1
+    minutes=${MINUTES:-60} corpus=$build/corpus/$1 program=$build/fuzz/test_$2
     echo "fuzz-$1: seed $SEED, $minutes minutes"
-    start=$(date +%s)
     mkdir -p "$corpus"
-    if ! make -s -j2 $build/fuzz/test_"$1" BUILD=$build/fuzz CC=clang OPT=-O1 WERROR= \
+    if ! make -s -j2 "$program" BUILD=$build/fuzz CC=clang OPT=-O1 WERROR= \
         SAN="-fsanitize=fuzzer,address,undefined -fno-sanitize-recover=all -DLIBFUZZER" >$build/make 2>&1; then
         tail -n 5 $build/make
         failed=$((failed + 1))
         return
     fi
     seeds=
-    [ "$1" != fuzz ] || seeds=build/tmp/fuzz/seeds && mkdir -p build/tmp/fuzz/seeds
-    $build/fuzz/test_"$1" -seed="$SEED" -max_total_time=$((60 * minutes)) -max_len=16384 -len_control=0 -timeout=60 -print_final_stats=1 \
+    [ "$1" != files ] || seeds=build/tmp/fuzz/seeds
+    [ -z "$seeds" ] || mkdir -p $seeds
+    start=$(date +%s)
+    "$program" -seed="$SEED" -max_total_time=$((60 * minutes)) -max_len=16384 -len_control=0 -timeout=60 -print_final_stats=1 \
         -artifact_prefix="$build/fuzz/$1-" "$corpus" $seeds >"$build/fuzz-$1.out" 2>&1
     status=$?
     grep -a -E 'ERROR|runtime error|failed:|Test unit written' "$build/fuzz-$1.out" | head -n 5
@@ -80,8 +81,8 @@ fuzz() {
         echo "$(date -u +%Y-%m-%d) fuzz left out: there is no clang with libFuzzer (Debian: clang libclang-rt-dev)" | tee -a build/soak.log
         return
     fi
-    by_coverage random
-    by_coverage fuzz # files
+    by_coverage scenes random
+    by_coverage files fuzz
 }
 
 machines() {
