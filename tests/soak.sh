@@ -4,7 +4,7 @@
 #
 # random    10^6 random scenes: nothing undefined, nothing changed that was kept (tests/property/test_random.c), some minutes
 # shipped   10^5 random scenes of each configuration that ships, and with poisoned gaps in the state (tests/property/test_shipped.sh), half an hour
-# fuzz      API and files by coverage, with the libFuzzer of Clang (tests/property/test_random.c, tests/tool/test_fuzz.c), MINUTES=60 each; left out where Clang has none
+# fuzz      scenes and files by coverage, where Clang has libFuzzer (tests/property/test_random.c, tests/tool/test_fuzz.c), MINUTES=60 each
 # extremes  20000 random scenes against the reference (tests/oracle/test_extremes_many.c), about an hour
 # census    planes at 100 times as many angles (tests/oracle/test_census.c)
 # culling   casters left out at many more places (tests/property/test_culling.c)
