@@ -580,7 +580,7 @@ static void random_knobs(gn_frame *k)
     }
 }
 
-static void random_scene_end(random_scene *g)
+static inline void random_scene_end(random_scene *g)
 {
     for (int i = 0; i < RANDOM_TEXTURES; i++) free(g->texels[i]), free(g->palette[i]);
 }
