@@ -55,7 +55,7 @@ const option options[] = {
      "the most RAM: of the renderer (advise), of everything (compile, info)"},
     {"--flash", BY_COMPILE | BY_INFO, "BYTES", "a number of bytes from 1 to 1000000000", "the most flash"},
     {"--optimise", BY_COMPILE | BY_INFO, "-Os|-O2", "-Os, -O2, ...",
-     "how the library is built, for the estimate of flash (as the board says)"},
+     "how the library is built, for the estimate of flash (as board.mk says; else -O2)"},
     {"--margin", BY_COMPILE | BY_INFO, "PERCENT", "per cent from 0 to 1000",
      "capacity for more triangles and tile references than the frames took (10)"},
     {"--simplify", BY_COMPILE, "HOW", "none, safe or path",

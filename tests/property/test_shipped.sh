@@ -40,6 +40,16 @@ random least lib -DGN_PRESET=GN_PRESET_TINY -DGN_PUNCTUAL_LIGHTS=0 -DGN_CASTER_C
 random compact lib -DGN_COMPACT=1
 random compact-short lib -DGN_COMPACT=1 -DGN_SIZE_FIRST=1 -DGN_POSITION_BITS=16
 
+# By coverage, shortly: that the target works. make soak lets it run.
+if ! clang -fsanitize=fuzzer -std=c11 -w -g1 -O0 -fsanitize=address,undefined -fno-sanitize-recover=all -DLIBFUZZER -D_POSIX_C_SOURCE=200809L -Ilib -Itests/support \
+    -DGN_PRESET=GN_PRESET_FAST -DGN_ATLAS_SIZE=32 -DGN_OTHER_ATLAS_SIZE=32 -o "$tmp/fuzz" lib/gnomon.c tests/property/test_random.c -lm 2>"$tmp/log"; then
+    if grep -q 'clang_rt.fuzzer' "$tmp/log"; then echo "left out: fuzzing by coverage, as this clang has no libFuzzer"
+    else fail "fuzz does not build: $(grep -m 1 -E 'error|undefined' "$tmp/log")"; fi
+elif mkdir "$tmp/corpus" && "$tmp/fuzz" -runs=$((scenes / 2)) -seed=1 -max_len=4096 -len_control=0 -artifact_prefix="$tmp/" "$tmp/corpus" >"$tmp/out" 2>&1; then
+    [ "$(ls "$tmp/corpus" | wc -l)" -gt 20 ] && pass || fail "fuzz: only $(ls "$tmp/corpus" | wc -l) inputs reach other code"
+else fail "fuzz: $(grep -a -m 3 -E 'failed|ERROR|error|other pixels' "$tmp/out" | tr '\n' ';')"; fi
+rm -f "$tmp/fuzz"
+
 # An overrun from one array of the state into the next is one into a gap.
 cp -r lib "$tmp/lib"
 awk '/^typedef struct gn_(frame|scratch) \{/ { of = $3; sub(/^gn_/, "", of) }

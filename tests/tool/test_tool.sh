@@ -104,7 +104,7 @@ for bias in bias_constant=64 bias_slope=9 bias_caster=4 auto_bias=off bias_norma
     cmp -s "$tmp/a.png" "$tmp/without.png" && pass || fail "$bias is not mended by: $mend"
 done
 good info "$cube" --size 64x48 --ram 100000
-grep -q 'of flash (Cortex-M0), no --flash given$' "$tmp/out" && pass || fail "info without --flash: $(tail -n 1 "$tmp/out")"
+grep -q 'of flash (Cortex-M0, -O2), no --flash given$' "$tmp/out" && pass || fail "info without --flash: $(tail -n 1 "$tmp/out")"
 # who set what: a preset sets what belongs to it anew, and a later one of the same name wins
 settings() { # WANTED ARGS: the row of info
     wanted=$1

@@ -1,6 +1,12 @@
 /* The steps of gnomon compile from the scene file to the configuration and the data; other files write the C files. */
 #include "compile.h"
 
+/* As boards/boards.mk builds, unless told otherwise. */
+const char *compile_optimisation(const tool_options *o)
+{
+    return o->optimise ? o->optimise : "-O2";
+}
+
 /* The memory that the scene must fit, from --board, --ram and --flash. Without a board a Cortex-M0 with 1 GB, so that
  * only what is given limits. Returns 1 if anything was given, 0 if not, -1 on an error. */
 int compile_read_board(const tool_options *o, board *out, char *error, size_t bytes)
@@ -8,7 +14,7 @@ int compile_read_board(const tool_options *o, board *out, char *error, size_t by
     *out = (board){
         .name = "", .ram = 1L << 30, .flash = 1L << 30, .stack = 1536, .core = FLASH_CORTEX_M0, .short_enums = true};
     if (o->board && board_read(out, o->board, error, bytes)) return -1;
-    if (o->optimise) board_set_optimisation(out, o->optimise);
+    if (o->optimise || !o->board) board_set_optimisation(out, compile_optimisation(o));
     if (o->ram) out->ram = o->ram;
     if (o->flash) out->flash = o->flash;
     return o->board || o->ram || o->flash;

@@ -224,6 +224,7 @@ bool compile_try_compact(compiled *c, tool_options *own, const board *b, char *r
 
 /* compile.c: all of it but the files; 1: there is a board, 0: none was requested, -1. */
 int compile_all(compiled *c, const tool_options *o, char *error, size_t error_bytes);
+const char *compile_optimisation(const tool_options *o); /* -O2, -Os: how a library for no named board is built */
 int compile_read_board(const tool_options *o, board *out, char *error, size_t error_bytes);
 
 /* How much may go: of what is open, nothing that a program might come to show. */

@@ -19,7 +19,7 @@ compile_memory compile_measure(const compiled *c, const board *b)
 {
     compile_memory m = {.data = compile_flash_bytes(c, true), .state = compile_state_bytes(c, b->short_enums)};
     m.renderer = settings_ram(&c->set).total - (b->short_enums ? compile_short_enums_less(c) : 0);
-    m.code = flash_estimate(&c->set, b->core) * (b->code_percent ? b->code_percent : 100) / 100 + b->own_flash;
+    m.code = flash_estimate(&c->set, b->core) * board_code_percent(b, c->set.build.compact) / 100 + b->own_flash;
     return m;
 }
 
