@@ -44,7 +44,6 @@ GN_HOT void gn_punctual_setup(gn_frame *frame, uint32_t light_idx)
 {
     const gn_light *from = &frame->scene->lights[light_idx];
     gn_light_state *light = &frame->light[light_idx];
-    GN_ELEMENT(light);
     const gn_cam *cam = &frame->cam;
     int32_t offset[3];
     normalise_colour(light, from);

@@ -142,7 +142,7 @@ GN_HOT static void find_light_slopes(gn_facet *f, gn_facet_light *out, const uin
 }
 
 /* Adds a light. Returns 0 if the triangle is to be shaded by cells. */
-GN_HOT static GN_SHARED int add_vertex_light(gn_facet *f, uint32_t slot)
+GN_HOT static inline int add_vertex_light(gn_facet *f, uint32_t slot)
 {
     const gn_surface_light *light = &f->s->surface.light[slot];
     const gn_lattice_light *lattice_light = &f->s->lattice.light[slot];

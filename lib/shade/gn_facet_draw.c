@@ -89,7 +89,7 @@ GN_HOT static void begin_nodes(const gn_facet *f, const gn_facet_look *look, int
 }
 
 /* The colours of n pixels from (x, y) of the picture on, a node each. */
-GN_HOT static GN_SHARED void light_pixels(const gn_facet *f, const gn_facet_look *look, int32_t x, int32_t y, int32_t n)
+GN_HOT static inline void light_pixels(const gn_facet *f, const gn_facet_look *look, int32_t x, int32_t y, int32_t n)
 {
     gn_lattice *l = &f->s->lattice;
     int32_t right = x - f->screen.x0, down = y - f->screen.y0;
@@ -324,7 +324,7 @@ GN_HOT static int shows_bend(const gn_facet *f, int tinted)
 }
 
 /* Sets what varies. Returns 0 if something is too steep, or bent. */
-GN_HOT static GN_SHARED int find_look(gn_facet *f, gn_facet_look *look)
+GN_HOT static inline int find_look(gn_facet *f, gn_facet_look *look)
 {
     int32_t one[3] = {1 << 22, 1 << 22, 1 << 22}, above[3];
     const int32_t(*colour)[3] = (const int32_t(*)[3])f->colour_q24;

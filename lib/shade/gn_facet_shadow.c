@@ -321,8 +321,8 @@ GN_HOT static GN_NOINLINE int plane_is_lit(const gn_frame *frame, const gn_light
 }
 
 /* What depth bounds of the texels say of all pixels between the vertices: GN_CELL_SPLIT if that does not fit. */
-GN_HOT static GN_SHARED int judge(const gn_frame *frame, const gn_light_view *view, const vertex_places *p,
-                                  const int32_t slope_q28[2])
+GN_HOT static inline int judge(const gn_frame *frame, const gn_light_view *view, const vertex_places *p,
+                               const int32_t slope_q28[2])
 {
     receiver_plane r = {.p = p};
     int32_t *lo = r.lo, *hi = r.hi;

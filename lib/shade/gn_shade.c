@@ -26,7 +26,6 @@ typedef gn_shading shading;
 GN_HOT static uint32_t constant_pixel(gn_shading *s)
 {
     gn_sample *sample = &s->sample;
-    GN_ELEMENT(sample);
     uint32_t radiance_q20[3];
     sample->cascade = GN_CASCADE_NONE;
     for (uint32_t i = 0; i < s->surface.n_lights; i++)
@@ -108,7 +107,7 @@ GN_HOT static void shade_spans(gn_shading *s, gn_run_taker *taker)
 #endif
 
 /* The triangle's runs from the one on that is taken, of one colour or pixel by pixel. */
-GN_HOT static GN_SHARED void shade_runs(gn_shading *s, gn_run_taker *taker, int constant)
+GN_HOT static inline void shade_runs(gn_shading *s, gn_run_taker *taker, int constant)
 {
     const uint32_t stride = (uint32_t)GN_K(s->frame, tile_width);
     uint32_t packed = 0;
@@ -410,7 +409,6 @@ GN_HOT static void clear_background(gn_shading *s)
 GN_HOT void gn_shade_tile(const gn_frame *frame, gn_scratch *scratch, uint32_t tile_idx)
 {
     shading *s = &scratch->work.shading;
-    GN_ELEMENT(s);
     s->frame = frame;
     s->scratch = scratch;
     s->rect = gn_screen_rect(frame, tile_idx);

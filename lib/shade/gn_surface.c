@@ -104,7 +104,6 @@ static void vertex_normal(int32_t out_q30[3], const gn_surface_cache *cache, gn_
         return;
     }
     gn_vertex_entry *entry = &vertex[gn_vertex_slot(vertex_idx, GN_VERTEX_CACHE - 1)];
-    GN_ELEMENT(entry);
     uint32_t tag = gn_vertex_tag(object_idx, vertex_idx);
     if (!gn_vertex_hit(entry, tag)) {
         gn_surface_normal(entry->v_q16, cache->normal_matrix, nrm_q15);
@@ -302,7 +301,6 @@ static void begin_lighting(const gn_frame *frame, const gn_surface_cache *cache,
     const gn_scene *scene = frame->scene;
     int unlit = without_light(frame, s);
     const uint32_t *albedo = s->albedo_uq16;
-    GN_ELEMENT(albedo);
     GN_UNROLL
     for (int c = 0; c < 3; c++) /* 2^17 * 2^24 */
         s->base_q20[c] =

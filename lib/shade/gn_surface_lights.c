@@ -89,7 +89,6 @@ static void directional_lights(const gn_frame *frame, gn_surface *s)
 {
     for (uint32_t l = 0; l < frame->scene->n_lights; l++) {
         const gn_light_state *light = &frame->light[l];
-        GN_ELEMENT(light);
         if (light->kind != GN_LIGHT_DIRECTIONAL || light->off) continue;
         if (!GN_SMOOTH(s)) {
             int32_t cosine = (int32_t)gn_shr64(gn_dot64(s->normal_q30[0], light->to_light_q30), 36);

@@ -156,7 +156,6 @@ static void add_view(gn_frame *frame, uint32_t light_idx, const gn_tile_plan *pl
                      uint32_t *first_texel)
 {
     gn_light_view *view = &frame->view[frame->n_views];
-    GN_ELEMENT(view);
     view->stale = 0;
     if (GN_INCREMENTAL && plan->cascaded) view->stale = (uint8_t)stays(frame, frame->n_views, light_idx, cascade_idx);
     frame->n_views++;

@@ -34,7 +34,7 @@ GN_HOT static inline uint32_t gn_rounded_depth(uint32_t depth_q32, int32_t dropp
 }
 
 /* least_q32 at a texel of the tile, at most 64 + 1023 texels away in each axis: 2^50 and twice 2^44. */
-GN_HOT static GN_SHARED int64_t gn_least_on_plane(const gn_lookup *l, int32_t u, int32_t v)
+GN_HOT static inline int64_t gn_least_on_plane(const gn_lookup *l, int32_t u, int32_t v)
 {
     int32_t du = u - (l->u_q16 >> 16), dv = v - (l->v_q16 >> 16);
     return l->least_q32 + (int64_t)l->slope_q28[0] * (16 * du) + (int64_t)l->slope_q28[1] * (16 * dv);

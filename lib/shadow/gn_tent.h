@@ -152,8 +152,8 @@ GN_INLINE uint32_t gn_tent_of_dark_inline(const uint8_t *dark, int32_t k, int32_
 
 /* Attenuation of a lookup with both dark and lit texels, a byte of `dark` per row, by the scene's kernel of index k.
  * cu, cv: the receiver, half a texel down and right, Q16, of which the fraction counts. */
-GN_HOT static GN_SHARED uint32_t gn_tent_of_dark(const gn_frame *frame, const uint8_t *dark, int32_t k, int32_t cu,
-                                                 int32_t cv, int32_t bits)
+GN_HOT static inline uint32_t gn_tent_of_dark(const gn_frame *frame, const uint8_t *dark, int32_t k, int32_t cu,
+                                              int32_t cv, int32_t bits)
 {
     if (GN_LINEAR_KERNELS && frame->scene->shadow.kernel == GN_KERNEL_LINEAR)
         return gn_linear_attenuation(dark, k, cu, cv, bits);
@@ -173,7 +173,7 @@ GN_HOT static inline int gn_tent_on_plane(const gn_lookup *l, int32_t u, int32_t
 }
 
 /* Texel by texel. With GN_SIZE_FIRST its arrays are not on the stack while bounds decide. */
-GN_HOT static GN_SHARED uint32_t gn_tent_by_texels(const gn_frame *frame, const gn_lookup *l, int32_t k, int32_t bits)
+GN_HOT static inline uint32_t gn_tent_by_texels(const gn_frame *frame, const gn_lookup *l, int32_t k, int32_t bits)
 {
     int32_t cu = l->u_q16 + 32768, cv = l->v_q16 + 32768, n = 2 * (k + 1);
     int32_t u0 = (cu >> 16) - (k + 1), v0 = (cv >> 16) - (k + 1);

@@ -166,7 +166,6 @@ static inline void count_tiles(const gn_screen_job *job, const gn_rect *px)
 {
     gn_tile_walk tiles = gn_setup_tiles(job->frame, px); /* of some tiles */
     gn_ref_offset *at = job->tile_first + tiles.first;
-    GN_ELEMENT(at);
     do {
         int32_t n = tiles.width;
         do ++*at++;
@@ -238,7 +237,6 @@ GN_NOINLINE void gn_screen_triangle(const gn_screen_job *job, const gn_projected
                                     const gn_projected *p2, uint32_t triangle_idx)
 {
     const gn_frame *frame = job->frame;
-    GN_ELEMENT(frame);
     int32_t bits = GN_K(frame, subpixel_bits);
     grid_corner a = on_grid(p0, bits), b = on_grid(p1, bits), c = on_grid(p2, bits), swap;
     int64_t area = (int64_t)(b.x - a.x) * (c.y - a.y) - (int64_t)(c.x - a.x) * (b.y - a.y);
