@@ -178,9 +178,6 @@
 #ifndef GN_MAIN_LIGHT
 #define GN_MAIN_LIGHT (!GN_COMPACT)
 #endif
-#ifndef GN_TILE_LIGHTS
-#define GN_TILE_LIGHTS (!GN_COMPACT)
-#endif
 #ifndef GN_CASTER_CULLING
 #define GN_CASTER_CULLING (!GN_COMPACT)
 #endif

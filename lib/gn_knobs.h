@@ -104,7 +104,6 @@
     X(punctual_lights, PUNCTUAL_LIGHTS, 0, 1, "spot and point lights", "flash; the local-light atlas")                 \
     X(main_light, MAIN_LIGHT, 0, 1, "a main light with cascades; other directional lights take one tile each",         \
       "flash; the local-light atlas")                                                                                  \
-    X(tile_lights, TILE_LIGHTS, 0, 1, "lists of lights per screen tile", "flash; the same picture with and without")   \
     X(caster_culling, CASTER_CULLING, 0, 1,                                                                            \
       "casters whose shadows lie wholly in a smaller cascade are not drawn into larger ones", "flash")                 \
     X(caster_alpha, CASTER_ALPHA, 0, 1, "casters cut by alpha: clip and dither", "flash")                              \

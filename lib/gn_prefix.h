@@ -248,7 +248,6 @@
 #define gn_prepare GN_PREFIXED_(GN_PREFIX, gn_prepare)
 #define gn_punctual_at GN_PREFIXED_(GN_PREFIX, gn_punctual_at)
 #define gn_punctual_cosine_q30 GN_PREFIXED_(GN_PREFIX, gn_punctual_cosine_q30)
-#define gn_punctual_in_tile GN_PREFIXED_(GN_PREFIX, gn_punctual_in_tile)
 #define gn_punctual_irradiance_q24 GN_PREFIXED_(GN_PREFIX, gn_punctual_irradiance_q24)
 #define gn_punctual_setup GN_PREFIXED_(GN_PREFIX, gn_punctual_setup)
 #define gn_punctual_weight GN_PREFIXED_(GN_PREFIX, gn_punctual_weight)

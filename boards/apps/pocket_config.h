@@ -26,7 +26,6 @@
 #define GN_LINEAR_KERNELS   0
 #define GN_PUNCTUAL_LIGHTS  0
 #define GN_MAIN_LIGHT       0
-#define GN_TILE_LIGHTS      0
 #define GN_CASTER_CULLING   0
 #define GN_CASTER_ALPHA     0
 #define GN_VISIBLE_ALPHA    0

@@ -424,7 +424,6 @@ GN_HOT void gn_shade_tile(const gn_frame *frame, gn_scratch *scratch, uint32_t t
 #if GN_INTERPOLATES
     gn_lattice_begin_tile(s);
 #endif
-    s->cache.lights = GN_PUNCTUAL_LIGHTS && GN_TILE_LIGHTS ? gn_punctual_in_tile(frame, &s->rect) : UINT64_MAX;
     for (uint32_t i = 0; i < GN_VERTEX_CACHE; i++) gn_vertex_drop(&scratch->vertex[i]);
     if (links) shade_triangles(s, tile_idx);
     if (GN_LAYERS(frame) && coloured) shade_layers(s, tile_idx);

@@ -296,7 +296,7 @@ static void emitted_light(const gn_frame *frame, gn_surface *s)
 }
 
 /* Albedo times ambient and light colours, and everything that a constant normal lets precompute. */
-static void begin_lighting(const gn_frame *frame, const gn_surface_cache *cache, gn_surface *s)
+static void begin_lighting(const gn_frame *frame, gn_surface *s)
 {
     const gn_scene *scene = frame->scene;
     int unlit = without_light(frame, s);
@@ -310,7 +310,7 @@ static void begin_lighting(const gn_frame *frame, const gn_surface_cache *cache,
     s->n_lights = s->n_punctual = 0;
     s->n_values = GN_VALUE_LIGHT;
     if (unlit) return;
-    gn_surface_list_lights(frame, cache, s);
+    gn_surface_list_lights(frame, s);
     s->n_values = (int16_t)(GN_VALUE_LIGHT + GN_VALUES_PER_LIGHT * s->n_lights);
     for (uint32_t i = 0; i < s->n_lights; i++)
         for (int c = 0; c < 3; c++)
@@ -439,7 +439,7 @@ void gn_surface_begin(const gn_frame *frame, gn_scratch *scratch, const gn_surfa
 #if !GN_INTERPOLATES
     find_depth(frame, s, v);
 #endif
-    begin_lighting(frame, cache, s);
+    begin_lighting(frame, s);
 }
 
 #if GN_INTERPOLATES

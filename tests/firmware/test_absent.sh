@@ -59,7 +59,6 @@ without() { whole "all-$1" "$1"; }
 under() {
     case $1 in
     CLIPPING | CLIPS | PICKING | SHADOWS | PUNCTUAL_LIGHTS | *VISIBLE* | TEXTURES | SPECULAR | EMISSIVE | ORTHOGRAPHIC | MASKS | BAKED* | VERTEX* | RAW* | VALID* | *FORMATS | TILE_DRAWING) ;;
-    TILE_LIGHTS) echo PUNCTUAL_LIGHTS ;;
     TEXTURE_LEVELS) echo TEXTURES ;;
     EMISSIVE_TEXTURES) echo TEXTURES EMISSIVE ;;
     LINEAR_KERNELS | DEPTH_BLOCKS) echo SHADOWS FILTER_MAX ;;
@@ -122,7 +121,6 @@ DISK_FILTER gn_disk_.*|disk.*
 CASTER_CULLING gn_cull_shown_nearer
 CASTER_ALPHA alpha_plane
 VISIBLE_ALPHA cut_begin|cut_row
-TILE_LIGHTS gn_punctual_in_tile
 TEXTURE_FORMATS gn_linear_(31|63)_table|gn_texel_decode_.*
 TEXTURE_LEVELS gn_texture_(level_at|level_depth2|use_level)
 TEXTURES gn_texture_colour|gn_alpha_coords|gn_srgb_decode_table

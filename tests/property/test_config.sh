@@ -62,12 +62,11 @@ pairs() {
         *FILTER* | *CASC* | *BIAS | *PLANE | MAIN* | INCREM* | STATIC* | *BLOCKS | CASTER* | LINEAR* | TILE_IMP* | OBJECT_B*)
             idle="$idle $feature=$value"
             more "none SHADOWS=1 $feature=$value" ;;
-        TILE_LIGHTS) more "none PUNCTUAL_LIGHTS=1 TILE_LIGHTS=1" ;;
         *) more "none $feature=$value" ;;
         esac
         more "all $feature=0" # tests/firmware/test_absent.sh builds these: nothing undefined is left
     done
-    echo "none TILE_LIGHTS=1 $idle"
+    echo "none $idle"
     echo "all VALIDATION=0"
     more "none SHADOWS=1 VALIDATION=0 tiny SRGB=0"
     for cut in VISIBLE_ALPHA CASTER_ALPHA MASKS; do
@@ -217,6 +216,7 @@ refused vertex_cache -DGN_VERTEX_CACHE=33
 refused tile_width -DGN_TILE_WIDTH=68
 refused triangle_groups_have_tiles "-DGN_TRIANGLE_GROUPS=1 -DGN_TILE_WIDTH=8 -DGN_TILE_HEIGHT=1 -DGN_MAX_HEIGHT=100"
 refused triangle_groups_have_up_to_128 "-DGN_TRIANGLE_GROUPS=1 -DGN_TILE_HEIGHT=1"
+for gone in TILE_LIGHTS; do refused "knob that is gone" "-DGN_$gone=0"; done
 refused transparent_layers_need_visible_alpha "-DGN_TRANSPARENT_LAYERS=1 -DGN_VISIBLE_ALPHA=0"
 
 # ---- The user's own header; C++ --------------------------------------------------------------------------------------------

@@ -317,7 +317,6 @@ static void begin_tile(gn_shading *s, uint32_t tile_idx)
     s->last_pixel = gn_pixel_pack(s->frame, s->last_q20);
     s->cache.object = NULL;
     gn_lattice_begin_tile(s);
-    s->cache.lights = GN_PUNCTUAL_LIGHTS && GN_TILE_LIGHTS ? gn_punctual_in_tile(s->frame, &s->rect) : UINT64_MAX;
     for (uint32_t i = 0; i < GN_VERTEX_CACHE; i++) s->scratch->vertex[i].tag = 0;
 }
 

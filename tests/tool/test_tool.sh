@@ -529,7 +529,7 @@ bad 1 'max_lights is 2' compare "$cube" --size 8x8 --set lights=spot,point,spot 
 bad 1 'surface_lights is 1' compare "$cube" --size 8x8 --set lights=directional,directional --set surface_lights=1
 good compare "$cube" --size 8x8 --set lights=directional,directional --set surface_lights=2 --set max_lights=2 --set max_objects=2
 good info "$cube" --size 8x8 --set receiver_plane=0 --set receiver_plane@0=1 # what one light uses is built
-for knob in raw_views runtime_knobs depth_blocks tile_lights incremental static_layer caster_culling; do
+for knob in raw_views runtime_knobs depth_blocks incremental static_layer caster_culling; do
     for on in 0 1; do
         good render "$cube" -o "$tmp/b.png" --size 64x48 --set $knob=$on --set shadows=1
         [ $on = 0 ] && mv "$tmp/b.png" "$tmp/a.png"
@@ -537,6 +537,7 @@ for knob in raw_views runtime_knobs depth_blocks tile_lights incremental static_
     cmp -s "$tmp/a.png" "$tmp/b.png" && pass || fail "$knob changes the picture"
 done
 rm -f "$tmp/a.png" "$tmp/b.png"
+bad 1 "setting 'tile_lights' is gone: " info "$cube" --size 8x8 --set tile_lights=1
 sed 's/{"attributes"/{"material":0,"attributes"/; s/"accessors"/"materials":[{"pbrMetallicRoughness":{"baseColorFactor":[0,0,0,1]}}],"accessors"/; s/{"byteLength":36}\]/{"byteLength":36,"uri":"black.bin"}]/' >"$tmp/black.gltf" <<EOF_JSON
 $json
 EOF_JSON

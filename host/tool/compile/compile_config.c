@@ -270,8 +270,7 @@ static void choose_features(compiled *c)
 static void choose_speed(compiled *c)
 {
     settings *s = &c->set;
-    size_t punctual = 0, scheduled = 0;
-    for (uint32_t i = 0; i < c->fixed.scene.n_lights; i++) punctual += c->fixed.lights[i].kind != GN_LIGHT_DIRECTIONAL;
+    size_t scheduled = 0;
     for (int i = 0; i < 4; i++) scheduled += c->fixed.scene.shadow.refresh[i] > 1;
     if (!s->feature.shadows) {
         s->feature.depth_blocks = s->feature.static_layer = 0;
@@ -279,8 +278,6 @@ static void choose_speed(compiled *c)
     }
     because(c, "depth_blocks",
             s->feature.depth_blocks ? "faster shadows, the same picture" : "no shadows, or not wanted");
-    if (punctual < 2) s->feature.tile_lights = 0;
-    because(c, "tile_lights", "%zu spot and point lights", punctual);
     if (!s->feature.shadows || !c->run.culled) s->feature.caster_culling = 0;
     because(c, "caster_culling", "casters left out of larger cascades, all frames: %zu", c->run.culled);
     if (!s->feature.shadows || (!c->kept_tiles && !scheduled)) s->feature.incremental = 0;

@@ -78,7 +78,6 @@ long flash_estimate(const settings *s, flash_core core)
     if (s->feature.validation) bytes += validation_bytes[core];
     if (s->feature.clipping) bytes += clipping_bytes[core];
     if (s->feature.other_formats) bytes += other_formats_bytes[core];
-    if (s->feature.tile_lights) bytes += tile_lights_bytes[core];
     if (!s->quality.srgb) bytes += linear_bytes[core];
     if (s->quality.persp_step == 1 && s->feature.shadows) bytes += preset_accurate_bytes[core];
     return bytes;

@@ -13,7 +13,6 @@ FLASH(disk_filter, 1536, 1384)             /* with */
 FLASH(linear_kernels, 312, 156)            /* with */
 FLASH(punctual_lights, 18836, 17488)       /* with */
 FLASH(main_light, 408, 424)                /* with */
-FLASH(tile_lights, 0, 0)                   /* with */
 FLASH(caster_culling, 1696, 1592)          /* with */
 FLASH(caster_alpha, 264, 188)              /* with */
 FLASH(visible_alpha, 660, 620)             /* with */

@@ -125,9 +125,24 @@ static const char *as_word(const char *key, const char *value)
     return strcmp(key, "auto_bias") == 0 && strcmp(value, "0") == 0 ? "off" : value;
 }
 
+/* Settings of earlier versions, and why they are gone. */
+static const char *why_gone(const char *key)
+{
+    static const char *const gone[][2] = {
+        {"tile_lights", "lists of lights per screen tile cost more than they saved"},
+    };
+    for (size_t i = 0; i < sizeof gone / sizeof *gone; i++)
+        if (strcmp(key, gone[i][0]) == 0) return gone[i][1];
+    return NULL;
+}
+
 static int unknown(const char *key, char *error, size_t error_bytes)
 {
     char question[80];
+    if (why_gone(key)) {
+        snprintf(error, error_bytes, "setting '%s' is gone: %s", key, why_gone(key));
+        return -1;
+    }
     nearest n = nearest_to(key);
     settings_near_knobs(&n);
     settings_near_scene(&n);
