@@ -169,9 +169,6 @@
 #ifndef GN_DISK_FILTER
 #define GN_DISK_FILTER (!GN_COMPACT)
 #endif
-#ifndef GN_LINEAR_KERNELS
-#define GN_LINEAR_KERNELS (!GN_COMPACT)
-#endif
 #ifndef GN_PUNCTUAL_LIGHTS
 #define GN_PUNCTUAL_LIGHTS (!GN_COMPACT)
 #endif

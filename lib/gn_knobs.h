@@ -100,7 +100,6 @@
       "three more values per light and sample")                                                                        \
     X(filter_max, FILTER_MAX, 0, 4, "largest filter built: 0 hard, 1 2x2, 2 3x3, 3 5x5, 4 7x7", "flash")               \
     X(disk_filter, DISK_FILTER, 0, 1, "rotated disk filter", "flash; a table of 256 bytes")                            \
-    X(linear_kernels, LINEAR_KERNELS, 0, 1, "the cheaper linear kernels", "flash")                                     \
     X(punctual_lights, PUNCTUAL_LIGHTS, 0, 1, "spot and point lights", "flash; the local-light atlas")                 \
     X(main_light, MAIN_LIGHT, 0, 1, "a main light with cascades; other directional lights take one tile each",         \
       "flash; the local-light atlas")                                                                                  \

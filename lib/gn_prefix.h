@@ -202,7 +202,6 @@
 #define gn_lights_setup GN_PREFIXED_(GN_PREFIX, gn_lights_setup)
 #define gn_linear_31_table GN_PREFIXED_(GN_PREFIX, gn_linear_31_table)
 #define gn_linear_63_table GN_PREFIXED_(GN_PREFIX, gn_linear_63_table)
-#define gn_linear_weights GN_PREFIXED_(GN_PREFIX, gn_linear_weights)
 #define gn_lookup_cross_on_plane GN_PREFIXED_(GN_PREFIX, gn_lookup_cross_on_plane)
 #define gn_lookup_dark GN_PREFIXED_(GN_PREFIX, gn_lookup_dark)
 #define gn_lookup_decided GN_PREFIXED_(GN_PREFIX, gn_lookup_decided)

@@ -23,7 +23,6 @@
 #define GN_DEPTH_BLOCKS     0
 #define GN_BLENDED_CASCADES 0
 #define GN_DISK_FILTER      0
-#define GN_LINEAR_KERNELS   0
 #define GN_PUNCTUAL_LIGHTS  0
 #define GN_MAIN_LIGHT       0
 #define GN_CASTER_CULLING   0

@@ -61,7 +61,7 @@ under() {
     CLIPPING | CLIPS | PICKING | SHADOWS | PUNCTUAL_LIGHTS | *VISIBLE* | TEXTURES | SPECULAR | EMISSIVE | ORTHOGRAPHIC | MASKS | BAKED* | VERTEX* | RAW* | VALID* | *FORMATS | TILE_DRAWING) ;;
     TEXTURE_LEVELS) echo TEXTURES ;;
     EMISSIVE_TEXTURES) echo TEXTURES EMISSIVE ;;
-    LINEAR_KERNELS | DEPTH_BLOCKS) echo SHADOWS FILTER_MAX ;;
+    DEPTH_BLOCKS) echo SHADOWS FILTER_MAX ;;
     *) echo SHADOWS ;;
     esac
 }
@@ -116,7 +116,7 @@ done <<'LIST'
 SHADOWS gn_(atlas|caster|cascade|ortho|persp|filter|blocks|cull|tiles|bias)_.*|gn_.*weights|gn_disk_.*
 PUNCTUAL_LIGHTS gn_(persp|punctual|object_list)_.*
 DEPTH_BLOCKS gn_blocks_.*
-FILTER_MAX gn_tent_weights|gn_linear_weights
+FILTER_MAX gn_tent_weights
 DISK_FILTER gn_disk_.*|disk.*
 CASTER_CULLING gn_cull_shown_nearer
 CASTER_ALPHA alpha_plane

@@ -509,7 +509,7 @@ for command in info compare; do
     bad 1 "filter_max.*3x3" $command "$cube" --size 8x8 --set filter=3x3 --set filter_max=1
     bad 1 "blended_cascades.*soft" $command "$cube" --size 8x8 --set cascades=2 --set cascade_blend=soft --set blended_cascades=0
     bad 1 "disk_filter.*other_filter" $command "$cube" --size 8x8 --set other_filter=disk --set disk_filter=0
-    bad 1 "linear_kernels.*linear" $command "$cube" --size 8x8 --set kernel=linear --set linear_kernels=0
+    bad 1 "setting 'kernel' is gone: .*tents" $command "$cube" --size 8x8 --set kernel=linear
     bad 1 "punctual_lights.*spot light" $command "$cube" --size 8x8 --set lights=spot --set punctual_lights=0
     bad 1 "punctual_lights.*point light" $command "$cube" --size 8x8 --set add_light=point --set punctual_lights=0
     bad 1 "filter_max.*soft light.*3" $command "$cube" --size 8x8 --set softness=soft --set filter_max=2
@@ -584,7 +584,7 @@ alike 'lights=spot other_filter=hard filter=7x7' 'lights=spot filter=7x7'    # f
 alike 'filter=7x7 other_filter=hard' 'filter=7x7'                            # a directional light is in the directional one
 alike 'softness=soft filter=hard' 'filter=5x5'
 alike 'softness=hard filter=5x5' 'filter=2x2'
-unlike 'filter=5x5 kernel=linear' 'filter=5x5'
+alike 'filter=5x5 kernel=tent' 'filter=5x5'
 unlike 'filter=disk penumbra=64' 'filter=disk penumbra=0.5'
 unlike 'filter=disk penumbra=64 disk_samples=1' 'filter=disk penumbra=64 disk_samples=64'
 alike 'bias_receiver=0,0,1,0' 'bias_receiver@0=0,0,1,0'
@@ -641,7 +641,6 @@ while read -r key says values; do
     for value in $values; do bad 1 "setting '$key': '$value' is not .*$says" info "$cube" --size 8x8 --set "$key=$value"; done
 done <<'LIST'
 other_filter disk 9x9 soft 1
-kernel linear box 0
 mixing always sometimes 1
 tiles importance 4 big
 softness soft firm 1

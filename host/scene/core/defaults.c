@@ -284,7 +284,6 @@ static void default_shadow(const loader *l, scene_shadow *out)
                           .cascade_fade = scene_share(0.1),
                           .filter = SCENE_FILTER_3X3,
                           .other_filter = SCENE_FILTER_3X3,
-                          .kernel = SCENE_KERNEL_TENT,
                           .penumbra = 1,
                           .disk_samples = 16,
                           .mixing = default_mixing(l->s),

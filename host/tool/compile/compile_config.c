@@ -200,7 +200,6 @@ static void use_shadows(compiled *c)
     const gn_shadow_settings *s = &c->fixed.scene.shadow;
     use_filter(c, (gn_filter)s->filter, "directional lights");
     use_filter(c, (gn_filter)s->other_filter, "spot and point lights");
-    if (s->kernel == GN_KERNEL_LINEAR) USE(linear_kernels, 1, "%s", "the setting kernel");
     if (s->blend != GN_BLEND_HARD) USE(blended_cascades, 1, "%s", "the setting cascade_blend");
     if (s->main_light) USE(main_light, 1, "%s", "the setting main_light");
     if (s->n_cascades > 1) USE(many_cascades, 1, "%s", "the setting cascades");
@@ -218,7 +217,6 @@ static void use_nothing(compiled *c)
     NOTHING(blended_cascades);
     NOTHING(filter_max);
     NOTHING(disk_filter);
-    NOTHING(linear_kernels);
     NOTHING(punctual_lights);
     NOTHING(main_light);
     NOTHING(many_cascades);

@@ -24,7 +24,6 @@ static long of_filter(const settings *s, flash_core core)
     const int *row = by_max[s->feature.filter_max];
     long bytes = row ? row[core] : 0;
     if (s->feature.disk_filter) bytes += disk_filter_bytes[core];
-    if (s->feature.linear_kernels) bytes += linear_kernels_bytes[core];
     return bytes;
 }
 

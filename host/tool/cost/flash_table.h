@@ -10,7 +10,6 @@ FLASH(filter_max_4, 0, 4)                  /* another filter_max */
 FLASH(punctual_unshadowed, -20504, -19984) /* spot and point lights, no shadows: above no_shadows too */
 FLASH(blended_cascades, 1144, 1148)        /* with */
 FLASH(disk_filter, 1536, 1384)             /* with */
-FLASH(linear_kernels, 312, 156)            /* with */
 FLASH(punctual_lights, 18836, 17488)       /* with */
 FLASH(main_light, 408, 424)                /* with */
 FLASH(caster_culling, 1696, 1592)          /* with */

@@ -130,6 +130,8 @@ static const char *why_gone(const char *key)
 {
     static const char *const gone[][2] = {
         {"tile_lights", "lists of lights per screen tile cost more than they saved"},
+        {"linear_kernels", "3x3, 5x5 and 7x7 are tents, which are exact and cheaper"},
+        {"kernel", "3x3, 5x5 and 7x7 are tents, which are exact and cheaper"},
     };
     for (size_t i = 0; i < sizeof gone / sizeof *gone; i++)
         if (strcmp(key, gone[i][0]) == 0) return gone[i][1];
@@ -155,7 +157,8 @@ int settings_apply(settings *out, scene *s, const char *key, const char *value, 
 {
     scene_options ignored;
     int taken = settings_load_option(&ignored, key, value, error, error_bytes);
-    if (taken) return taken < 0 ? -1 : 0; /* done while loading */
+    if (taken) return taken < 0 ? -1 : 0;                                   /* done while loading */
+    if (strcmp(key, "kernel") == 0 && strcmp(value, "tent") == 0) return 0; /* of earlier files: what is built */
     if ((taken = apply_own(out, s, key, value, error, error_bytes))) return taken < 0 ? -1 : 0;
     const char *at = strchr(key, '@');
     if (at) return apply_to_light(out, s, key, at, value, error, error_bytes);
