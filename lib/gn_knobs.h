@@ -104,7 +104,9 @@
     X(main_light, MAIN_LIGHT, 0, 1, "a main light with cascades; other directional lights take one tile each",         \
       "flash; the local-light atlas")                                                                                  \
     X(caster_culling, CASTER_CULLING, 0, 1,                                                                            \
-      "casters whose shadows lie wholly in a smaller cascade are not drawn into larger ones", "flash")                 \
+      "casters whose shadows lie wholly in a smaller cascade are not drawn into larger ones; off by default: the "     \
+      "scenes of the project take 0.5 % more instructions with it",                                                    \
+      "flash; the same picture with and without")                                                                      \
     X(caster_alpha, CASTER_ALPHA, 0, 1, "casters cut by alpha: clip and dither", "flash")                              \
     X(visible_alpha, VISIBLE_ALPHA, 0, 1, "surfaces cut by alpha: clip and dither", "flash")                           \
     X(textures, TEXTURES, 0, 1, "textures: colour and alpha", "flash; a table of 512 bytes; a lookup per pixel")       \

@@ -287,7 +287,6 @@ static void default_shadow(const loader *l, scene_shadow *out)
                           .penumbra = 1,
                           .disk_samples = 16,
                           .mixing = default_mixing(l->s),
-                          .caster_culling = true,
                           .tiles = SCENE_TILES_WORTH,
                           .fit = SCENE_FIT_TIGHT,
                           .refresh = {1, 1, 1, 1},

@@ -276,8 +276,9 @@ static void choose_speed(compiled *c)
     }
     because(c, "depth_blocks",
             s->feature.depth_blocks ? "faster shadows, the same picture" : "no shadows, or not wanted");
+    if (!c->fixed.scene.shadow.caster_culling) because(c, "caster_culling", "the setting caster_culling");
+    else because(c, "caster_culling", "casters left out of larger cascades, all frames: %zu", c->run.culled);
     if (!s->feature.shadows || !c->run.culled) s->feature.caster_culling = 0;
-    because(c, "caster_culling", "casters left out of larger cascades, all frames: %zu", c->run.culled);
     if (!s->feature.shadows || (!c->kept_tiles && !scheduled)) s->feature.incremental = 0;
     if (scheduled && s->feature.shadows) because(c, "incremental", "the setting refresh");
     else because(c, "incremental", "shadow tiles kept from the frame before, all frames: %zu", c->kept_tiles);
