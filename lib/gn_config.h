@@ -157,9 +157,6 @@
 #ifndef GN_SHADOWS
 #define GN_SHADOWS 1
 #endif
-#ifndef GN_DEPTH_BLOCKS
-#define GN_DEPTH_BLOCKS (!GN_COMPACT)
-#endif
 #ifndef GN_BLENDED_CASCADES
 #define GN_BLENDED_CASCADES (!GN_COMPACT)
 #endif

@@ -204,7 +204,6 @@
 #define gn_linear_63_table GN_PREFIXED_(GN_PREFIX, gn_linear_63_table)
 #define gn_lookup_cross_on_plane GN_PREFIXED_(GN_PREFIX, gn_lookup_cross_on_plane)
 #define gn_lookup_dark GN_PREFIXED_(GN_PREFIX, gn_lookup_dark)
-#define gn_lookup_decided GN_PREFIXED_(GN_PREFIX, gn_lookup_decided)
 #define gn_lookup_on_plane GN_PREFIXED_(GN_PREFIX, gn_lookup_on_plane)
 #define gn_lookup_rows_on_plane GN_PREFIXED_(GN_PREFIX, gn_lookup_rows_on_plane)
 #define gn_mix_begin GN_PREFIXED_(GN_PREFIX, gn_mix_begin)

@@ -20,7 +20,6 @@
 #define GN_FILTER_MAX       2 /* hard, 2x2, 3x3 */
 
 /* What the scene does not use, and what only saves instructions, is not built. */
-#define GN_DEPTH_BLOCKS     0
 #define GN_BLENDED_CASCADES 0
 #define GN_DISK_FILTER      0
 #define GN_PUNCTUAL_LIGHTS  0

@@ -60,7 +60,9 @@ static void set_texels(gn_frame *frame, gn_light_view *view)
     }
 #endif
     view->depth = gn_texels_at(view->depth, view->depth_bits, view->first_texel);
-    if (GN_DEPTH_BLOCKS) gn_blocks_find(frame, view);
+#if GN_DISK_FILTER
+    gn_blocks_find(frame, view);
+#endif
 }
 
 /* The view of one cascade, or of the whole shadow distance. [D1] */

@@ -4,7 +4,6 @@
 
 #include "base/gn_count.h"
 #include "base/gn_q.h"
-#include "shadow/gn_blocks.h"
 #include "shadow/gn_filter.h"
 #include "shadow/gn_texel.h"
 
@@ -91,9 +90,5 @@ GN_HOT static inline uint32_t gn_lookup_tap(const gn_lookup *l, int32_t u, int32
     if (!gn_lookup_is_plain(l, u, v, 1)) return !gn_lookup_dark(l, u, v, 1);
     return gn_texel_load(gn_view_texels(l->view, u, v), GN_VIEW_BITS(l->view), 0) >= l->least;
 }
-
-/* Whether blocks' bounds decide the attenuation of all n x n <= 18 x 18 texels from (u, v) on, 0 or 65536:
- * gn_lookup_bounds.c. */
-int gn_lookup_decided(const gn_lookup *l, int32_t u, int32_t v, int32_t n, uint32_t *answer);
 
 #endif

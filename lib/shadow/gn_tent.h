@@ -9,9 +9,6 @@
 
 #define GN_TENT_TAPS_MAX 8
 
-/* Whether taps are compared with the receiver's plane, in a way of their own. */
-#define GN_TENT_ON_PLANE(l) (GN_PLANES && !GN_SIZE_FIRST && (l)->sloped)
-
 /* Weights of the 2 (k + 1) texels of a tent along one axis, k = 1, 2, 3: exact rationals over (2k + 1)^2 F^2, which
  * they sum to. u = F * frac(centre + 1/2), 0 <= u <= F, F = 2^weight_bits <= 4096: everything stays below 2^30. */
 void gn_tent_weights(uint32_t *w, int32_t k, uint32_t u, int32_t weight_bits);
@@ -150,15 +147,14 @@ GN_HOT static inline int gn_tent_on_plane(const gn_lookup *l, int32_t u, int32_t
     return 0;
 }
 
-/* Texel by texel. With GN_SIZE_FIRST its arrays are not on the stack while bounds decide. */
-GN_HOT static inline uint32_t gn_tent_by_texels(const gn_lookup *l, int32_t k, int32_t bits)
+/* Attenuation by the tent of index k. [F3] */
+GN_HOT static inline uint32_t gn_tent_attenuation(const gn_lookup *l, int32_t k, int32_t bits)
 {
     int32_t cu = l->u_q16 + 32768, cv = l->v_q16 + 32768, n = 2 * (k + 1);
     int32_t u0 = (cu >> 16) - (k + 1), v0 = (cv >> 16) - (k + 1);
     uint8_t dark[GN_TENT_TAPS_MAX];
-    uint32_t found, answer;
+    uint32_t found;
     if (!gn_tent_on_plane(l, u0, v0, n, dark, &found)) {
-        if (GN_DEPTH_BLOCKS && GN_TENT_ON_PLANE(l) && gn_lookup_decided(l, u0, v0, n, &answer)) return answer;
         GN_COUNT(undecided, 1);
         GN_COUNT(taps_tent, n * n);
         found = gn_tent_dark(l, u0, v0, n, dark);
@@ -166,15 +162,6 @@ GN_HOT static inline uint32_t gn_tent_by_texels(const gn_lookup *l, int32_t k, i
     if (!(found & 0xFFFFU)) return 65536;
     if (found >> 16 == (1U << n) - 1) return 0;
     return gn_tent_of_dark(dark, k, cu, cv, bits);
-}
-
-/* Attenuation by the tent of index k. [F3] */
-GN_HOT static inline uint32_t gn_tent_attenuation(const gn_lookup *l, int32_t k, int32_t bits)
-{
-    int32_t u0 = ((l->u_q16 + 32768) >> 16) - (k + 1), v0 = ((l->v_q16 + 32768) >> 16) - (k + 1);
-    uint32_t answer;
-    if (GN_DEPTH_BLOCKS && !GN_TENT_ON_PLANE(l) && gn_lookup_decided(l, u0, v0, 2 * (k + 1), &answer)) return answer;
-    return gn_tent_by_texels(l, k, bits);
 }
 
 #endif

@@ -61,7 +61,6 @@ under() {
     CLIPPING | CLIPS | PICKING | SHADOWS | PUNCTUAL_LIGHTS | *VISIBLE* | TEXTURES | SPECULAR | EMISSIVE | ORTHOGRAPHIC | MASKS | BAKED* | VERTEX* | RAW* | VALID* | *FORMATS | TILE_DRAWING) ;;
     TEXTURE_LEVELS) echo TEXTURES ;;
     EMISSIVE_TEXTURES) echo TEXTURES EMISSIVE ;;
-    DEPTH_BLOCKS) echo SHADOWS FILTER_MAX ;;
     *) echo SHADOWS ;;
     esac
 }
@@ -115,9 +114,8 @@ while read -r feature pattern; do
 done <<'LIST'
 SHADOWS gn_(atlas|caster|cascade|ortho|persp|filter|blocks|cull|tiles|bias)_.*|gn_.*weights|gn_disk_.*
 PUNCTUAL_LIGHTS gn_(persp|punctual|object_list)_.*
-DEPTH_BLOCKS gn_blocks_.*
 FILTER_MAX gn_tent_weights
-DISK_FILTER gn_disk_.*|disk.*
+DISK_FILTER gn_disk_.*|disk.*|gn_blocks_.*
 CASTER_CULLING gn_cull_shown_nearer
 CASTER_ALPHA alpha_plane
 VISIBLE_ALPHA cut_begin|cut_row

@@ -448,7 +448,7 @@ static void try_point(verdict *result, const gn_receiver *r)
     if (numerator == 65536 * denominator) HOLDS(&result->ends, a == 65536, "lit is %u: %s", (unsigned)a, described(r));
 }
 
-/* With bounds that never answer, as without GN_DEPTH_BLOCKS. */
+/* With bounds that never answer. */
 static void try_without_blocks(verdict *result, const gn_receiver *r)
 {
     static const gn_depth_block unknown = {0, 65535};

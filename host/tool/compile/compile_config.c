@@ -271,11 +271,9 @@ static void choose_speed(compiled *c)
     size_t scheduled = 0;
     for (int i = 0; i < 4; i++) scheduled += c->fixed.scene.shadow.refresh[i] > 1;
     if (!s->feature.shadows) {
-        s->feature.depth_blocks = s->feature.static_layer = 0;
+        s->feature.static_layer = 0;
         because(c, "static_layer", "no shadows");
     }
-    because(c, "depth_blocks",
-            s->feature.depth_blocks ? "faster shadows, the same picture" : "no shadows, or not wanted");
     if (!c->fixed.scene.shadow.caster_culling) because(c, "caster_culling", "the setting caster_culling");
     else because(c, "caster_culling", "casters left out of larger cascades, all frames: %zu", c->run.culled);
     if (!s->feature.shadows || !c->run.culled) s->feature.caster_culling = 0;

@@ -30,7 +30,6 @@ static long of_filter(const settings *s, flash_core core)
 static long of_shadows(const settings *s, flash_core core)
 {
     long bytes = of_filter(s, core);
-    if (!s->feature.depth_blocks) bytes += no_depth_blocks_bytes[core];
     if (s->feature.punctual_lights) bytes += punctual_lights_bytes[core];
     if (s->feature.blended_cascades) bytes += blended_cascades_bytes[core];
     if (s->feature.main_light) bytes += main_light_bytes[core];

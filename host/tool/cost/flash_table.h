@@ -1,7 +1,6 @@
 /* Made by host/generate/gen_flash.sh with 12.2.1. Bytes of flash: on Cortex-M0, on Cortex-M4. */
-FLASH(typical, 61372, 56348)               /* shadows, depth_blocks, vertex_normals, filter_max 2, preset balanced */
+FLASH(typical, 61372, 56348)               /* shadows, vertex_normals, filter_max 2, preset balanced */
 FLASH(no_shadows, -30152, -28752)          /* without shadows, and what is of shadows */
-FLASH(no_depth_blocks, -792, -740)         /* without */
 FLASH(no_vertex_normals, -3508, -3312)     /* without */
 FLASH(filter_max_0, -2440, -2500)          /* another filter_max */
 FLASH(filter_max_1, -2304, -2380)          /* another filter_max */

@@ -130,6 +130,7 @@ static const char *why_gone(const char *key)
 {
     static const char *const gone[][2] = {
         {"tile_lights", "lists of lights per screen tile cost more than they saved"},
+        {"depth_blocks", "bounds of depth cost more than they saved, but for the disk filter, which always has them"},
         {"linear_kernels", "3x3, 5x5 and 7x7 are tents, which are exact and cheaper"},
         {"kernel", "3x3, 5x5 and 7x7 are tents, which are exact and cheaper"},
     };
