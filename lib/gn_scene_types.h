@@ -160,7 +160,6 @@ typedef struct {
 } gn_camera;
 
 typedef enum { GN_FILTER_HARD, GN_FILTER_2X2, GN_FILTER_3X3, GN_FILTER_5X5, GN_FILTER_7X7, GN_FILTER_DISK } gn_filter;
-typedef enum { GN_KERNEL_TENT, GN_KERNEL_LINEAR } gn_kernel;
 /* Of baked and realtime shadows. */
 typedef enum { GN_MIXING_NONE, GN_MIXING_ALWAYS, GN_MIXING_DISTANCE } gn_mixing;
 typedef enum { GN_TILES_EQUAL, GN_TILES_IMPORTANCE, GN_TILES_WORTH } gn_tile_sizes;
@@ -191,9 +190,8 @@ typedef struct {
     uint32_t cascade_fade_uq16;  /* the last part of the last cascade, 66 .. 65536 */
     gn_filter filter;            /* of the directional atlas */
     gn_filter other_filter;      /* of the local-light atlas: spot and point lights, and single tiles (main_light) */
-    gn_kernel kernel;
-    uint32_t penumbra_uq16; /* disk radius: directional in 0.02 units, spot and point in 0.004 tiles; 0 .. 64.0 */
-    uint32_t disk_samples;  /* disk filter: 1..64 */
+    uint32_t penumbra_uq16;      /* disk radius: directional in 0.02 units, spot and point in 0.004 tiles; 0 .. 64.0 */
+    uint32_t disk_samples;       /* disk filter: 1..64 */
     gn_mixing mixing;
     gn_tile_sizes tile_sizes; /* worth: by pixels that are looked up; needs tight_fit. Default of all presets but
                                  accurate */

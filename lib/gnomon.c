@@ -117,9 +117,8 @@
 #include "shadow/gn_filter_cells.c"
 #include "shadow/gn_window.c"
 #endif
-#if GN_DEPTH_BLOCKS
+#if GN_DISK_FILTER
 #include "shadow/gn_blocks.c"
-#include "shadow/gn_lookup_bounds.c"
 #endif
 #if GN_INCREMENTAL
 #include "shadow/gn_kept.c"

@@ -92,8 +92,7 @@ extern "C" {
     X(GN_ERR_SURFACE_LIGHTS, "more lights can affect one surface than GN_SURFACE_LIGHTS")                              \
     X(GN_ERR_SHADOW_DISTANCE, "shadow distance outside 1/256 .. 8192 units, or not beyond the camera's near plane")    \
     X(GN_ERR_SHADOW_FADE, "distance fade or cascade fade outside 0.001 .. 1")                                          \
-    X(GN_ERR_SHADOW_FILTER,                                                                                            \
-      "unknown shadow filter or kernel, one that is not built in, or disk samples outside 1..64")                      \
+    X(GN_ERR_SHADOW_FILTER, "unknown shadow filter, one that is not built in, or disk samples outside 1..64")          \
     X(GN_ERR_SHADOW_MODE, "unknown mixing, tile sizes, refresh or list length, or one that is not built in")           \
     X(GN_ERR_SHADOW_CASCADES,                                                                                          \
       "more than 4 cascades, ratios above 1 or not ascending, or a blend that is not built in")                        \

@@ -24,7 +24,6 @@ const KNOB_GROUPS = [
   ]],
   ['Shadows', [
     {key: 'filter', title: 'Filter', values: FILTERS},
-    {key: 'kernel', title: 'Kernel', select: true, values: ['tent', 'linear']},
     {key: 'atlas_size', title: 'Atlas', values: POWERS(16, 1024), only: 'directional'},
     {key: 'depth_bits', title: 'Bits per texel', values: ['8', '16', '32'], only: 'directional'},
     {key: 'cascades', title: 'Cascades', values: ['1', '2', '3', '4'], only: 'directional'},

@@ -68,7 +68,7 @@ typedef struct gn_frame {
 #if GN_STATIC_LAYER
     gn_atlas_texels static_atlas;
 #endif
-#if GN_DEPTH_BLOCKS
+#if GN_DISK_FILTER
     gn_depth_block block[GN_ATLAS_TEXELS / 64];
 #endif
 #if GN_OTHER_ATLAS
@@ -76,7 +76,7 @@ typedef struct gn_frame {
 #if GN_STATIC_LAYER
     gn_other_texels static_other_atlas;
 #endif
-#if GN_DEPTH_BLOCKS
+#if GN_DISK_FILTER
     gn_depth_block other_block[GN_OTHER_ATLAS_TEXELS / 64];
 #endif
 #endif

@@ -348,8 +348,6 @@ static gn_field wrong_filter(const gn_shadow_settings *shadow)
     int disk = shadow->filter == GN_FILTER_DISK || shadow->other_filter == GN_FILTER_DISK;
     if (!filter_ok(shadow->filter)) return GN_AT(GN_FIELD_SHADOW_FILTER);
     if (!filter_ok(shadow->other_filter)) return GN_AT(GN_FIELD_SHADOW_OTHER_FILTER);
-    if ((uint32_t)shadow->kernel > (GN_LINEAR_KERNELS ? GN_KERNEL_LINEAR : GN_KERNEL_TENT))
-        return GN_AT(GN_FIELD_SHADOW_KERNEL);
     if (shadow->penumbra_uq16 > 64 << 16) return GN_AT(GN_FIELD_SHADOW_PENUMBRA);
     if (disk && (shadow->disk_samples < 1 || shadow->disk_samples > 64)) return GN_AT(GN_FIELD_SHADOW_DISK_SAMPLES);
     return GN_FIELD_NONE;

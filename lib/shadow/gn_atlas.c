@@ -312,7 +312,9 @@ static gn_status draw_view(gn_frame *frame, gn_casting *casting, gn_light_view *
         return draw_layer(frame, casting, view, GN_LAYER_MOVING);
     }
     clear(view);
-    if (GN_DEPTH_BLOCKS) gn_blocks_clear(view);
+#if GN_DISK_FILTER
+    if (GN_HAS_BLOCKS(view)) gn_blocks_clear(view);
+#endif
     return draw_layer(frame, casting, view, GN_LAYER_ALL);
 }
 
@@ -330,15 +332,19 @@ gn_status gn_atlas_render_tile(gn_frame *frame, gn_casting *casting, uint32_t vi
     if (view->empty || view->stale) return GN_OK;
     if (GN_UNSEEN(view)) { /* the first of those that share it would do */
         clear(view);
-        if (GN_DEPTH_BLOCKS) gn_blocks_clear(view);
+#if GN_DISK_FILTER
+        if (GN_HAS_BLOCKS(view)) gn_blocks_clear(view);
+#endif
         return GN_OK;
     }
     uint64_t signature = GN_INCREMENTAL ? gn_kept_signature(frame, view, GN_LAYER_ALL) : 0;
     if (GN_INCREMENTAL && gn_kept_is_same(frame, view_idx, GN_LAYER_ALL, signature)) return GN_OK;
     gn_status status = draw_view(frame, casting, view, view_idx);
     if (status) return status;
-    if (GN_DEPTH_BLOCKS && GN_STATIC_LAYER) gn_blocks_build(view); /* the layer's content was not redrawn */
-    else if (GN_DEPTH_BLOCKS) gn_blocks_build_touched(view);
+#if GN_DISK_FILTER
+    if (GN_HAS_BLOCKS(view) && GN_STATIC_LAYER) gn_blocks_build(view); /* the layer's content was not redrawn */
+    else if (GN_HAS_BLOCKS(view)) gn_blocks_build_touched(view);
+#endif
     if (GN_INCREMENTAL) gn_kept_set(frame, view_idx, GN_LAYER_ALL, signature);
     return GN_OK;
 }

@@ -43,7 +43,6 @@ static GN_NOINLINE void clip_side(gn_light_polygon *polygon, gn_light_polygon *i
     polygon->n = 0;
     for (int i = 0; i < in->n; i++) {
         const int64_t *a = in->p[i], *b = in->p[(i + 1) % in->n];
-        GN_ELEMENT(a);
         int64_t da = GN_TILE_REACH_Q16 - sign * a[axis], db = GN_TILE_REACH_Q16 - sign * b[axis];
         if (da >= 0 && polygon->n < GN_ORTHO_POLYGON_MAX) memcpy(polygon->p[polygon->n++], a, sizeof in->p[0]);
         if ((da >= 0) == (db >= 0) || polygon->n >= GN_ORTHO_POLYGON_MAX) continue;

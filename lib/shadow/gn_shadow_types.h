@@ -143,7 +143,9 @@ typedef struct {
     uint8_t tight;  /* beyond the tile, and within a filter's reach of its border, nothing casts */
     uint8_t unseen; /* no visible receiver looks into it: an empty tile of 8 x 8 texels that all such views share */
 #endif
-    gn_depth_block *block;  /* (T / 8) * (T / 8) */
+#if GN_DISK_FILTER
+    gn_depth_block *block; /* (T / 8) * (T / 8), of the disk filter alone: gn_blocks.h */
+#endif
     int32_t axis_q30[3][3]; /* u, v, w in the world */
     union {
         gn_ortho_fit ortho;

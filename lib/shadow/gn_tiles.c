@@ -88,7 +88,6 @@ static void request_tiles(gn_frame *frame, gn_tile_plan *plan)
     uint32_t main = GN_MAIN_LIGHT && scene->shadow.main_light ? main_light(frame) : GN_MAX_LIGHTS;
     for (uint32_t l = 0; l < scene->n_lights; l++) {
         const gn_light_state *light = &frame->light[l];
-        GN_ELEMENT(light);
         gn_tile_plan none = {0, 0, 0, 0, 0, 0};
         plan[l] = none;
         if (light->shadow_state == GN_SHADOW_NOT_WANTED) continue;

@@ -175,7 +175,6 @@ GN_HOT static inline void cut_plane(const gn_frame *frame, gn_scratch *scratch, 
 GN_HOT static inline void cut_begin(const gn_frame *frame, gn_scratch *scratch, gn_alpha_cut *cut, const gn_tri *tri)
 {
     const gn_object *object = &frame->scene->objects[tri->source.object_idx];
-    GN_ELEMENT(object);
     const uint16_t *idx = object->mesh->idx + 3 * (size_t)tri->source.triangle_idx;
     const int dithers = GN_LAYERS_MAX && object->visible_alpha == GN_ALPHA_BLEND && !GN_LAYERS(frame);
     gn_alpha_begin(cut, object, dithers ? GN_ALPHA_DITHER : object->visible_alpha, idx);

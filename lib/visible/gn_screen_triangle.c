@@ -166,7 +166,6 @@ static inline void count_tiles(const gn_screen_job *job, const gn_rect *px)
 {
     gn_tile_walk tiles = gn_setup_tiles(job->frame, px); /* of some tiles */
     gn_ref_offset *at = job->tile_first + tiles.first;
-    GN_ELEMENT(at);
     do {
         int32_t n = tiles.width;
         do ++*at++;
@@ -275,7 +274,6 @@ GN_NOINLINE void gn_screen_triangle(const gn_screen_job *job, const gn_projected
                                     const gn_projected *p2, uint32_t triangle_idx)
 {
     const gn_frame *frame = job->frame;
-    GN_ELEMENT(frame);
     grid_triangle t;
     if (!order_corners(&t, job, p0, p1, p2)) return;
     const gn_rect bounds = gn_setup_bounds_of(frame, t.left, t.right, t.a.y, t.bottom, job->add_px[0], job->add_px[1]);

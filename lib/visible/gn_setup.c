@@ -36,7 +36,6 @@ int gn_setup_vertex(int32_t out_q16[3], gn_vertex_entry *cache, const gn_xform *
                     uint32_t object_idx, uint32_t vertex_idx)
 {
     gn_vertex_entry *entry = &cache[gn_vertex_slot(vertex_idx, GN_VERTEX_CACHE - 1)];
-    GN_ELEMENT(entry);
     uint32_t tag = gn_vertex_tag(object_idx, vertex_idx);
     if (!gn_vertex_hit(entry, tag)) {
         gn_vertex_drop(entry);

@@ -46,7 +46,7 @@ flags_of() {
     full) # every feature of the specification, in one way each: without cells and windows, bounds of depth and boxes, which only save time
         for feature in $features; do
             case $feature in
-            DEPTH_BLOCKS | OBJECT_BOXES) echo "-DGN_$feature=0" ;;
+            OBJECT_BOXES) echo "-DGN_$feature=0" ;;
             VERTEX_JOINTS) echo "-DGN_$feature=4" ;;
             *) [ "$feature" = FILTER_MAX ] || echo "-DGN_$feature=1" ;;
             esac

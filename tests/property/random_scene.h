@@ -132,7 +132,6 @@ static void built_shadows(gn_shadow_settings *s, int32_t near_q16)
     }
     if (absent(GN_DISK_FILTER && GN_FILTER_MAX >= 4))
         s->filter = s->other_filter = (gn_filter)(rnd() % (GN_FILTER_MAX + 1));
-    if (absent(GN_LINEAR_KERNELS)) s->kernel = GN_KERNEL_TENT;
     if (absent(GN_MASKS)) s->mixing = GN_MIXING_NONE;
     if (absent(GN_TILE_IMPORTANCE)) s->tile_sizes = GN_TILES_EQUAL;
     if (absent(GN_MAIN_LIGHT)) s->main_light = 0;
@@ -448,7 +447,7 @@ static void random_shadows(gn_shadow_settings *s, int32_t near_q16)
     s->cascade_fade_uq16 = (uint32_t)pick(66, 65536);
     s->filter = (gn_filter)(rnd() % 6);
     s->other_filter = (gn_filter)(rnd() % 6);
-    s->kernel = (gn_kernel)(rnd() % 2);
+    (void)rnd(); /* scenes that had a fault keep their seeds */
     s->penumbra_uq16 = (uint32_t)pick(0, 64 << 16);
     s->disk_samples = (uint32_t)pick(1, one_in(4) ? 64 : 8);
     if (s->filter != GN_FILTER_DISK && s->other_filter != GN_FILTER_DISK && one_in(2))

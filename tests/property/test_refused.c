@@ -567,7 +567,6 @@ static const bounded bounds[] = {
     UNSIGNED(demo.scene.shadow.main_light, 0, 1, GN_ERR_SHADOW_MODE, 0),
     SIGNED(demo.scene.shadow.filter, 0, GN_FILTER_DISK, GN_ERR_SHADOW_FILTER, 0),
     SIGNED(demo.scene.shadow.other_filter, 0, GN_FILTER_DISK, GN_ERR_SHADOW_FILTER, 0),
-    SIGNED(demo.scene.shadow.kernel, 0, 1, GN_ERR_SHADOW_FILTER, 0),
     UNSIGNED(demo.scene.shadow.penumbra_uq16, 0, 64 * UNIT, GN_ERR_SHADOW_FILTER, 0),
     UNSIGNED(demo.scene.shadow.disk_samples, 1, 64, GN_ERR_SHADOW_FILTER, 0),
     SIGNED(demo.scene.shadow.blend, 0, 2, GN_ERR_SHADOW_CASCADES, 0),

@@ -466,7 +466,6 @@ static void test_shadow_settings(void)
     begin();
     s.shadow.filter = SCENE_FILTER_5X5;
     s.shadow.other_filter = SCENE_FILTER_DISK;
-    s.shadow.kernel = SCENE_KERNEL_LINEAR;
     s.shadow.mixing = SCENE_MIX_DISTANCE;
     s.shadow.tiles = SCENE_TILES_IMPORTANCE;
     s.shadow.main_light = s.shadow.caster_culling = true;
@@ -475,7 +474,6 @@ static void test_shadow_settings(void)
     const gn_shadow_settings *out = &fixed.scene.shadow;
     CHECK_EQ_INT(out->filter, GN_FILTER_5X5);
     CHECK_EQ_INT(out->other_filter, GN_FILTER_DISK);
-    CHECK_EQ_INT(out->kernel, GN_KERNEL_LINEAR);
     CHECK_EQ_INT(out->mixing, GN_MIXING_DISTANCE);
     CHECK_EQ_INT(out->tile_sizes, GN_TILES_IMPORTANCE);
     CHECK_EQ_INT(out->main_light, 1);

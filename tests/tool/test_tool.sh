@@ -509,7 +509,7 @@ for command in info compare; do
     bad 1 "filter_max.*3x3" $command "$cube" --size 8x8 --set filter=3x3 --set filter_max=1
     bad 1 "blended_cascades.*soft" $command "$cube" --size 8x8 --set cascades=2 --set cascade_blend=soft --set blended_cascades=0
     bad 1 "disk_filter.*other_filter" $command "$cube" --size 8x8 --set other_filter=disk --set disk_filter=0
-    bad 1 "linear_kernels.*linear" $command "$cube" --size 8x8 --set kernel=linear --set linear_kernels=0
+    bad 1 "setting 'kernel' is gone: .*tents" $command "$cube" --size 8x8 --set kernel=linear
     bad 1 "punctual_lights.*spot light" $command "$cube" --size 8x8 --set lights=spot --set punctual_lights=0
     bad 1 "punctual_lights.*point light" $command "$cube" --size 8x8 --set add_light=point --set punctual_lights=0
     bad 1 "filter_max.*soft light.*3" $command "$cube" --size 8x8 --set softness=soft --set filter_max=2
@@ -529,7 +529,7 @@ bad 1 'max_lights is 2' compare "$cube" --size 8x8 --set lights=spot,point,spot 
 bad 1 'surface_lights is 1' compare "$cube" --size 8x8 --set lights=directional,directional --set surface_lights=1
 good compare "$cube" --size 8x8 --set lights=directional,directional --set surface_lights=2 --set max_lights=2 --set max_objects=2
 good info "$cube" --size 8x8 --set receiver_plane=0 --set receiver_plane@0=1 # what one light uses is built
-for knob in raw_views runtime_knobs depth_blocks tile_lights incremental static_layer caster_culling; do
+for knob in raw_views runtime_knobs incremental static_layer caster_culling; do
     for on in 0 1; do
         good render "$cube" -o "$tmp/b.png" --size 64x48 --set $knob=$on --set shadows=1
         [ $on = 0 ] && mv "$tmp/b.png" "$tmp/a.png"
@@ -537,6 +537,7 @@ for knob in raw_views runtime_knobs depth_blocks tile_lights incremental static_
     cmp -s "$tmp/a.png" "$tmp/b.png" && pass || fail "$knob changes the picture"
 done
 rm -f "$tmp/a.png" "$tmp/b.png"
+bad 1 "setting 'tile_lights' is gone: " info "$cube" --size 8x8 --set tile_lights=1
 sed 's/{"attributes"/{"material":0,"attributes"/; s/"accessors"/"materials":[{"pbrMetallicRoughness":{"baseColorFactor":[0,0,0,1]}}],"accessors"/; s/{"byteLength":36}\]/{"byteLength":36,"uri":"black.bin"}]/' >"$tmp/black.gltf" <<EOF_JSON
 $json
 EOF_JSON
@@ -583,7 +584,7 @@ alike 'lights=spot other_filter=hard filter=7x7' 'lights=spot filter=7x7'    # f
 alike 'filter=7x7 other_filter=hard' 'filter=7x7'                            # a directional light is in the directional one
 alike 'softness=soft filter=hard' 'filter=5x5'
 alike 'softness=hard filter=5x5' 'filter=2x2'
-unlike 'filter=5x5 kernel=linear' 'filter=5x5'
+alike 'filter=5x5 kernel=tent' 'filter=5x5'
 unlike 'filter=disk penumbra=64' 'filter=disk penumbra=0.5'
 unlike 'filter=disk penumbra=64 disk_samples=1' 'filter=disk penumbra=64 disk_samples=64'
 alike 'bias_receiver=0,0,1,0' 'bias_receiver@0=0,0,1,0'
@@ -640,7 +641,6 @@ while read -r key says values; do
     for value in $values; do bad 1 "setting '$key': '$value' is not .*$says" info "$cube" --size 8x8 --set "$key=$value"; done
 done <<'LIST'
 other_filter disk 9x9 soft 1
-kernel linear box 0
 mixing always sometimes 1
 tiles importance 4 big
 softness soft firm 1

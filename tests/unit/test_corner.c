@@ -937,7 +937,7 @@ static void check_scene(const gn_knobs *knobs)
     static int32_t view[3 * N_TRIANGLES][3];
     static gn_surface surface;
     static gn_lattice lattice;
-    gn_surface_cache cache = {.object = NULL, .lights = UINT64_MAX};
+    gn_surface_cache cache = {.object = NULL};
     gn_scratch *scratch = &renderer.scratch;
     corner_scene();
     if (!begin(knobs)) return;

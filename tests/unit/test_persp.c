@@ -114,7 +114,7 @@ static void make_spot(gn_light_view *view, int i)
     light.outer_turn = (uint16_t)lround(degrees[i & 3] / 360 * 65536);
     view->bias_constant_q16 = light.bias_constant_q16;
     view->bias_slope_q16 = i & 16 ? 1 << 15 : 0;
-#if GN_DEPTH_BLOCKS
+#if GN_DISK_FILTER
     static gn_depth_block blocks[T * T / 64];
     view->block = blocks;
 #endif

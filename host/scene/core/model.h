@@ -147,7 +147,6 @@ typedef enum {
     SCENE_FILTER_7X7,
     SCENE_FILTER_DISK
 } scene_filter;
-typedef enum { SCENE_KERNEL_TENT, SCENE_KERNEL_LINEAR } scene_kernel;                      /* F3, F6 */
 typedef enum { SCENE_MIX_NONE, SCENE_MIX_ALWAYS, SCENE_MIX_DISTANCE } scene_mixing;        /* M6 */
 typedef enum { SCENE_TILES_EQUAL, SCENE_TILES_IMPORTANCE, SCENE_TILES_WORTH } scene_tiles; /* A2, A7 */
 /* D2, D12; compiled: tight, in boxes that the tool finds for the whole animation once the scene is loaded. */
@@ -162,9 +161,8 @@ typedef struct {
     double cascade_fade;       /* D3, D6: 0.001..1, default 0.1 */
     scene_filter filter;       /* of the directional atlas */
     scene_filter other_filter; /* of the local-light atlas; the loader makes it the same */
-    scene_kernel kernel;
-    double penumbra;  /* F4, the setting sigma, 0..64, default 1 */
-    int disk_samples; /* F4, 1..64, default 16 */
+    double penumbra;           /* F4, the setting sigma, 0..64, default 1 */
+    int disk_samples;          /* F4, 1..64, default 16 */
     scene_mixing mixing;
     bool main_light;     /* D10 */
     bool caster_culling; /* D8; changes no pixel */

@@ -328,17 +328,15 @@ static void add_camera(writer *w)
 
 static void put_shadow(write_buffer *b, const scene *s)
 {
-    static const char *const filters[] = {"hard", "2x2", "3x3", "5x5", "7x7", "disk"}, *const kernels[] = {"tent",
-                                                                                                           "linear"};
+    static const char *const filters[] = {"hard", "2x2", "3x3", "5x5", "7x7", "disk"};
     static const char *const mixing[] = {"none", "always", "distance"},
                              *const tiles[] = {"equal", "importance", "worth"}, *const fits[] = {"stable", "tight"};
     static const char *const blends[] = {"hard", "soft", "dither"}, *const distances[] = {"depth", "radius"};
     const scene_shadow *w = &s->shadow;
     write_format(b,
-                 ", \"filter\": \"%s\", \"other_filter\": \"%s\", \"kernel\": \"%s\", \"mixing\": \"%s\", \"tiles\": "
+                 ", \"filter\": \"%s\", \"other_filter\": \"%s\", \"mixing\": \"%s\", \"tiles\": "
                  "\"%s\", \"fit\": \"%s\"",
-                 filters[w->filter], filters[w->other_filter], kernels[w->kernel], mixing[w->mixing], tiles[w->tiles],
-                 fits[w->fit]);
+                 filters[w->filter], filters[w->other_filter], mixing[w->mixing], tiles[w->tiles], fits[w->fit]);
     write_format(b,
                  ", \"cascade_blend\": \"%s\", \"distance_mode\": \"%s\", \"disk_samples\": %d, \"object_lights\": %d",
                  blends[w->blend], distances[w->distance_mode], w->disk_samples, w->object_lights);

@@ -114,7 +114,6 @@ static void try_features(trial *b)
     if (shadow->mixing != GN_MIXING_NONE) trial_add(b, MIXING, 0);
     if (shadow->main_light) trial_add(b, MAIN_LIGHT, 0);
     if (shadow->blend != GN_BLEND_HARD) trial_add(b, BLEND, 0);
-    if (shadow->kernel != GN_KERNEL_TENT) trial_add(b, KERNEL, 0);
     if (shadow->filter != GN_FILTER_HARD) trial_add(b, FILTER, 0);
     if (shadow->other_filter != GN_FILTER_HARD) trial_add(b, OTHER_FILTER, 0);
     if (shadow->n_cascades > 1) trial_add(b, CASCADES, 0);

@@ -25,7 +25,6 @@ typedef enum {
     LIGHT_SOFTNESS,
     FILTER,
     OTHER_FILTER,
-    KERNEL,
     MIXING,
     MAIN_LIGHT,
     BLEND,

@@ -16,7 +16,6 @@
 _Static_assert((int)GN_FILTER_DISK == (int)SCENE_FILTER_DISK && (int)GN_FILTER_7X7 == (int)SCENE_FILTER_7X7 &&
                    (int)GN_BLEND_DITHER == (int)SCENE_BLEND_DITHER && (int)GN_BLEND_SOFT == (int)SCENE_BLEND_SOFT &&
                    (int)GN_DISTANCE_RADIUS == (int)SCENE_DISTANCE_RADIUS &&
-                   (int)GN_KERNEL_LINEAR == (int)SCENE_KERNEL_LINEAR &&
                    (int)GN_MIXING_ALWAYS == (int)SCENE_MIX_ALWAYS &&
                    (int)GN_MIXING_DISTANCE == (int)SCENE_MIX_DISTANCE &&
                    (int)GN_TILES_IMPORTANCE == (int)SCENE_TILES_IMPORTANCE &&
@@ -226,7 +225,6 @@ static void quantise_shadow(gn_shadow_settings *out, const scene_shadow *shadow,
     out->cascade_fade_uq16 = (uint32_t)fixed(shadow->cascade_fade, 16);
     out->filter = (gn_filter)shadow->filter;
     out->other_filter = (gn_filter)shadow->other_filter;
-    out->kernel = (gn_kernel)shadow->kernel;
     out->penumbra_uq16 = (uint32_t)fixed(shadow->penumbra, 16);
     out->disk_samples = (uint32_t)shadow->disk_samples;
     out->mixing = (gn_mixing)shadow->mixing;

@@ -20,13 +20,13 @@ static long put(layout *l, long n, long size, long align)
     return n * size;
 }
 
-/* An atlas with its static layer and depth blocks */
+/* An atlas with its static layer, and bounds of depth for the disk filter */
 static long put_atlas(layout *l, const settings *s, long side, long texels, long depth_bits)
 {
     if (!texels) texels = side * side;
     long bytes = 0, layers = s->feature.static_layer ? 2 : 1;
     for (long i = 0; i < layers; i++) bytes += put(l, texels * depth_bits / 8, 1, 4);
-    if (s->feature.depth_blocks) bytes += put(l, texels / 64, 4, 2);
+    if (s->feature.disk_filter) bytes += put(l, texels / 64, 4, 2);
     return bytes;
 }
 
@@ -42,7 +42,7 @@ static void put_views(layout *l, const settings *s)
 {
     const long views = n_views(s);
     long view =
-        180 + (s->feature.depth_blocks ? 4 : 0) + (s->feature.auto_bias ? 8 : 0) + (s->feature.tight_fit ? 8 : 0);
+        180 + (s->feature.disk_filter ? 4 : 0) + (s->feature.auto_bias ? 8 : 0) + (s->feature.tight_fit ? 8 : 0);
     put(l, views, (view + 7) / 8 * 8, 8);
     if (s->feature.tight_fit) put(l, views, 56, 8); /* seen */
 }
@@ -167,7 +167,7 @@ static void put_work(layout *out, const settings *s)
     put(&surface, s->capacity.surface_lights, s->quality.vertex_light ? 44 : 36, 4);
     pad(&surface, surface.align);
     put(&all, 1, 40, 4);  /* frame to rows */
-    put(&all, 1, 136, 8); /* cache */
+    put(&all, 1, 128, 4); /* cache */
     put(&all, 1, surface.size, 8);
     put(&all, 8, 4, 4); /* tri to radiance_q20 */
     long incident = s->feature.punctual_lights ? s->capacity.surface_lights : 0;
