@@ -7,6 +7,7 @@
 #include "base/gn_q.h"
 #include "geometry/gn_walk.h"
 #include "visible/gn_group.h"
+#include "visible/gn_pixel_mask.h"
 #include "visible/gn_screen_triangle.h"
 #include "visible/gn_setup.h"
 
@@ -210,9 +211,33 @@ static inline grid_corner on_grid(const gn_projected *at, int32_t bits)
     return snapped;
 }
 
-/* Everything of a triangle that begins with its top; px: width and height on the subpixel grid. */
+/* How a triangle is drawn that begins with its top and has these bounds, px after they are cut to the picture: see
+ * gn_tri_depth. 0: it covers no pixel, which is known of those whose box is small. */
+static inline int32_t walk_of(const gn_screen_job *job, const gn_rect *px, const grid_corner *a, const grid_corner *b,
+                              const grid_corner *c, int32_t left, int32_t right, int32_t bottom)
+{
+    const gn_picture *picture = &job->frame->picture;
+    const int32_t bits = GN_K(job->frame, subpixel_bits), first = (1 << bits) - 1, width = right - left,
+                  height = bottom - a->y;
+    const int32_t x = (left + job->add_px[0]) >> bits, y = (a->y + job->add_px[1]) >> bits,
+                  columns = ((right + job->add_px[0]) >> bits) - x, rows = ((bottom + job->add_px[1]) >> bits) - y;
+    if (columns <= GN_MASK_WIDTH && rows <= GN_MASK_HEIGHT) {
+        uint32_t mask = gn_pixel_mask(x * (1 << bits) + first - job->add_px[0] - a->x,
+                                      y * (1 << bits) + first - job->add_px[1] - a->y, b->x - a->x, b->y - a->y,
+                                      c->x - a->x, c->y - a->y, columns, rows, bits);
+        if (x != px->x0 || y != px->y0 || x + columns != px->x1 || y + rows != px->y1)
+            mask = gn_mask_cut(mask, x, y, picture->width, picture->height);
+        if (!mask) return 0;
+        const int32_t top = (a->x + ((picture->width << bits) >> 1)) >> bits;
+        if (!GN_SIZE_FIRST && job->narrow) return GN_TRI_MASK | (1 + top - x) << 12 | (int32_t)mask;
+    }
+    if (!GN_SIZE_FIRST && width < job->narrow && height < job->narrow) return GN_TRI_NARROW;
+    return gn_max32(job->fixed_mask & gn_walk_lasts((uint32_t)width | (uint32_t)height), GN_TRI_EXACT);
+}
+
+/* Everything of a triangle that begins with its top. */
 static inline void fill_triangle(const gn_screen_job *job, gn_tri *tri, const grid_corner *a, const grid_corner *b,
-                                 const grid_corner *c, int32_t width, int32_t height, uint32_t triangle_idx)
+                                 const grid_corner *c, int32_t walk, uint32_t triangle_idx)
 {
     const gn_frame *frame = job->frame;
     int32_t bits = GN_K(frame, subpixel_bits);
@@ -227,9 +252,6 @@ static inline void fill_triangle(const gn_screen_job *job, gn_tri *tri, const gr
             y = a->y + ((frame->picture.height << bits) >> 1);
     int32_t to_x_q16 = ((a->x - (x & (one - 1))) * 2 + one) * (1 << (15 - bits)) - a->at->x_q16;
     int32_t to_y_q16 = ((a->y - (y & (one - 1))) * 2 + one) * (1 << (15 - bits)) - a->at->y_q16;
-    int32_t walk = GN_TRI_NARROW;
-    if (GN_SIZE_FIRST || width >= job->narrow || height >= job->narrow)
-        walk = gn_max32(job->fixed_mask & gn_walk_lasts((uint32_t)width | (uint32_t)height), GN_TRI_EXACT);
     if (!GN_SIZE_FIRST && quick_depth(tri, a->at, b->at, c->at, to_x_q16, to_y_q16, walk, bits)) return;
     general_depth(tri, a->at, b->at, c->at, to_x_q16, to_y_q16, walk, bits);
 }
@@ -252,6 +274,8 @@ GN_NOINLINE void gn_screen_triangle(const gn_screen_job *job, const gn_projected
             bottom = gn_max32(b.y, c.y);
     const gn_rect bounds = gn_setup_bounds_of(frame, left, right, a.y, bottom, job->add_px[0], job->add_px[1]);
     if (bounds.x0 >= bounds.x1 || bounds.y0 >= bounds.y1) return;
+    const int32_t walk = walk_of(job, &bounds, &a, &b, &c, left, right, bottom);
+    if (!walk) return;
 #if GN_GROUPS
     if (GN_K(frame, triangle_groups)) {
         gn_screen_tile_job *tile = job->tile;
@@ -263,7 +287,7 @@ GN_NOINLINE void gn_screen_triangle(const gn_screen_job *job, const gn_projected
             bounds.y1 <= tile->rect.y0 || tile->n_drawn == tile->n_counted)
             return;
         gn_tri drawn;
-        fill_triangle(job, &drawn, &a, &b, &c, right - left, bottom - a.y, triangle_idx);
+        fill_triangle(job, &drawn, &a, &b, &c, walk, triangle_idx);
         tile->drawn[++tile->n_drawn] = drawn.source;
         GN_COUNT(tile_refs, 1);
         gn_raster_triangle(tile->target, &drawn, tile->n_drawn);
@@ -271,7 +295,7 @@ GN_NOINLINE void gn_screen_triangle(const gn_screen_job *job, const gn_projected
     }
 #endif
     gn_tri *tri = count_record(job, &bounds);
-    if (tri) fill_triangle(job, tri, &a, &b, &c, right - left, bottom - a.y, triangle_idx);
+    if (tri) fill_triangle(job, tri, &a, &b, &c, walk, triangle_idx);
 }
 
 void gn_setup_corners(const gn_frame *frame, const gn_tri *tri, int32_t x[3], int32_t y[3])
