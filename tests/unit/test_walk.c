@@ -4,7 +4,7 @@
 
 #include "exact.h"
 #include "knobs.h"
-#include "visible/gn_pixel_mask.h"
+#include "geometry/gn_pixel_mask.h"
 #include "visible/gn_setup.h"
 #include "geometry/gn_walk.h"
 #include "gnomon.h"
