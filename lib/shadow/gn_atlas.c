@@ -118,8 +118,10 @@ static inline int32_t draw_perspective(gn_casting *casting, gn_alpha_cut *alpha,
 /* Coordinates of a vertex in the view. Returns 0 if it may be beyond 2^29. */
 static inline int small_position(int32_t out[3], const caster_job *job, uint32_t vertex_idx)
 {
-    if (!GN_SIZE_FIRST && !GN_SKIN(job->object)) {
-        if (gn_xform_fast_vertex(out, &job->by.fast, job->object->mesh->pos + 3 * (size_t)vertex_idx)) return 1;
+    if (!GN_SIZE_FIRST) {
+        int32_t p[3];
+        gn_position_of(p, job->object, vertex_idx);
+        if (gn_xform_fast_inline(out, &job->by.fast, p)) return 1;
         if (GN_LARGE_CASTERS) return 0;
     }
     int64_t v[3];

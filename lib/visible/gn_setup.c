@@ -161,9 +161,9 @@ static GN_NOINLINE int fill_far_corner(const setup_job *job, setup_corner *c)
 /* The same, without testing planes for most vertices. */
 GN_INLINE int fill_corner_fast(const setup_job *job, setup_corner *c, uint32_t vertex_idx)
 {
-    const gn_mesh *mesh = job->screen.object->mesh;
-    int32_t v[3];
-    if (!gn_xform_fast_wide(v, &job->fast, mesh->pos + 3 * (size_t)vertex_idx)) {
+    int32_t v[3], p[3];
+    gn_position_of(p, job->screen.object, vertex_idx);
+    if (!gn_xform_fast_wide(v, &job->fast, p)) {
         if (!view_position(c->vertex.v_q16, &job->xform, job->screen.object, vertex_idx)) return 0;
         for (int k = 0; k < 3; k++) v[k] = c->vertex.v_q16[k];
     }
@@ -239,7 +239,6 @@ static void setup_begin_object(setup_job *job)
     const gn_cam *cam = &job->screen.frame->cam;
     gn_xform_compose(&job->xform, cam->axis_q30, cam->eye_q16, job->screen.object);
     if (!GN_SIZE_FIRST) gn_xform_fast_begin(&job->fast, &job->xform);
-    if (!GN_SIZE_FIRST && GN_SKIN(job->screen.object)) job->fast.reach = 0; /* its positions are not the mesh's */
     gn_screen_object(&job->screen);
 }
 
