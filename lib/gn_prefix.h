@@ -310,6 +310,7 @@
 #define gn_shadow_slopes GN_PREFIXED_(GN_PREFIX, gn_shadow_slopes)
 #define gn_shadow_tile GN_PREFIXED_(GN_PREFIX, gn_shadow_tile)
 #define gn_shadow_tile_count GN_PREFIXED_(GN_PREFIX, gn_shadow_tile_count)
+#define gn_sides_setup GN_PREFIXED_(GN_PREFIX, gn_sides_setup)
 #define gn_sin_q30 GN_PREFIXED_(GN_PREFIX, gn_sin_q30)
 #define gn_sin_table_q30 GN_PREFIXED_(GN_PREFIX, gn_sin_table_q30)
 #define gn_skin_normal GN_PREFIXED_(GN_PREFIX, gn_skin_normal)

@@ -3,6 +3,7 @@
  *
  * gn_begin
  * - gn_scene_validate: refuses an invalid scene (scene/)
+ * - gn_sides_setup: which objects mirror, or are flat (scene/gn_sides)
  * - gn_cam_setup: the camera (geometry/gn_xform)
  * - gn_views_setup: which light affects which object (light/gn_lights), how many shadow tiles each light gets
  * (shadow/gn_tiles), and how each view lies in the world (gn_light_views, gn_ortho, gn_persp; light/gn_cascade,
@@ -37,6 +38,7 @@
 #include "base/gn_signature.h"
 #include "frame/gn_check.h"
 #include "scene/gn_scene.h"
+#include "scene/gn_sides.h"
 #include "shade/gn_pixel.h"
 #include "visible/gn_screen_rect.h"
 
@@ -129,6 +131,7 @@ gn_status gn_begin(gn_renderer *r, const gn_scene *scene)
 #if GN_SHADOWS
     frame->n_lights = (uint8_t)scene->n_lights;
 #endif
+    gn_sides_setup(frame);
     gn_cam_setup(frame);
     status = gn_views_setup(frame, &r->scratch);
     if (status) return status;

@@ -51,6 +51,7 @@ typedef struct gn_frame {
 #if GN_BOXES
     gn_object_state object[GN_MAX_OBJECTS];
 #endif
+    uint8_t flags[GN_MAX_OBJECTS]; /* of each object, as drawn: scene/gn_sides.h */
     gn_tri tri[GN_RECORDS ? GN_MAX_TRIANGLES : 1];
     gn_ref_offset tile_first[GN_TILES_MAX + 1]; /* of groups: a tile's number of triangles */
     uint16_t tile_ref[GN_RECORDS ? GN_MAX_TILE_REFS : 1];

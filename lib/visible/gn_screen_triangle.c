@@ -6,6 +6,7 @@
 #include "base/gn_math.h"
 #include "base/gn_q.h"
 #include "geometry/gn_walk.h"
+#include "scene/gn_sides.h"
 #include "visible/gn_group.h"
 #include "visible/gn_screen_triangle.h"
 #include "visible/gn_setup.h"
@@ -242,10 +243,8 @@ GN_NOINLINE void gn_screen_triangle(const gn_screen_job *job, const gn_projected
     int32_t bits = GN_K(frame, subpixel_bits);
     grid_corner a = on_grid(p0, bits), b = on_grid(p1, bits), c = on_grid(p2, bits), swap;
     int64_t area = (int64_t)(b.x - a.x) * (c.y - a.y) - (int64_t)(c.x - a.x) * (b.y - a.y);
-    if (area >= 0) {
-        if (area == 0 || !(job->object->flags & GN_OBJECT_TWO_SIDED)) return;
-        swap = b, b = c, c = swap;
-    }
+    if (area == 0 || !(job->sides & (area > 0 ? GN_SIDE_CW : GN_SIDE_CCW))) return;
+    if (area > 0) { swap = b, b = c, c = swap; }
     if (c.y < a.y && c.y < b.y) swap = a, a = c, c = b, b = swap; /* rotated, to begin with the top */
     else if (b.y < a.y) swap = a, a = b, b = c, c = swap;
     int32_t left = gn_min32(gn_min32(a.x, b.x), c.x), right = gn_max32(gn_max32(a.x, b.x), c.x),
@@ -296,6 +295,7 @@ void gn_screen_begin(gn_screen_job *job, const gn_frame *frame)
 
 void gn_screen_object(gn_screen_job *job)
 {
+    job->sides = gn_sides_of(job->frame->flags[job->object_idx], GN_OBJECT_TWO_SIDED);
     job->fixed_mask = GN_VISIBLE_ALPHA && job->object->visible_alpha != GN_ALPHA_OPAQUE ? 0 : -1;
     job->narrow = job->fixed_mask & gn_walk_narrow(GN_K(job->frame, subpixel_bits));
 }

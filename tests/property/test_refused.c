@@ -102,10 +102,6 @@ static void object_far_out(gn_scene *s)
 {
     (void)s, demo.object[1].to_world.t_q16[0] = INT32_MIN;
 }
-static void object_flat(gn_scene *s)
-{
-    (void)s, memset(demo.object[1].to_world.m_q30[2], 0, sizeof demo.object[1].to_world.m_q30[2]);
-}
 static void mesh_no_pos(gn_scene *s)
 {
     (void)s, demo.ball.pos = NULL;
@@ -379,7 +375,6 @@ static const struct {
     REFUSED(object_exp_low, GN_ERR_OBJECT_TRANSFORM, "object.to_world", 1, 0, 0),
     REFUSED(object_entry, GN_ERR_OBJECT_TRANSFORM, "object.to_world", 1, 0, 0),
     REFUSED(object_far_out, GN_ERR_OBJECT_TRANSFORM, "object.to_world", 1, 0, 0),
-    REFUSED(object_flat, GN_ERR_OBJECT_TRANSFORM, "object.to_world", 1, 0, 0),
     REFUSED(mesh_no_pos, GN_ERR_MESH, "object.mesh->pos", 1, 0, 0),
     REFUSED(mesh_no_idx, GN_ERR_MESH, "object.mesh->idx", 1, 0, 0),
     REFUSED(mesh_no_vertices, GN_ERR_MESH, "object.mesh->n_vertices", 1, 0, 0),

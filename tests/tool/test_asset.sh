@@ -65,12 +65,15 @@ grep -q " meshes of 199 triangles, " "$tmp/fewer.log" && pass || fail "asset --t
 grep -q "bad value '0', not a number of triangles from 1" "$tmp/log" && pass || fail "--triangles 0: $(cat "$tmp/log")"
 # [R12] skins: joints as they are in the file, and by a clip
 same snake docs/scenes/snake.gltf
+# mirrors, scales that begin and end at 0, and that change their sign
+same scales tests/data/scales.gltf
 # [R8] clips: rotation, of a light, and of a hierarchy with splines, steps, scales, a fixed matrix, a lamp and a camera
 poses cube host/scenes/cube.gltf 300 0 1 30 60 96
 poses sundial host/scenes/sundial.gltf 300 1 77 144
 poses desk host/scenes/desk.gltf 300 7 30
 poses robot tests/data/robot.gltf 300 0 10 20 30 47 72
 poses snake docs/scenes/snake.gltf 300 0 11 30 66 96
+poses scales tests/data/scales.gltf 300 0 1 11 13 24 35 37 48
 # up=z: clips of a file that is turned
 how="--set up=z"
 same turned tests/data/robot.gltf $how
