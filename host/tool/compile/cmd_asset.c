@@ -179,6 +179,7 @@ int tool_asset(const tool_options *given)
     o.last_frame = o.frame;
     if (compile_all(&c, &o, error, sizeof error)) return tool_fail(o.scene_path, error);
     c.symbol = symbol;
+    if (!o.json) compile_say_kept(&c);
     if (!o.json) remarks_on_settings(&c.scene);
     int failed = write_file(&c, ".h", write_header) || write_file(&c, ".c", write_source);
     if (failed) snprintf(error, sizeof error, "%s", errno ? strerror(errno) : "cannot be written");
