@@ -197,6 +197,7 @@ static settings_ram_parts compact_ram(const settings *s)
     layout all = {0, 8};
     const long tile_px = (long)s->quality.tile_width * s->quality.tile_height, side = s->quality.atlas_size;
     put(&all, 1, 400, 8); /* scene to view */
+    r.objects = put(&all, s->capacity.max_objects, 1, 1);
     r.triangles = put(&all, s->capacity.max_triangles, 56, 4);
     r.atlas = put(&all, side * side, 2, 2);
     pad(&all, 8);
@@ -205,7 +206,7 @@ static settings_ram_parts compact_ram(const settings *s)
     put(&all, 1, 344, 4); /* work */
     pad(&all, 8);
     r.total = all.size;
-    r.rest = r.total - r.atlas - r.triangles - r.cells - r.pixels;
+    r.rest = r.total - r.atlas - r.objects - r.triangles - r.cells - r.pixels;
     return r;
 }
 
@@ -232,6 +233,7 @@ settings_ram_parts settings_ram(const settings *s)
     int boxes = punctual ||
                 (s->feature.shadows && (s->feature.object_boxes || s->feature.caster_culling || s->feature.tight_fit));
     r.objects = boxes ? put(&frame, s->capacity.max_objects, punctual ? 36 : 24, 4) : 0;
+    r.objects += put(&frame, s->capacity.max_objects, 1, 1); /* flags */
     r.triangles = put(&frame, groups ? 1 : s->capacity.max_triangles, wide_coordinates(s) ? 44 : 32, 4);
     r.tiles = put(&frame, tiles + 1, offset, offset);
     r.tile_refs = put(&frame, groups ? 1 : s->capacity.max_tile_refs, 2, 2);
