@@ -128,6 +128,10 @@ gn_status gn_begin(gn_renderer *r, const gn_scene *scene)
     if (status) return status;
 #endif
     frame->scene = scene;
+#if !GN_COMPACT
+    frame->objects = scene->objects;
+    frame->n_objects = scene->n_objects;
+#endif
 #if GN_SHADOWS
     frame->n_lights = (uint8_t)scene->n_lights;
 #endif

@@ -19,6 +19,8 @@ typedef struct gn_frame {
 #endif
     /* small fields come first: instructions address them by a short offset */
     const gn_scene *scene;
+    const gn_object *objects; /* the scene's: gn_pick reads these when the scene may be gone */
+    uint32_t n_objects;
     gn_picture picture;
     uint8_t stage;   /* gn_stage in gn_stages.h */
     uint8_t id_bits; /* of a visibility cell: enough for n_triangles + 2 */

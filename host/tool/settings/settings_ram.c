@@ -223,7 +223,7 @@ settings_ram_parts settings_ram(const settings *s)
     int punctual = s->feature.punctual_lights;
     const long groups = s->quality.triangle_groups;
     const int fits = s->feature.shadows && s->feature.tight_fit;
-    put(&frame, 1, (s->feature.orthographic ? 252 : 244) + (groups ? 4 : 0) + (fits ? 4 : 0), 8); /* scene to detail */
+    put(&frame, 1, (s->feature.orthographic ? 260 : 252) + (groups ? 4 : 0) + (fits ? 4 : 0), 8); /* scene to detail */
     if (s->feature.shadows) {
         put(&frame, 1, 8, 4);  /* n_cascades to frame_count */
         put(&frame, 4, 40, 8); /* cascade */
