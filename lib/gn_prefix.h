@@ -355,6 +355,7 @@
 #define gn_window_reads GN_PREFIXED_(GN_PREFIX, gn_window_reads)
 #define gn_window_row GN_PREFIXED_(GN_PREFIX, gn_window_row)
 #define gn_window_says GN_PREFIXED_(GN_PREFIX, gn_window_says)
+#define gn_wrong_stage GN_PREFIXED_(GN_PREFIX, gn_wrong_stage)
 #define gn_xform_compose GN_PREFIXED_(GN_PREFIX, gn_xform_compose)
 #define gn_xform_fast_begin GN_PREFIXED_(GN_PREFIX, gn_xform_fast_begin)
 #define gn_xform_fast_vertex GN_PREFIXED_(GN_PREFIX, gn_xform_fast_vertex)

@@ -82,7 +82,7 @@ static void test_refused(void)
     CHECK_EQ_INT(gn_pick(NULL, 0, 0, &object, NULL), GN_ERR_NULL);
     CHECK_EQ_INT((long long)object, (long long)GN_NOTHING);
     CHECK_EQ_INT(gn_init(r, &picture), GN_OK);
-    CHECK_EQ_INT(gn_pick(r, 0, 0, &object, NULL), GN_ERR_ORDER); /* nothing is prepared */
+    CHECK_EQ_INT(gn_pick(r, 0, 0, &object, NULL), GN_ERR_NO_BEGIN); /* nothing is prepared */
     CHECK_EQ_INT(gn_pick(&renderer, WIDTH, 0, &object, NULL), GN_ERR_INDEX);
     CHECK_EQ_INT(gn_pick(&renderer, 0, HEIGHT, &object, NULL), GN_ERR_INDEX);
     CHECK_EQ_INT(gn_pick(&renderer, WIDTH - 1, HEIGHT - 1, NULL, NULL), GN_OK);

@@ -190,3 +190,15 @@ int remarks_on_lights(scene *s, char *error, size_t error_bytes)
             return -1;
     return 0;
 }
+
+void remarks_list_added(const scene *s, char *out, size_t bytes)
+{
+    static const char *const names[] = {"ground", "camera", "light"};
+    const bool added[] = {s->added.ground, s->added.camera, s->added.light};
+    size_t n = 0;
+    if (bytes) *out = 0;
+    for (int i = 0; i < 3; i++) {
+        if (!added[i] || n >= bytes) continue;
+        n += (size_t)snprintf(out + n, bytes - n, "%s%s", n ? ", " : "; added: ", names[i]);
+    }
+}
