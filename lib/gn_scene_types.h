@@ -1,5 +1,6 @@
 /* What a caller describes: meshes, textures, objects, lights, the camera, the scene, and their defaults. A part of
- * gnomon.h, which includes it. Everything is read only during a call. */
+ * gnomon.h, which includes it; its comment on pointers says how long each must live. Nothing here is written to by the
+ * library, but for what gn_pose places. */
 #ifndef GN_SCENE_TYPES_H
 #define GN_SCENE_TYPES_H
 
@@ -30,8 +31,9 @@ typedef struct {
 
 /* What moves an object's vertices before its to_world: each to the mean of where its joints take it, by its weights. */
 typedef struct {
-    const gn_affine *joint;   /* n_joints: from the mesh's space, as stored, to the object's, as posed now. Each takes
-                                 its vertices to within +-16384 units; it may flatten */
+    /* n_joints: from the mesh's space, as stored, to the object's, as posed now. Each takes its vertices to within
+     * +-16384 units; it may flatten. Joints that mirror turn all triangles: the first that has an inverse tells. */
+    const gn_affine *joint;
     const uint8_t *joint_idx; /* per_vertex for each of the mesh's vertices */
     const uint8_t *weight_u8; /* the same; 255 is 1, and those of a vertex are 255 in all */
     uint16_t n_joints;
@@ -92,7 +94,7 @@ typedef enum { GN_ALPHA_OPAQUE, GN_ALPHA_CLIP, GN_ALPHA_DITHER, GN_ALPHA_BLEND }
 
 typedef struct {
     const gn_mesh *mesh;
-    gn_affine to_world;
+    gn_affine to_world;      /* |position| <= 8192 units; may mirror; without an inverse (scale 0) nothing is drawn */
     uint32_t albedo_uq16[3]; /* linear, 0..65536 */
     uint32_t flags;
     gn_alpha visible_alpha; /* clip: no surface where alpha is below the cutoff; dither: where it is below the noise;

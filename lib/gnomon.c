@@ -22,6 +22,7 @@
 #include "scene/gn_pose.c"
 #endif
 #include "scene/gn_scene.c"
+#include "scene/gn_sides.c"
 #if GN_ERROR_FIELDS
 #include "scene/gn_field.c"
 #endif

@@ -4,6 +4,7 @@
 #include "base/gn_math.h"
 #include "base/gn_q.h"
 #include "base/gn_tables.h"
+#include "scene/gn_sides.h"
 #include "shade/gn_record.h"
 
 #if GN_INTERPOLATES
@@ -76,7 +77,8 @@ GN_HOT int gn_record_begin(gn_patch_record *r, const gn_frame *frame, const gn_t
     r->px = (gn_max32(w, h) + one - 1) >> bits;
     if (r->px > GN_PATCH_PX) return 0;
     r->tri = tri;
-    r->back = order >= GN_TRI_BACK;
+    const int mirrored = (frame->flags[tri->source.object_idx] & GN_OBJECT_MIRRORED) != 0;
+    r->back = (order >= GN_TRI_BACK) != mirrored;
     r->a[0] = ax, r->a[1] = ay, r->b[0] = bx, r->b[1] = by;
     r->area = (uint32_t)(bx * ay - ax * by); /* 2^26 * 2 */
     r->clz = gn_clz32(r->area);

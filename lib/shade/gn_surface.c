@@ -9,6 +9,7 @@
 #include "geometry/gn_vertex_cache.h"
 #include "geometry/gn_xform.h"
 #include "light/gn_bias.h"
+#include "scene/gn_sides.h"
 #include "shade/gn_sample.h"
 #include "shade/gn_surface.h"
 #include "visible/gn_setup.h"
@@ -127,10 +128,11 @@ static void normals(const gn_frame *frame, const gn_surface_cache *cache, gn_ver
     }
     int32_t n[3][3];
     uint32_t object_idx = (uint32_t)(s->object - frame->scene->objects);
+    const int mirrored = (frame->flags[object_idx] & GN_OBJECT_MIRRORED) != 0;
     GN_UNROLL
     for (int k = 0; k < 3; k++) {
         vertex_normal(n[k], cache, vertex, s->object, object_idx, idx[k]);
-        if (s->plane.back)
+        if (s->plane.back != mirrored)
             for (int i = 0; i < 3; i++) n[k][i] = -n[k][i];
     }
     uint32_t any = 0;

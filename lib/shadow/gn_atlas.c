@@ -12,6 +12,7 @@
 #include "geometry/gn_vertex_cache.h"
 #include "geometry/gn_xform.h"
 #include "scene/gn_scene.h"
+#include "scene/gn_sides.h"
 #include "shadow/gn_blocks.h"
 #include "shadow/gn_caster.h"
 #include "shadow/gn_cull.h"
@@ -38,11 +39,12 @@ static void corner_normals(const caster_job *job, const uint16_t idx[3], int64_t
             gn_xform_normal(out_q30[i], job->by.normal_matrix, mesh->nrm_q15 + 3 * (size_t)idx[i]);
         return;
     }
+    const int mirrored = (job->frame->flags[job->object_idx] & GN_OBJECT_MIRRORED) != 0;
     int64_t e1[3], e2[3], n[3];
     int32_t e1n[3], e2n[3], face[3];
     for (int k = 0; k < 3; k++) {
-        e1[k] = corner[1][k] - corner[0][k];
-        e2[k] = corner[2][k] - corner[0][k];
+        e1[k] = corner[mirrored ? 2 : 1][k] - corner[0][k];
+        e2[k] = corner[mirrored ? 1 : 2][k] - corner[0][k];
     }
     gn_norm_vec(e1n, e1);
     gn_norm_vec(e2n, e2);
@@ -245,7 +247,7 @@ static GN_NOINLINE gn_status draw_object(gn_frame *frame, gn_casting *casting, c
     job->view = view;
     job->object = &frame->scene->objects[object_idx];
     job->object_idx = object_idx;
-    job->two_sided = (job->object->flags & (GN_OBJECT_TWO_SIDED | GN_OBJECT_CASTS_TWO_SIDED)) != 0;
+    job->sides = gn_sides_of(frame->flags[object_idx], GN_OBJECT_TWO_SIDED | GN_OBJECT_CASTS_TWO_SIDED);
     if (GN_PUNCTUAL_LIGHTS && view->perspective)
         gn_xform_compose(&job->to_light, view->axis_q30, view->fit.persp.eye_q16, job->object);
     else gn_ortho_compose(&job->to_light, view, job->object);

@@ -9,6 +9,7 @@
 #include "geometry/gn_pixel_mask.h"
 #include "geometry/gn_walk.h"
 #include "geometry/gn_xform.h"
+#include "scene/gn_sides.h"
 #include "shadow/gn_blocks.h"
 #include "shadow/gn_ortho.h"
 
@@ -104,10 +105,10 @@ static inline int64_t depth_q32(const gn_light_view *view, int64_t texels_q16)
 
 /* Plane, bias [B1] and range of a triangle with this normal, whose depths are lo .. hi, texels. Returns 0 if the light
  * cannot see it. [P7] [D9] */
-static GN_NOINLINE int ortho_caster(gn_caster *out, const gn_light_view *view, const int32_t nn[3], int two_sided,
+static GN_NOINLINE int ortho_caster(gn_caster *out, const gn_light_view *view, const int32_t nn[3], uint32_t sides,
                                     int64_t lo, int64_t hi)
 {
-    if (nn[2] == 0 || (nn[2] > 0 && !two_sided)) return 0; /* along w: away from the light */
+    if (nn[2] == 0 || !(sides & (nn[2] > 0 ? GN_SIDE_CW : GN_SIDE_CCW))) return 0; /* along w: away from the light */
     int32_t to_steps = 16 - view->tile_log2 - view->depth_log2;
     gn_bfloat per_n = gn_bf_recip(gn_bf_from_u64(gn_abs32(nn[2])));
     int32_t nu = nn[2] < 0 ? nn[0] : -nn[0], nv = nn[2] < 0 ? nn[1] : -nn[1];
@@ -128,7 +129,7 @@ static GN_NOINLINE int ortho_caster(gn_caster *out, const gn_light_view *view, c
 }
 
 /* Begins a caster with corners anywhere, by 64-bit differences. */
-static GN_NOINLINE int wide_caster_begin(gn_caster *out, const gn_light_view *view, int64_t p[3][3], int two_sided)
+static GN_NOINLINE int wide_caster_begin(gn_caster *out, const gn_light_view *view, int64_t p[3][3], uint32_t sides)
 {
     int64_t e1[3], e2[3], n[3], lo = p[0][2], hi = lo;
     int32_t e1n[3], e2n[3], nn[3];
@@ -142,7 +143,7 @@ static GN_NOINLINE int wide_caster_begin(gn_caster *out, const gn_light_view *vi
     gn_norm_vec(e2n, e2);
     gn_cross64(n, e1n, e2n);
     gn_norm_vec(nn, n);
-    return ortho_caster(out, view, nn, two_sided, lo, hi);
+    return ortho_caster(out, view, nn, sides, lo, hi);
 }
 
 /* Depth at the centre of texel (0, 0) from the plane through one vertex, which is within the cut distance: below 2^48.
@@ -275,7 +276,7 @@ static inline int box_bounds(caster_box *box, const gn_light_view *view, int32_t
 
 /* Draws a caster whose box has few texels of 8 or 16 bits: its corners U, V, D in texels, Q16, below 2^29. Returns what
  * gn_ortho_triangle does, or GN_NO_BOX: nothing is drawn. */
-static inline int32_t box_caster(const gn_frame *frame, const gn_light_view *view, int two_sided, const int32_t *p,
+static inline int32_t box_caster(const gn_frame *frame, const gn_light_view *view, uint32_t sides, const int32_t *p,
                                  const int32_t *q, const int32_t *r)
 {
     const int32_t bits = GN_K(frame, shadow_subpixel_bits), x = on_grid_q16(p[0], bits), y = on_grid_q16(p[1], bits);
@@ -289,7 +290,7 @@ static inline int32_t box_caster(const gn_frame *frame, const gn_light_view *vie
          ((uint32_t)box.by + side)) >= 2 * side)
         return GN_NO_BOX;
     const int32_t area = box.ax * box.by - box.bx * box.ay;
-    if (area == 0 || (area > 0 && !two_sided)) return -1;
+    if (area == 0 || !(sides & (area > 0 ? GN_SIDE_CW : GN_SIDE_CCW))) return -1;
     if (!box_bounds(&box, view, x, y, bits, &n)) return n;
     if (GN_VIEW_BITS(view) > 16 || view->bias_constant_q16 || view->bias_slope_q16 ||
         (box.u1 - box.u0) * (box.v1 - box.v0) > GN_BOX_TEXELS)
@@ -319,7 +320,7 @@ static GN_NOINLINE int32_t general_box(const gn_frame *frame, const gn_light_vie
         if (gn_abs64(at) >> 29) return GN_NO_BOX;
         p[i / 3][i % 3] = (int32_t)at;
     }
-    return box_caster(frame, view, casting->job.two_sided, p[0], p[1], p[2]);
+    return box_caster(frame, view, casting->job.sides, p[0], p[1], p[2]);
 }
 
 int32_t gn_ortho_triangle(const gn_frame *frame, const gn_light_view *view, gn_casting *casting, gn_alpha_cut *alpha)
@@ -331,7 +332,7 @@ int32_t gn_ortho_triangle(const gn_frame *frame, const gn_light_view *view, gn_c
         const int32_t n_texels = general_box(frame, view, casting);
         if (n_texels != GN_NO_BOX) return n_texels;
     }
-    if (misses_tile(view, polygon->p) || !wide_caster_begin(&caster, view, polygon->p, casting->job.two_sided))
+    if (misses_tile(view, polygon->p) || !wide_caster_begin(&caster, view, polygon->p, casting->job.sides))
         return -1;
     if (GN_CASTER_ALPHA && GN_TEXTURES && alpha && alpha->textured) alpha_plane(frame, view, alpha, polygon->p);
     if (GN_CASTER_CLIPPING) clip_to_reach(polygon, &casting->with.uncut);
@@ -354,9 +355,9 @@ int32_t gn_ortho_triangle(const gn_frame *frame, const gn_light_view *view, gn_c
 int32_t gn_ortho_small_triangle(const gn_frame *frame, const gn_light_view *view, gn_casting *casting,
                                 const gn_caster_corner *const c[3])
 {
-    int two_sided = casting->job.two_sided;
+    const uint32_t sides = casting->job.sides;
     const int32_t in_box =
-        box_caster(frame, view, two_sided, c[0]->vertex.v_q16, c[1]->vertex.v_q16, c[2]->vertex.v_q16);
+        box_caster(frame, view, sides, c[0]->vertex.v_q16, c[1]->vertex.v_q16, c[2]->vertex.v_q16);
     if (in_box != GN_NO_BOX) return in_box;
     const int32_t ends[2] = {view->tile_texels << 16, GN_TILE_ROWS(view) << 16};
     int32_t sub = 16 - GN_K(frame, shadow_subpixel_bits), half = (1 << sub) >> 1, x[3], y[3];
@@ -374,7 +375,7 @@ int32_t gn_ortho_small_triangle(const gn_frame *frame, const gn_light_view *view
         e2[i] = c[2]->vertex.v_q16[i] - c[0]->vertex.v_q16[i];
     }
     int64_t n[3] = {0, 0, (int64_t)e1[0] * e2[1] - (int64_t)e1[1] * e2[0]};
-    if (n[2] == 0 || (n[2] > 0 && !two_sided)) return -1;
+    if (n[2] == 0 || !(sides & (n[2] > 0 ? GN_SIDE_CW : GN_SIDE_CCW))) return -1;
     GN_UNROLL
     for (int k = 0; k < 3; k++) {
         x[k] = (c[k]->vertex.v_q16[0] + half) >> sub;
@@ -385,7 +386,7 @@ int32_t gn_ortho_small_triangle(const gn_frame *frame, const gn_light_view *view
     gn_caster caster;
     gn_cross64(n, e1, e2);
     gn_norm_vec(nn, n);
-    if (!ortho_caster(&caster, view, nn, two_sided,
+    if (!ortho_caster(&caster, view, nn, sides,
                       gn_min32(c[0]->vertex.v_q16[2], gn_min32(c[1]->vertex.v_q16[2], c[2]->vertex.v_q16[2])),
                       gn_max32(c[0]->vertex.v_q16[2], gn_max32(c[1]->vertex.v_q16[2], c[2]->vertex.v_q16[2]))))
         return -1;

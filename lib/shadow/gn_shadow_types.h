@@ -214,7 +214,7 @@ typedef struct {
     const gn_light_view *view;
     const gn_object *object;
     uint32_t object_idx;
-    int two_sided;
+    uint32_t sides; /* GN_SIDE_... that cast */
     gn_caster_corner *cache;
     uint32_t cache_mask;
     int32_t shrink_q16; /* caster bias, texels */

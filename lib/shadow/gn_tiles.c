@@ -27,7 +27,7 @@ static int shadow_possible(const gn_frame *frame, uint32_t light_idx)
 {
     uint32_t flags = 0;
     for (uint32_t i = 0; i < frame->scene->n_objects; i++) {
-        uint32_t wanted = frame->scene->objects[i].flags & (GN_OBJECT_CASTS | GN_OBJECT_RECEIVES);
+        uint32_t wanted = frame->flags[i] & (GN_OBJECT_CASTS | GN_OBJECT_RECEIVES);
         if ((wanted & ~flags) && gn_light_reaches(frame, light_idx, i)) flags |= wanted;
         if (flags == (GN_OBJECT_CASTS | GN_OBJECT_RECEIVES)) return 1;
     }

@@ -175,7 +175,7 @@ GN_HOT static inline void cut_plane(const gn_frame *frame, gn_scratch *scratch, 
 /* Pixels that alpha cuts have no surface. [M8] */
 GN_HOT static inline void cut_begin(const gn_frame *frame, gn_scratch *scratch, gn_alpha_cut *cut, const gn_tri *tri)
 {
-    const gn_object *object = &frame->scene->objects[tri->source.object_idx];
+    const gn_object *object = &frame->objects[tri->source.object_idx];
     const uint16_t *idx = object->mesh->idx + 3 * (size_t)tri->source.triangle_idx;
     const int dithers = GN_LAYERS_MAX && object->visible_alpha == GN_ALPHA_BLEND && !GN_LAYERS(frame);
     gn_alpha_begin(cut, object, dithers ? GN_ALPHA_DITHER : object->visible_alpha, idx);
@@ -432,7 +432,7 @@ GN_HOT static inline void raster_one(const raster_tile *tile, const gn_tri *tri,
         else raster_small(tile, tri, id);
         return;
     }
-    if (GN_VISIBLE_ALPHA && tile->frame->scene->objects[tri->source.object_idx].visible_alpha != GN_ALPHA_OPAQUE) {
+    if (GN_VISIBLE_ALPHA && tile->frame->objects[tri->source.object_idx].visible_alpha != GN_ALPHA_OPAQUE) {
         raster_cut_triangle(tile, tri, id);
         return;
     }

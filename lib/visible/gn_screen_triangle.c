@@ -7,6 +7,7 @@
 #include "base/gn_q.h"
 #include "geometry/gn_pixel_mask.h"
 #include "geometry/gn_walk.h"
+#include "scene/gn_sides.h"
 #include "visible/gn_group.h"
 #include "visible/gn_screen_triangle.h"
 #include "visible/gn_setup.h"
@@ -271,10 +272,10 @@ static inline int order_corners(grid_triangle *t, const gn_screen_job *job, cons
     const int64_t area = (int64_t)(b.x - a.x) * (c.y - a.y) - (int64_t)(c.x - a.x) * (b.y - a.y);
     t->order = 1;
     if (area >= 0) {
-        if (area == 0 || !(job->object->flags & GN_OBJECT_TWO_SIDED)) return 0;
+        if (area == 0 || !(job->sides & GN_SIDE_CW)) return 0;
         swap = b, b = c, c = swap;
         t->order = 4;
-    }
+    } else if (!(job->sides & GN_SIDE_CCW)) return 0;
     if (c.y < a.y && c.y < b.y) swap = a, a = c, c = b, b = swap, t->order += 2; /* rotated, to begin with the top */
     else if (b.y < a.y) swap = a, a = b, b = c, c = swap, t->order++;
     t->a = a, t->b = b, t->c = c;
@@ -358,6 +359,7 @@ void gn_screen_begin(gn_screen_job *job, const gn_frame *frame)
 
 void gn_screen_object(gn_screen_job *job)
 {
+    job->sides = gn_sides_of(job->frame->flags[job->object_idx], GN_OBJECT_TWO_SIDED);
     job->fixed_mask = GN_VISIBLE_ALPHA && job->object->visible_alpha != GN_ALPHA_OPAQUE ? 0 : -1;
     job->narrow = job->fixed_mask & gn_walk_narrow(GN_K(job->frame, subpixel_bits));
 }

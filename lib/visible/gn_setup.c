@@ -300,9 +300,9 @@ static void setup_begin_groups(gn_frame *frame)
 {
     const uint32_t n_groups = (uint32_t)GN_K(frame, triangle_groups);
     uint32_t n = 0;
-    for (uint32_t i = 0; i < frame->scene->n_objects; i++) {
-        const gn_object *object = &frame->scene->objects[i];
-        if (!(object->flags & GN_OBJECT_HIDDEN)) n += object->mesh->n_triangles;
+    for (uint32_t i = 0; i < frame->n_objects; i++) {
+        const gn_object *object = &frame->objects[i];
+        if (!(frame->flags[i] & GN_OBJECT_HIDDEN)) n += object->mesh->n_triangles;
     }
     frame->n_grouped = n;
     frame->group_shift = 0;
@@ -353,10 +353,10 @@ void gn_setup_tile(const gn_frame *frame, gn_scratch *scratch, uint32_t tile_idx
     job.screen.stats = NULL;
     setup_window(&job, &tile.rect);
     job.screen.tile = &tile;
-    for (uint32_t i = frame->scene->n_objects; i-- > 0;) {
+    for (uint32_t i = frame->n_objects; i-- > 0;) {
         job.screen.object_idx = i;
-        job.screen.object = &frame->scene->objects[i];
-        if (job.screen.object->flags & GN_OBJECT_HIDDEN) continue;
+        job.screen.object = &frame->objects[i];
+        if (frame->flags[i] & GN_OBJECT_HIDDEN) continue;
         first -= job.screen.object->mesh->n_triangles;
         setup_draw_groups(&job, gn_group_of(column, column, row, row), first);
     }
@@ -411,10 +411,10 @@ gn_status gn_setup_triangles(gn_frame *frame, gn_scratch *scratch)
     frame->stats.n_triangles = 0;
     frame->stats.n_clipped = 0;
     for (uint32_t i = 0; i <= (uint32_t)frame->tiles_x * frame->tiles_y; i++) frame->tile_first[i] = 0;
-    for (uint32_t i = 0; i < frame->scene->n_objects; i++) {
+    for (uint32_t i = 0; i < frame->n_objects; i++) {
         job.screen.object_idx = i;
-        job.screen.object = &frame->scene->objects[i];
-        if (job.screen.object->flags & GN_OBJECT_HIDDEN) continue;
+        job.screen.object = &frame->objects[i];
+        if (frame->flags[i] & GN_OBJECT_HIDDEN) continue;
         gn_status status = setup_object(&job, frame, first);
         if (status) return GN_FAIL_AT(frame, status, i, GN_MESH_FIELD(status));
         first += job.screen.object->mesh->n_triangles;

@@ -259,7 +259,7 @@ gn_status draw()
     gn_picture picture = {32, 32, GN_FORMAT_RGB565, GN_VIEW_COLOUR, 0};
     gn_status status = gn_init(&renderer, &picture);
     if (status == GN_OK) status = gn_render(&renderer, &scene, flush, nullptr);
-    return gn_get_detail(&renderer)->needed ? GN_ERR_ORDER : gn_status_text(status)[0] ? status : GN_OK;
+    return gn_get_detail(&renderer)->needed ? GN_ERR_NO_BEGIN : gn_status_text(status)[0] ? status : GN_OK;
 }
 EOF_C
 for words in "" none all "SHADOWS=0 RAW_VIEWS=1" RUNTIME_KNOBS=1 accurate; do

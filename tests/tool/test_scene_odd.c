@@ -175,25 +175,19 @@ static void test_frames(void)
     scene_free(&s);
 }
 
-/* Flat in one direction or all, as files hide things or flatten them: the same but for that. */
+/* Flat in one direction, as files flatten things: the same but for that. What has no area stays, and is not drawn. */
 static void test_flat(void)
 {
-    static const double scales[][3] = {{0, 0, 0}, {1, 0, 1}, {0, 1, 1},  {1, 1, 0},
-                                       {0, 0, 1}, {0, 2, 0}, {-1, 0, 1}, {1e-12, 1e-12, 1}};
+    static const double scales[][3] = {{1, 0, 1}, {0, 1, 1}, {1, 1, 0}, {-1, 0, 1},
+                                       {0, 0, 0}, {0, 0, 1}, {0, 2, 0}, {1e-12, 1e-12, 1}};
     for (size_t i = 0; i < sizeof scales / sizeof *scales; i++) {
         char node[100];
         snprintf(node, sizeof node, ",\"translation\":[3,0,0],\"scale\":[%g,%g,%g]", scales[i][0], scales[i][1],
                  scales[i][2]);
         if (!load_pyramid(node, "", "")) continue;
         const scene_affine *a = &s.objects[1].to_world;
-        double most = 1e-5, x[3], y[3], z[3], normal[3];
-        for (int k = 0; k < 3; k++) most = fmax(most, fabs(scales[i][k]));
         for (int k = 0; k < 3; k++) CHECK_NEAR(a->m[k][k], scales[i][k], 1e-4);
-        affine_column(x, a, 0);
-        affine_column(y, a, 1);
-        affine_column(z, a, 2);
-        vec_cross(normal, x, y);
-        if (!CHECK(fabs(vec_dot(normal, z)) > 1e-11 * most * most * most)) printf("  scale %zu\n", i);
+        if (!CHECK((affine_sign(a) != 0) == (i < 4))) printf("  scale %zu\n", i);
         CHECK_NEAR(a->m[0][3], 3, 0);
         scene_free(&s);
     }

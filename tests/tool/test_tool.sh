@@ -106,6 +106,16 @@ done
 good info "$cube" --size 64x48 --ram 100000
 grep -q 'of flash (Cortex-M0, -O2), no --flash given$' "$tmp/out" && pass || fail "info without --flash: $(tail -n 1 "$tmp/out")"
 # who set what: a preset sets what belongs to it anew, and a later one of the same name wins
+# its tables of RAM have what was set with every preset, before or behind one that is set
+for sets in "--set tile_width=16" "--set preset=fast --set tile_width=16"; do
+    good info "$cube" --size 64x48 $sets
+    for preset in tiny fast balanced accurate; do # 16x16 pixels, or with tiny 16x16, too: cells and pixels, 7 bytes each
+        grep -q "^    $preset .*, screen tile 1796, " "$tmp/out" && pass || fail "info $sets: $(grep -m 1 "^    $preset " "$tmp/out")"
+    done
+    grep "^    .* renderer" "$tmp/out" >"$tmp/set"
+    good info "$cube" --size 64x48
+    grep "^    .* renderer" "$tmp/out" | cmp -s - "$tmp/set" && fail "info $sets: compiled as without" || pass
+done
 settings() { # WANTED ARGS: the row of info
     wanted=$1
     shift

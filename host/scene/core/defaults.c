@@ -82,12 +82,14 @@ typedef struct {
     bool coplanar;
 } floor_parts;
 
-static void add_floor_triangle(floor_parts *parts, const scene_object *object, double p[3][3], const bounds *b)
+static void add_floor_triangle(floor_parts *parts, const scene_object *object, double p[3][3], int sign,
+                               const bounds *b)
 {
     double u[3], v[3], normal[3];
     vec_sub(u, p[1], p[0]);
     vec_sub(v, p[2], p[0]);
     vec_cross(normal, u, v);
+    normal[1] *= sign;
     double length = sqrt(vec_dot(normal, normal)), height = (p[0][1] + p[1][1] + p[2][1]) / 3 - b->low[1];
     if (!(fabs(normal[1]) > floor_steepness * length)) return;
     bool is_up = normal[1] > 0;
@@ -104,10 +106,11 @@ static floor_parts find_floor(loader *l, const bounds *b)
     for (size_t i = 0; i < s->n_objects; i++) {
         const scene_object *object = &s->objects[i];
         const scene_mesh *mesh = &s->meshes[object->mesh_idx];
+        const int sign = scene_object_sign(object);
         for (size_t t = 0; t < mesh->n_triangles; t++) {
             double p[3][3];
             for (int k = 0; k < 3; k++) scene_vertex(p[k], s, object, mesh->idx[3 * t + (size_t)k]);
-            add_floor_triangle(&parts, object, p, b);
+            add_floor_triangle(&parts, object, p, sign, b);
         }
     }
     poses_apply(&l->poses, l->poses.n, s);
@@ -139,7 +142,7 @@ static bool add_ground(loader *l, const bounds *b, bool coplanar)
     for (int i = 0; i < 3; i++) object.albedo[i] = ground_albedo;
     mesh_splitter splitter;
     size_t first, n_meshes;
-    return mesh_splitter_init(&splitter, l, &quad) && mesh_split(&splitter, name, idx, 2, false, &first, &n_meshes) &&
+    return mesh_splitter_init(&splitter, l, &quad) && mesh_split(&splitter, name, idx, 2, &first, &n_meshes) &&
            loader_add_objects(l, &object, first, n_meshes);
 }
 

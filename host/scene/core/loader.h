@@ -143,9 +143,9 @@ typedef struct {
 bool mesh_splitter_init(mesh_splitter *splitter, loader *l, const scene_mesh *input);
 
 /* Adds triangles (3 * n_triangles indices of the input, all in range) as the meshes *first ... *first + *n_meshes - 1.
- * With flip their winding is reversed: for instances whose transform mirrors (see gltf_mesh.c). */
-bool mesh_split(mesh_splitter *splitter, const char *name, const uint32_t *idx, size_t n_triangles, bool flip,
-                size_t *first, size_t *n_meshes);
+ */
+bool mesh_split(mesh_splitter *splitter, const char *name, const uint32_t *idx, size_t n_triangles, size_t *first,
+                size_t *n_meshes);
 
 /* mesh_order.c: the same triangles; those of a large mesh in an order in which neighbours are near each other. NULL:
  * failed. */

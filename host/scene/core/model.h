@@ -308,6 +308,9 @@ int scene_add_note(scene *s, const char *text, char *error, size_t error_bytes);
 void scene_vertex(double *out, const scene *s, const scene_object *object, size_t vertex_idx);
 /* The same in the object's space: the weighted mean of where its joints take it. */
 void scene_posed(double *out, const scene_mesh *mesh, const scene_object *object, size_t vertex_idx);
+/* 1; -1: the transforms of the pose mirror the object, so that its triangles turn the other way round; 0: it has no
+ * volume, and is not drawn. Of joints the first that has an inverse tells. */
+int scene_object_sign(const scene_object *object);
 
 /* Appends a light of this kind, placed so that it lights the scene as the camera sees it and throws a shadow into the
  * picture: what

@@ -30,8 +30,8 @@ typedef struct {
 } gltf_node;
 
 typedef struct {
-    bool loaded[2]; /* [1]: with reversed winding, for mirroring instances */
-    size_t first_mesh[2], n_meshes[2];
+    bool loaded;
+    size_t first_mesh, n_meshes;
 } gltf_primitive;
 
 /* KHR_texture_transform: texture coordinates times scale, turned by -rotation, plus offset. */

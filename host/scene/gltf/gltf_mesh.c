@@ -1,9 +1,7 @@
 /* glTF primitives -> scene meshes, and mesh nodes -> scene objects.
  *
  * Nodes that instance a mesh share its scene meshes, one per primitive (more if it is too large for 16-bit indices).
- * glTF reverses the winding where a node's transform mirrors (negative determinant). The engines cull by the winding on
- * the screen, after the transform, and know nothing of determinants: so a mirroring instance gets a copy of the mesh
- * whose index order is reversed beforehand. Vertex normals need nothing: the inverse transpose keeps them outward. */
+ * Where a node's transform mirrors, the engines turn the winding, as glTF asks for. */
 #include "gltf.h"
 
 #include "../core/vec.h"
@@ -92,22 +90,21 @@ static bool read_primitive(gltf *g, const json_value *primitive, const char *nam
            (out->n_triangles == 0 || mesh_prepare_normals(g->l, out));
 }
 
-static bool load_primitive(gltf *g, const json_value *json, const char *name, const gltf_material *material, bool flip,
+static bool load_primitive(gltf *g, const json_value *json, const char *name, const gltf_material *material,
                            gltf_primitive *out)
 {
     const gltf_wants wants = {.uv_set = material->uv_set, .uv = &material->uv, .mask_uv = g->has_mask_texture};
     scene_mesh mesh;
     mesh_light light = {0};
     mesh_splitter splitter;
-    if (out->loaded[flip]) return true;
-    out->loaded[flip] = true;
+    if (out->loaded) return true;
+    out->loaded = true;
     arena_block *mark = g->l->memory.blocks;
     bool ok = read_primitive(g, json, name, &wants, &mesh, &light);
     if (ok && mesh.n_triangles > 0) {
         ok = mesh_splitter_init(&splitter, g->l, &mesh);
         splitter.light = light;
-        ok = ok && mesh_split(&splitter, name, mesh.idx, mesh.n_triangles, flip, &out->first_mesh[flip],
-                              &out->n_meshes[flip]);
+        ok = ok && mesh_split(&splitter, name, mesh.idx, mesh.n_triangles, &out->first_mesh, &out->n_meshes);
     }
     arena_release(&g->l->memory, mark); /* many primitives may share one large vertex buffer */
     return ok;
@@ -140,20 +137,19 @@ static void place(scene_object *object, const gltf *g, const gltf_node *node, co
 static bool emit_primitive(gltf *g, const gltf_node *node, const json_value *json, const char *mesh_name,
                            const gltf_skin *skin, gltf_primitive *primitive)
 {
-    bool flip = affine_mirrors(skin->n ? &skin->joints[0].now : &node->world);
     gltf_material material;
     if (!gltf_read_material(g, json, node->moves || skin->moves, &material) ||
         !gltf_material_knobs(g, node->json, &material))
         return false;
-    if (!load_primitive(g, json, mesh_name, &material, flip, primitive)) return false;
-    if (primitive->n_meshes[flip] == 0) return true; /* skipped, with a note */
+    if (!load_primitive(g, json, mesh_name, &material, primitive)) return false;
+    if (primitive->n_meshes == 0) return true; /* skipped, with a note */
     scene_object object = material.surface;
     place(&object, g, node, skin);
-    if (!check_coordinates(g, json, &g->l->s->meshes[primitive->first_mesh[flip]], &object)) return false;
+    if (!check_coordinates(g, json, &g->l->s->meshes[primitive->first_mesh], &object)) return false;
     const char *name = gltf_name(g, node->json, "node");
     object.name = name ? loader_format(g->l, "%s", name) : NULL;
     const size_t first = g->l->s->n_objects;
-    return object.name && loader_add_objects(g->l, &object, primitive->first_mesh[flip], primitive->n_meshes[flip]) &&
+    return object.name && loader_add_objects(g->l, &object, primitive->first_mesh, primitive->n_meshes) &&
            gltf_add_joints(g, json, skin, first);
 }
 

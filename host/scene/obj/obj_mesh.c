@@ -147,7 +147,7 @@ static bool emit_part(obj_file *o, mesh_splitter *splitter, const obj_part *part
         object.caster = SCENE_CASTER_DITHER;
     }
     object.name = loader_format(o->l, "%s", *part->object ? part->object : material->name);
-    return object.name && mesh_split(splitter, object.name, part->idx, part->n_triangles, false, &first, &n_meshes) &&
+    return object.name && mesh_split(splitter, object.name, part->idx, part->n_triangles, &first, &n_meshes) &&
            loader_add_objects(o->l, &object, first, n_meshes);
 }
 

@@ -21,4 +21,7 @@ int remarks_on_lights(scene *s, char *error, size_t error_bytes);
 /* Adds a note for every light all of whose casters are nearer than its near plane. 0, or -1 with one line in error. */
 int remarks_on_shadows(scene *s, char *error, size_t error_bytes);
 
+/* "; added: ground, light": what the file lacked and the tool added; "": nothing. */
+void remarks_list_added(const scene *s, char *out, size_t bytes);
+
 #endif

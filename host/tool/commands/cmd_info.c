@@ -1,7 +1,9 @@
 /* gnomon info: what a scene needs. */
 #include <stdio.h>
 #include <stdlib.h>
+#include <string.h>
 
+#include "../settings/settings_parse.h"
 #include "info_memory.h"
 #include "info_settings.h"
 #include "../cli/remarks.h"
@@ -75,13 +77,29 @@ static int keep_groups(const settings *set, settings *needed, const scene *s, se
     return 0;
 }
 
+/* What was set beside a preset stays with any of them. */
+static int set_again(settings *out, const tool_options *o, char *error, size_t bytes)
+{
+    for (int i = 0; i < o->n_sets; i++) {
+        char key[32] = "";
+        const char *value = strchr(o->sets[i], '=');
+        if (!value || (size_t)(value - o->sets[i]) >= sizeof key) continue;
+        memcpy(key, o->sets[i], (size_t)(value - o->sets[i]));
+        if (settings_is_knob(key) && settings_of_preset(key) &&
+            settings_apply_knob(out, key, value + 1, error, bytes) < 0)
+            return -1;
+    }
+    return 0;
+}
+
 /* RAM per preset with features and capacities for just this scene at this picture size, where they were not set. */
-static int preset_ram(const settings *set, const settings_demand *demand, const scene *s, settings_ram_parts *ram,
-                      char *error, size_t bytes)
+static int preset_ram(const settings *set, const settings_demand *demand, const scene *s, const tool_options *o,
+                      settings_ram_parts *ram, char *error, size_t bytes)
 {
     for (int i = 0; i < SETTINGS_PRESETS; i++) {
         settings needed = *set;
         settings_preset(&needed, i);
+        if (set_again(&needed, o, error, bytes)) return -1;
         settings_trim(&needed, s);
         settings_demand scaled = *demand;
         if (keep_groups(set, &needed, s, &scaled, error, bytes)) return -1;
@@ -358,7 +376,7 @@ int tool_info(const tool_options *o)
     if (!failed) {
         report r = {.options = o, .scene = &s, .picture = &p};
         count(&s, &r.counts);
-        failed = preset_ram(&set, &p.demand, &s, r.ram, error, sizeof error) ||
+        failed = preset_ram(&set, &p.demand, &s, o, r.ram, error, sizeof error) ||
                  info_memory_find(&r.memory, o, error, sizeof error);
         if (!failed && o->json) print_json(&r);
         else if (!failed) print_text(&r);

@@ -5,7 +5,7 @@
 #include <stdio.h>
 #include <string.h>
 
-/* As if the preset were set last, but for triangle_groups. */
+/* The preset in place of what was chosen; what else is set, and groups of triangles of the file, stay. */
 static void try_preset(info_memory *out, const tool_options *o, int preset, int triangle_groups)
 {
     board m0 = {.core = FLASH_CORTEX_M0, .short_enums = true}, m4 = {.core = FLASH_CORTEX_M4, .short_enums = true};
@@ -14,11 +14,13 @@ static void try_preset(info_memory *out, const tool_options *o, int preset, int 
     compiled c;
     board_set_optimisation(&m0, compile_optimisation(o));
     board_set_optimisation(&m4, compile_optimisation(o));
-    if (with.n_sets > TOOL_SETS_MAX - 2) with.n_sets = TOOL_SETS_MAX - 2;
     snprintf(set, sizeof set, "preset=%s", settings_preset_name[preset]);
     snprintf(groups, sizeof groups, "triangle_groups=%d", triangle_groups);
+    with.n_sets = 0;
     with.sets[with.n_sets++] = set;
     with.sets[with.n_sets++] = groups;
+    for (int i = 0; i < o->n_sets && with.n_sets < TOOL_SETS_MAX; i++)
+        if (strncmp(o->sets[i], "preset=", 7) != 0) with.sets[with.n_sets++] = o->sets[i];
     with.simplify = TOOL_SIMPLIFY_SAFE;
     if (compile_all(&c, &with, error, sizeof error)) {
         snprintf(out->refused[preset], sizeof out->refused[preset], "%.150s", error);

@@ -196,6 +196,7 @@ static settings_ram_parts compact_ram(const settings *s)
     layout all = {0, 8};
     const long tile_px = (long)s->quality.tile_width * s->quality.tile_height, side = s->quality.atlas_size;
     put(&all, 1, 400, 8); /* scene to view */
+    r.objects = put(&all, s->capacity.max_objects, 1, 1);
     r.triangles = put(&all, s->capacity.max_triangles, 56, 4);
     r.atlas = put(&all, side * side, 2, 2);
     pad(&all, 8);
@@ -204,7 +205,7 @@ static settings_ram_parts compact_ram(const settings *s)
     put(&all, 1, 344, 4); /* work */
     pad(&all, 8);
     r.total = all.size;
-    r.rest = r.total - r.atlas - r.triangles - r.cells - r.pixels;
+    r.rest = r.total - r.atlas - r.objects - r.triangles - r.cells - r.pixels;
     return r;
 }
 
@@ -221,7 +222,7 @@ settings_ram_parts settings_ram(const settings *s)
     int punctual = s->feature.punctual_lights;
     const long groups = s->quality.triangle_groups;
     const int fits = s->feature.shadows && s->feature.tight_fit;
-    put(&frame, 1, (s->feature.orthographic ? 252 : 244) + (groups ? 4 : 0) + (fits ? 4 : 0), 8); /* scene to detail */
+    put(&frame, 1, (s->feature.orthographic ? 260 : 252) + (groups ? 4 : 0) + (fits ? 4 : 0), 8); /* scene to detail */
     if (s->feature.shadows) {
         put(&frame, 1, 8, 4);  /* n_cascades to frame_count */
         put(&frame, 4, 40, 8); /* cascade */
@@ -231,6 +232,7 @@ settings_ram_parts settings_ram(const settings *s)
     int boxes = punctual ||
                 (s->feature.shadows && (s->feature.object_boxes || s->feature.caster_culling || s->feature.tight_fit));
     r.objects = boxes ? put(&frame, s->capacity.max_objects, punctual ? 36 : 24, 4) : 0;
+    r.objects += put(&frame, s->capacity.max_objects, 1, 1); /* flags */
     r.triangles = put(&frame, groups ? 1 : s->capacity.max_triangles, wide_coordinates(s) ? 44 : 32, 4);
     r.tiles = put(&frame, tiles + 1, offset, offset);
     r.tile_refs = put(&frame, groups ? 1 : s->capacity.max_tile_refs, 2, 2);
