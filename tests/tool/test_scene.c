@@ -64,6 +64,21 @@ static void test_json_values(void)
     json_free(&doc);
 }
 
+/* Of members with one key the last counts. Strings may hold raw tabs and line breaks. */
+static void test_json_loose(void)
+{
+    static const char text[] = "{\"a\": 1, \"b\": 2, \"a\": {\"c\": 3, \"c\": 4, \"c\": \"x\ty\r\n\"}, \"d\": 5}";
+    json_doc doc;
+    char path[64];
+    if (!CHECK_EQ_INT(json_parse(&doc, text, sizeof text - 1, error, sizeof error), 0)) return;
+    const json_value *a = json_get(doc.root, "a"), *d = json_get(doc.root, "d");
+    CHECK(doc.root->n_children == 3 && a && a->n_children == 1 && d->child_idx == 2 && doc.n_duplicates == 3);
+    CHECK(strcmp(json_get(a, "c")->string, "x\ty\r\n") == 0);
+    json_path(doc.duplicate, path, sizeof path);
+    CHECK(strcmp(path, "/a/c") == 0);
+    json_free(&doc);
+}
+
 /* --- glTF ------------------------------------------------------------------------------------------------------------
  */
 
@@ -264,7 +279,6 @@ static const char *const view_28 = "{\"buffer\":0,\"byteLength\":28}";
 static void test_sparse(void)
 {
     static const change cases[] = {{"\"count\":2", "\"count\":7", "exceeds"},
-                                   {"\"count\":2", "\"count\":0", "are needed"},
                                    {"5121", "5120", "5121, 5123 or 5125"},
                                    {"5121", "5123", "accessor has 6"},
                                    {"\"byteOffset\":4", "\"byteOffset\":5", "reach beyond"},
@@ -287,11 +301,13 @@ static void test_sparse(void)
                   "does not increase"));
     bytes[1] = 4;
     memcpy(bytes + 4, &(float){NAN}, sizeof(float));
-    CHECK(refused(load_bytes("\"attributes\":{\"POSITION\":0}", six_points, view_28, bytes, sizeof bytes),
-                  "element 0 is not finite"));
-    memcpy(bytes + 4, &(float){2e18f}, sizeof(float));
-    CHECK(refused(load_bytes("\"attributes\":{\"POSITION\":0}", six_points, view_28, bytes, sizeof bytes),
-                  "vertex 1: coordinate 2e+18"));
+    for (int i = 0; i < 2; i++) { /* the other triangle is drawn */
+        if (!CHECK_EQ_INT(load_bytes("\"attributes\":{\"POSITION\":0}", six_points, view_28, bytes, sizeof bytes), 0))
+            continue;
+        CHECK(s.meshes[0].n_triangles == 1 && has_remark("1 faces of 'mesh 0' are left out"));
+        scene_free(&s);
+        memcpy(bytes + 4, &(float){2e18f}, sizeof(float));
+    }
 }
 
 static void check_mode(int mode, int index_type, const void *idx, size_t index_bytes, const uint32_t *expected,
@@ -472,7 +488,7 @@ static void test_glb(void)
     CHECK(refused(load_patched(12, 13), TMP ".glb:"));
     CHECK(refused(load_patched(12, 0xFFFFFFFC), "reaches beyond"));
     CHECK(refused(load_patched(16, 0), "first chunk is not JSON"));
-    CHECK(refused(load_patched(n_glb - sizeof base_bin - 4, 0), "buffer 0 has no data"));
+    CHECK(refused(load_patched(n_glb - sizeof base_bin - 4, 0), "/buffers/0: it has no data"));
     CHECK(refused(load_patched(n_glb - sizeof base_bin - 8, 8), "byte"));
     make_glb();
     for (size_t n = 0; n < n_glb; n++) CHECK(refused(load_glb(n), TMP ".glb"));
@@ -932,6 +948,7 @@ int main(void)
     test_json_errors();
     test_json_depth();
     test_json_values();
+    test_json_loose();
     test_gltf_base();
     test_orthographic();
     test_gltf_errors();

@@ -345,6 +345,25 @@ bool loader_add_objects(loader *l, const scene_object *pattern, size_t first_mes
     return true;
 }
 
+static char lower(char c)
+{
+    return c >= 'A' && c <= 'Z' ? (char)(c - 'A' + 'a') : c;
+}
+
+bool loader_same_word(const char *a, const char *b)
+{
+    for (; *a && lower(*a) == lower(*b); a++) b++;
+    return !*a && !*b;
+}
+
+/* By its mark; without one, by every other byte of its beginning. */
+bool loader_is_utf16(const uint8_t *bytes, size_t n_bytes)
+{
+    if (n_bytes < 4) return false;
+    if ((bytes[0] == 0xFF && bytes[1] == 0xFE) || (bytes[0] == 0xFE && bytes[1] == 0xFF)) return true;
+    return (bytes[0] && !bytes[1] && bytes[2] && !bytes[3]) || (!bytes[0] && bytes[1] && !bytes[2] && bytes[3]);
+}
+
 bool loader_clamp_colour(double *rgb, size_t n)
 {
     bool unchanged = true;

@@ -92,6 +92,9 @@ bool loader_try_file(loader *l, const char *path, uint8_t **bytes, size_t *n_byt
 bool loader_may_read(const loader *l, const char *name);
 /* name, as seen from the folder of the scene file. */
 char *loader_relative_path(loader *l, const char *name);
+/* beside.c: the path of a file that the scene names, also where upper and lower case differ, with a note. *problem: why
+ * it may not be read; else NULL, and the file may still not be there. False: failed. */
+bool loader_find_beside(loader *l, const char *name, const char **path, const char **problem);
 
 /* New elements of the scene, zeroed but for their name. NULL: failed. */
 scene_mesh *loader_add_mesh(loader *l, const char *name);
@@ -105,6 +108,10 @@ scene_object object_defaults(void);
 
 /* One object per mesh of the range, all like the pattern (whose name is copied), with the mesh's baked light. */
 bool loader_add_objects(loader *l, const scene_object *pattern, size_t first_mesh, size_t n_meshes);
+
+bool loader_is_utf16(const uint8_t *bytes, size_t n_bytes);
+/* Upper and lower case of ASCII are alike. */
+bool loader_same_word(const char *a, const char *b);
 
 /* Clamps to 0..1; false if that changed anything. */
 bool loader_clamp_colour(double *rgb, size_t n);

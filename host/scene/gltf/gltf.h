@@ -11,8 +11,9 @@
 #define GLTF_NONE SIZE_MAX
 
 typedef struct {
-    const uint8_t *bytes; /* NULL: the file gives no data */
+    const uint8_t *bytes; /* NULL: there are none */
     size_t n_bytes;
+    const char *problem; /* why there are none, for a message; else NULL */
 } gltf_bytes;
 
 typedef struct {
@@ -97,10 +98,17 @@ bool gltf_get_extension(gltf *g, const json_value *parent, const char *name, con
 /* parent.name, or "kind index" in temporary memory. NULL: failed. */
 const char *gltf_name(gltf *g, const json_value *parent, const char *kind);
 
+/* gltf_clean.c: as if members that are null, and references below 0, were not there; says so, and where members come
+ * twice. */
+bool gltf_clean(loader *l, json_doc *doc);
+
 /* gltf_buffer.c */
 bool gltf_load_buffers(gltf *g);
-/* A data URI or a file beside the scene. *missing: NULL, or which file is not there and why. */
-bool gltf_load_uri(gltf *g, const json_value *where, const char *uri, gltf_bytes *out, const char **missing);
+bool gltf_is_data_uri(const char *uri);
+/* A data URI or a file beside the scene. False: out of memory, or over the budget; what else is wrong: out->problem. */
+bool gltf_load_uri(gltf *g, const char *uri, gltf_bytes *out);
+/* Why the buffer of the view has no bytes; else NULL. */
+const char *gltf_view_problem(const gltf *g, const json_value *view);
 /* The bytes of a buffer view; stride 0: packed. */
 bool gltf_view_bytes(gltf *g, const json_value *view, gltf_bytes *out, size_t *stride);
 
@@ -110,11 +118,12 @@ typedef struct {
     size_t count, n_components;
     size_t component_type;
     bool normalized;
-    double *values;                  /* count * n_components, normalised ones in -1..1 or 0..1; finite */
-    size_t n_not_finite, not_finite; /* numbers of the file's that are none: 0 in values; the element of the first */
+    double *values; /* count * n_components, normalised ones in -1..1 or 0..1; NULL if count is 0, with a remark */
+    size_t n_not_finite, not_finite; /* numbers of the file's that are not finite; the element of the first */
 } gltf_array;
-bool gltf_read_accessor(gltf *g, size_t accessor_idx, gltf_array *out); /* without such numbers */
-bool gltf_read_loosely(gltf *g, size_t accessor_idx, gltf_array *out);
+bool gltf_read_accessor(gltf *g, size_t accessor_idx, gltf_array *out); /* fails for numbers that are not finite */
+bool gltf_read_loosely(gltf *g, size_t accessor_idx, gltf_array *out);  /* they are 0 in values */
+bool gltf_read_as_it_is(gltf *g, size_t accessor_idx, gltf_array *out); /* they are in values */
 
 /* gltf_attribute.c: every attribute of ours but texture coordinates, which are read where something looks them up. */
 typedef struct {
@@ -122,8 +131,15 @@ typedef struct {
     const gltf_uv_transform *uv;
     bool mask_uv;
 } gltf_wants;
+/* Beside the mesh, in temporary memory. */
+typedef struct {
+    mesh_light light;
+    bool *lost;    /* per vertex: its place is not finite or too large, and 0 in the mesh; NULL: none is */
+    double *alpha; /* per vertex, 0..1, of COLOR_0; NULL: 1 */
+} gltf_beside;
+/* n_vertices stays 0 if there are none, with a remark. */
 bool gltf_read_attributes(gltf *g, const json_value *attributes, const gltf_wants *wants, scene_mesh *out,
-                          mesh_light *light);
+                          gltf_beside *beside);
 
 /* gltf_texture.c. data: a mask image. *out SCENE_NONE: ignored, with a note. */
 bool gltf_load_texture(gltf *g, size_t texture_idx, bool is_data, size_t *out);

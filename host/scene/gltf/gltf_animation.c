@@ -57,6 +57,7 @@ static bool join_keys(gltf *g, sampler *s)
     return kept == n || loader_note(g->l, "%zu keys of animations come twice for one time: the last counts", n - kept);
 }
 
+/* Without keys it moves nothing. */
 static bool read_sampler(gltf *g, const json_value *json, sampler *out)
 {
     size_t input = GLTF_NONE, output = GLTF_NONE;
@@ -69,8 +70,10 @@ static bool read_sampler(gltf *g, const json_value *json, sampler *out)
     else if (strcmp(kind, "STEP") == 0) out->kind = CURVE_STEP;
     else if (strcmp(kind, "CUBICSPLINE") == 0) out->kind = CURVE_CUBIC;
     else return gltf_fail(g, json, "interpolation '%s' is unknown", kind);
-    return gltf_read_accessor(g, input, &out->times) && check_times(g, json_get(json, "input"), &out->times) &&
-           gltf_read_accessor(g, output, &out->values) && check_values(g, json_get(json, "output"), out) &&
+    if (!gltf_read_accessor(g, input, &out->times) || !gltf_read_accessor(g, output, &out->values)) return false;
+    if (out->values.count == 0) out->times.count = 0;
+    if (out->times.count == 0) return true;
+    return check_times(g, json_get(json, "input"), &out->times) && check_values(g, json_get(json, "output"), out) &&
            join_keys(g, out);
 }
 
@@ -134,6 +137,7 @@ static bool play_channel(gltf *g, const channel *c, const char *animation, unsig
     }
     *moved = (unsigned char)(*moved | c->bit);
     if (!read_sampler(g, c->sampler, &s)) return false;
+    if (s.times.count == 0) return true;
     note_duration(g, &s.times);
     g->played = loader_grow(g->l, g->played, g->n_played, sizeof *g->played);
     if (!g->played) return false;
@@ -266,7 +270,7 @@ static bool keep_channel(gltf *g, size_t clip, const channel *c)
     rig->channels = grown;
     arena_block *mark = g->l->memory.blocks;
     bool ok = read_sampler(g, c->sampler, &s);
-    if (ok) {
+    if (ok && s.times.count > 0) {
         scene_channel *to = &rig->channels[rig->n_channels++];
         *to = (scene_channel){clip, node, what, curve_of(&s)};
         to->curve.times = own_numbers(g, s.times.values, s.times.count);
