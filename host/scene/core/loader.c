@@ -364,6 +364,16 @@ bool loader_is_utf16(const uint8_t *bytes, size_t n_bytes)
     return (bytes[0] && !bytes[1] && bytes[2] && !bytes[3]) || (!bytes[0] && bytes[1] && !bytes[2] && bytes[3]);
 }
 
+bool loader_limit_focal(loader *l, double *focal)
+{
+    static const double least = 1.0 / 32, most = 255.99, degrees_per_radian = 180 / VEC_PI; /* of gn_camera.focal_q24 */
+    const double was = *focal;
+    if (was >= least && was <= most) return true;
+    *focal = fmin(fmax(was, least), most);
+    return loader_remark(l, "the camera sees %.3g degrees from top to bottom: drawn are %.3g, of 0.448 to 176 at most",
+                         2 * atan(1 / was) * degrees_per_radian, 2 * atan(1 / *focal) * degrees_per_radian);
+}
+
 bool loader_clamp_colour(double *rgb, size_t n)
 {
     bool unchanged = true;

@@ -113,6 +113,9 @@ bool loader_is_utf16(const uint8_t *bytes, size_t n_bytes);
 /* Upper and lower case of ASCII are alike. */
 bool loader_same_word(const char *a, const char *b);
 
+/* Keeps the focal length of a perspective camera within what the library takes; with a remark if it is outside. */
+bool loader_limit_focal(loader *l, double *focal);
+
 /* Clamps to 0..1; false if that changed anything. */
 bool loader_clamp_colour(double *rgb, size_t n);
 

@@ -76,6 +76,7 @@ typedef struct {
     gltf_played *played;
     size_t n_played;
     size_t camera_node; /* of the camera that is used, if loader.has_camera */
+    double camera_back; /* how far it stands behind its node */
 } gltf;
 
 /* What to do about compressed meshes, behind what is wrong. */
@@ -166,7 +167,8 @@ bool gltf_read_nodes(gltf *g);
 bool gltf_place_nodes(gltf *g, const json_value *used_scene);
 void gltf_keep_rest(gltf *g); /* placed nodes are at rest */
 bool gltf_emit_camera(gltf *g, size_t node_idx);
-/* Scale and shear do not belong to a camera: forward is kept, up made orthogonal to it, right follows. */
+/* Scale and shear do not belong to a camera: forward is kept, up made orthogonal to it, right follows. It stands
+ * camera_back behind the node. */
 bool gltf_camera_axes(gltf *g, const gltf_node *node, scene_affine *out);
 
 /* gltf_light.c */
@@ -182,6 +184,8 @@ bool gltf_keep_poses(gltf *g, const json_value *used_scene);
 bool gltf_keep_clips(gltf *g);
 bool gltf_begin_rig(gltf *g);
 bool gltf_end_rig(gltf *g);
+/* One node more, with its place on its parent. False: out of memory. *out: its index. */
+bool gltf_add_rig_node(loader *l, size_t parent, const scene_affine *matrix, size_t *out);
 
 /* gltf_knobs.c: extras.gnomon of ... */
 bool gltf_scene_knobs(gltf *g, const json_value *used_scene);
