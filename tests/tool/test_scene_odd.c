@@ -489,6 +489,53 @@ static void test_far(void)
     scene_free(&s);
 }
 
+/* A mesh whose vertices are far from its node is moved to it, in the frames of an animation and for assets too. */
+static void test_far_mesh(void)
+{
+    char text[2500];
+    float pos[54];
+    scene_options rigged = plain, later = plain;
+    rigged.rig = true;
+    later.frame = 24;
+    FILE *file = fopen(TMP ".bin", "rb");
+    if (!CHECK(file && fread(pos, sizeof pos, 1, file) == 1)) return;
+    fclose(file);
+    for (int i = 0; i < 54; i++) pos[i] += i % 3 == 0 ? 131072 : 0;
+    write_file(TMP "_nan.bin", pos, sizeof pos); /* what the second accessor reads; the first has the times */
+    snprintf(text, sizeof text, pyramid, ",\"translation\":[-131072,0,0]", "", "");
+    snprintf(text, sizeof text, "%s", replaced(text, "\"POSITION\":0", "\"POSITION\":1"));
+    snprintf(text, sizeof text, "%s",
+             replaced(text, "\"meshes\"",
+                      "\"animations\":[{\"samplers\":[{\"input\":2,\"output\":3}],\"channels\":[{\"sampler\":0,"
+                      "\"target\":{\"node\":0,\"path\":\"translation\"}}]}],\"meshes\""));
+    snprintf(text, sizeof text, "%s",
+             replaced(text, "}],\"bufferViews\"",
+                      "},{\"bufferView\":2,\"componentType\":5126,\"count\":2,\"type\":\"SCALAR\"},{\"bufferView\":2,"
+                      "\"byteOffset\":8,\"componentType\":5126,\"count\":2,\"type\":\"VEC3\"}],\"bufferViews\""));
+    snprintf(text, sizeof text, "%s",
+             replaced(text, "\"byteLength\":216}],\"buffers\":[",
+                      "\"byteLength\":216},{\"buffer\":2,\"byteLength\":32}],\"buffers\":["));
+    snprintf(text, sizeof text, "%s",
+             replaced(text, "nan.bin\"}", "nan.bin\"},{\"byteLength\":32,\"uri\":\"test_scene_odd_keys.bin\"}"));
+    const float keys[8] = {0, 1, -131072, 0, 0, -131072, 3, 0};
+    write_file(TMP "_keys.bin", keys, sizeof keys);
+    for (int i = 0; i < 3; i++) {
+        const scene_options *options[] = {&plain, &later, &rigged};
+        write_file(TMP ".gltf", text, strlen(text));
+        if (!CHECK_EQ_INT(load(TMP ".gltf", options[i]), 0)) return (void)puts(error);
+        for (int k = 0; k < 54; k++) CHECK(fabs(s.meshes[0].pos[k % 48]) <= 2);
+        for (int k = 0; k < 2; k++) CHECK_NEAR(s.objects[k].to_world.m[0][3], 0, 0.01);
+        CHECK_NEAR(s.objects[0].to_world.m[1][3] - s.objects[1].to_world.m[1][3], i == 1 ? 3 : 0, 1e-9);
+        if (i == 2) {
+            const scene_node *nodes = s.rig->nodes, *node = &nodes[s.objects[0].node_idx];
+            CHECK(s.rig->n_nodes == 4 && node->parent == 0 && nodes[s.objects[1].node_idx].parent == 1);
+            CHECK_NEAR(node->matrix.m[0][3], 131072, 0.01);
+        }
+        scene_free(&s);
+    }
+    write_pyramid();
+}
+
 int main(void)
 {
     mkdir("build", 0777);
@@ -512,5 +559,6 @@ int main(void)
     test_formats();
     test_flat();
     test_far();
+    test_far_mesh();
     return check_report();
 }

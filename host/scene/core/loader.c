@@ -287,6 +287,22 @@ bool loader_add_setting(loader *l, const char *key, const char *value)
     return setting->key && setting->value;
 }
 
+bool loader_add_rig_node(loader *l, size_t parent, const scene_affine *matrix, size_t *out)
+{
+    scene_rig *rig = l->s->rig;
+    scene_node *grown = realloc(rig->nodes, (rig->n_nodes + 1) * sizeof *grown);
+    if (!grown) return loader_fail(l, "out of memory");
+    rig->nodes = grown;
+    *out = rig->n_nodes++;
+    grown[*out] = (scene_node){.parent = parent,
+                               .in_scene = true,
+                               .has_matrix = true,
+                               .matrix = *matrix,
+                               .rotation = {0, 0, 0, 1},
+                               .scale = {1, 1, 1}};
+    return true;
+}
+
 scene_object object_defaults(void)
 {
     return (scene_object){.to_world = affine_identity(),

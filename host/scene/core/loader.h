@@ -102,6 +102,8 @@ scene_object *loader_add_object(loader *l, const char *name);
 scene_light *loader_add_light(loader *l, const char *name);
 scene_texture *loader_add_texture(loader *l, const char *name);
 bool loader_add_setting(loader *l, const char *key, const char *value);
+/* A node of scene.rig on a parent. *out: its index. False: failed. */
+bool loader_add_rig_node(loader *l, size_t parent, const scene_affine *matrix, size_t *out);
 
 /* White, opaque, casts and receives; without name and mesh. */
 scene_object object_defaults(void);

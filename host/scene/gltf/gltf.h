@@ -184,8 +184,6 @@ bool gltf_keep_poses(gltf *g, const json_value *used_scene);
 bool gltf_keep_clips(gltf *g);
 bool gltf_begin_rig(gltf *g);
 bool gltf_end_rig(gltf *g);
-/* One node more, with its place on its parent. False: out of memory. *out: its index. */
-bool gltf_add_rig_node(loader *l, size_t parent, const scene_affine *matrix, size_t *out);
 
 /* gltf_knobs.c: extras.gnomon of ... */
 bool gltf_scene_knobs(gltf *g, const json_value *used_scene);

@@ -26,22 +26,6 @@ bool gltf_begin_rig(gltf *g)
     return true;
 }
 
-bool gltf_add_rig_node(loader *l, size_t parent, const scene_affine *matrix, size_t *out)
-{
-    scene_rig *rig = l->s->rig;
-    scene_node *grown = realloc(rig->nodes, (rig->n_nodes + 1) * sizeof *grown);
-    if (!grown) return loader_fail(l, "out of memory");
-    rig->nodes = grown;
-    *out = rig->n_nodes++;
-    grown[*out] = (scene_node){.parent = parent,
-                               .in_scene = true,
-                               .has_matrix = true,
-                               .matrix = *matrix,
-                               .rotation = {0, 0, 0, 1},
-                               .scale = {1, 1, 1}};
-    return true;
-}
-
 /* The scene's one camera is the first; here are all. */
 static bool keep_camera(gltf *g, size_t node_idx)
 {
@@ -66,7 +50,7 @@ static bool keep_camera(gltf *g, size_t node_idx)
     back.m[2][3] = g->camera_back;
     g->camera_back = camera_back;
     if (!is_read) return ok;
-    if (back.m[2][3] > 0 && !gltf_add_rig_node(l, node_idx, &back, &node_idx)) return false;
+    if (back.m[2][3] > 0 && !loader_add_rig_node(l, node_idx, &back, &node_idx)) return false;
     scene_view *grown = realloc(rig->cameras, (rig->n_cameras + 1) * sizeof *grown);
     if (!grown) return loader_fail(l, "out of memory");
     rig->cameras = grown;
@@ -82,7 +66,7 @@ static bool turn_rig(gltf *g)
     const scene_affine turn = affine_z_up();
     const scene_rig *rig = g->l->s->rig;
     size_t root;
-    if (!gltf_add_rig_node(g->l, SCENE_NONE, &turn, &root)) return false;
+    if (!loader_add_rig_node(g->l, SCENE_NONE, &turn, &root)) return false;
     for (size_t i = 0; i < root; i++)
         if (rig->nodes[i].parent == SCENE_NONE) rig->nodes[i].parent = root;
     return true;
