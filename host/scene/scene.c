@@ -71,6 +71,8 @@ static bool load_any(loader *l)
     if (found == FORMAT_UNKNOWN)
         return loader_fail(l, "%s: not a scene: .gltf, .glb and .obj are read; export others as glTF", l->path);
     if (found != named && !loader_note(l, "the file is %s, whatever its name ends in", names[found])) return false;
+    if (found == FORMAT_OBJ && l->options->clip)
+        return loader_fail(l, "%s: there is no clip '%.60s': it has none", l->path, l->options->clip);
     if (found == FORMAT_OBJ) return obj_load(l, bytes, n_bytes);
     return found == FORMAT_GLB ? gltf_load_glb(l, bytes, n_bytes) : gltf_load(l, bytes, n_bytes);
 }

@@ -939,6 +939,41 @@ static void test_cuts(void)
     }
 }
 
+/* One clip plays: the first, or the one that is named. A name goes before a number. */
+static void test_clips(void)
+{
+    static const struct {
+        const char *clip;
+        size_t plays;
+    } cases[] = {{NULL, 0}, {"still", 0}, {"0", 2}, {"1", 1}, {"swing", 1}, {"2", 2}};
+    const char *text = replaced(base_json, "\"animations\":[",
+                                "\"animations\":[{\"name\":\"still\",\"channels\":[],\"samplers\":[]},");
+    text =
+        replaced(text, "\"STEP\"}]}],", "\"STEP\"}]},{\"name\":\"0\",\"channels\":[{\"broken\":0}],\"samplers\":[]}],");
+    write_file(TMP ".gltf", text, strlen(text));
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        scene_options options = plain;
+        options.frame = 1;
+        options.clip = cases[i].clip;
+        if (cases[i].plays == 2) {
+            CHECK(refused(load(TMP ".gltf", &options), "/animations/2/channels/0: sampler and target are needed"));
+            continue;
+        }
+        if (!CHECK_EQ_INT(load(TMP ".gltf", &options), 0)) return (void)puts(error);
+        CHECK(s.n_clips == 3 && s.clip_idx == cases[i].plays && strcmp(s.clips[1].name, "swing") == 0);
+        CHECK_EQ_INT(s.duration > 0, cases[i].plays);
+        CHECK_EQ_INT(s.objects[0].moving, cases[i].plays);
+        CHECK_EQ_INT(fabs(s.objects[0].to_world.m[0][3] - 10) > 0, cases[i].plays);
+        CHECK_EQ_INT(has_remark("of 3 clips the first plays, 'still': --clip"), !cases[i].clip);
+        scene_free(&s);
+    }
+    scene_options options = plain;
+    options.clip = "walk";
+    CHECK(refused(load(TMP ".gltf", &options), "there is no clip 'walk': it has 0 'still', 1 'swing', 2 '0'"));
+    write_file(TMP ".obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n", 32);
+    CHECK(refused(load(TMP ".obj", &options), "no clip 'walk': it has none"));
+}
+
 int main(void)
 {
     mkdir("build", 0777);
@@ -949,6 +984,7 @@ int main(void)
     test_json_depth();
     test_json_values();
     test_json_loose();
+    test_clips();
     test_gltf_base();
     test_orthographic();
     test_gltf_errors();

@@ -134,7 +134,8 @@ static bool place_and_animate(gltf *g, const json_value *used_scene)
         if (!gltf_place_nodes(g, used_scene)) return false;
         gltf_keep_rest(g);
     }
-    return gltf_read_animations(g) && gltf_pose(g, g->l->options->frame) && gltf_place_nodes(g, used_scene);
+    return gltf_choose_clip(g) && gltf_read_animations(g) && gltf_pose(g, g->l->options->frame) &&
+           gltf_place_nodes(g, used_scene);
 }
 
 /* Zeros behind it are padding, as some programs write it. */

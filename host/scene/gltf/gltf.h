@@ -174,6 +174,9 @@ bool gltf_camera_axes(gltf *g, const gltf_node *node, scene_affine *out);
 /* gltf_light.c */
 bool gltf_emit_light(gltf *g, size_t node_idx);
 
+/* gltf_clip.c: scene.clips and clip_idx, by the options. */
+bool gltf_choose_clip(gltf *g);
+
 /* gltf_animation.c. gltf_pose writes a frame's translation, rotation and scale into the nodes; gltf_keep_poses, when
  * all is there, keeps where all frames take the objects: loader.poses, scene.stage. */
 bool gltf_read_animations(gltf *g);

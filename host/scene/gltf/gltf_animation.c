@@ -1,6 +1,5 @@
 /* glTF animation of node translation, rotation and scale, at one moment or at all: time = frame / fps, clamped to the
- * ends of each sampler. All animations of the file play at once; where two move the same property of a node, the first
- * in the file wins. */
+ * ends of each sampler. One clip plays; where two of its channels move the same property of a node, the first wins. */
 #include "gltf.h"
 
 #include <math.h>
@@ -103,7 +102,6 @@ static bool read_target(gltf *g, const json_value *target, channel *out)
                              node);
     out->property = translation ? out->node->translation : rotation ? out->node->rotation : out->node->scale;
     out->width = rotation ? 4 : 3;
-    out->node->moves = true;
     out->bit = translation ? 1 : rotation ? 2 : 4;
     return true;
 }
@@ -145,7 +143,8 @@ static bool play_channel(gltf *g, const channel *c, const char *animation, unsig
     return true;
 }
 
-static bool play_animation(gltf *g, const json_value *json, unsigned char *moved)
+/* plays: it is the clip that does. Of the others what they move is noted. */
+static bool read_animation(gltf *g, const json_value *json, bool plays, unsigned char *moved)
 {
     const json_value *channels = NULL, *samplers = NULL;
     const char *name = gltf_name(g, json, "animation");
@@ -155,7 +154,8 @@ static bool play_animation(gltf *g, const json_value *json, unsigned char *moved
     for (size_t i = 0; channels && i < channels->n_children; i++) {
         channel c;
         if (!read_channel(g, channels->children[i], samplers, &c)) return false;
-        if (c.property && !play_channel(g, &c, name, &moved[c.node - g->node])) return false;
+        if (c.property) c.node->moves = true;
+        if (c.property && plays && !play_channel(g, &c, name, &moved[c.node - g->node])) return false;
     }
     return true;
 }
@@ -165,8 +165,9 @@ bool gltf_read_animations(gltf *g)
     size_t n_nodes = g->nodes ? g->nodes->n_children : 0;
     unsigned char *moved = loader_alloc(g->l, n_nodes + 1, 1);
     if (!moved) return false;
-    for (size_t i = 0; g->animations && i < g->animations->n_children; i++) {
-        if (!play_animation(g, g->animations->children[i], moved)) return false;
+    for (size_t i = 0; i < g->l->s->n_clips; i++) {
+        const bool plays = i == g->l->s->clip_idx;
+        if ((plays || g->l->options->rig) && !read_animation(g, g->animations->children[i], plays, moved)) return false;
     }
     return true;
 }
