@@ -271,11 +271,76 @@ static void test_quantised_coordinates(void)
     scene_free(&s);
 }
 
+/* The texel at a place, as the sampler of the format says. */
+static int wrapped(double at, int n, int how)
+{
+    const int i = (int)floor(at * n), period = how == 2 ? 2 * n : n;
+    if (how == 1) return i < 0 ? 0 : i >= n ? n - 1 : i;
+    const int in = (i % period + period) % period;
+    return in < n ? in : 2 * n - 1 - in;
+}
+
+static const uint8_t *texel_at(const scene_texture *t, const double uv[2], int how_u, int how_v)
+{
+    return t->rgba + 4 * (wrapped(uv[1], t->height, how_v) * t->width + wrapped(uv[0], t->width, how_u));
+}
+
+/* Every place of a triangle of mesh b has the texel that the mirrored image has there. uv: as in the file. */
+static void check_mirrored(const scene_texture *image, const double *uv)
+{
+    const scene_mesh *mesh = &s.meshes[0];
+    const scene_texture *t = &s.textures[s.objects[0].texture_idx];
+    for (size_t i = 0; i < mesh->n_triangles; i++)
+        for (int n = 0; n < 400; n++) {
+            const double a = (n % 20 + 0.37) / 20, b = (n / 20 + 0.41) / 20, w[3] = {1 - a, a * (1 - b), a * b};
+            double before[2] = {0, 0}, after[2] = {0, 0};
+            for (size_t k = 0; k < 6; k++) {
+                before[k % 2] += w[k / 2] * uv[2 * mesh->idx[3 * i + k / 2] + k % 2];
+                after[k % 2] += w[k / 2] * mesh->uv[2 * mesh->idx[3 * i + k / 2] + k % 2];
+            }
+            CHECK(memcmp(texel_at(t, after, t->clamp_u, t->clamp_v), texel_at(image, before, 2, 2), 4) == 0);
+        }
+}
+
+/* Mirrored textures: of coordinates that a triangle takes beyond a whole one, the image and its mirror image; of others
+ * the image alone, clamped. */
+static void test_mirrored(void)
+{
+    static const float inside[8] = {1, -1, 2, -1, 1, 0, 2, 0};
+    uint8_t wanted[16];
+    scene_texture image = {.width = 2, .height = 2, .rgba = wanted};
+    for (int i = 0; i < 16; i++) wanted[i] = checks[1 + i + (i >= 8)];
+    for (int i = 0; i < 3; i++) {
+        write_bin();
+        if (i == 1) memcpy(bin + 60, inside, sizeof inside);
+        if (i == 1) write_file(TMP ".bin", bin, 172);
+        double uv[8];
+        for (int k = 0; k < 8; k++) {
+            float one;
+            memcpy(&one, bin + 60 + 4 * k, 4);
+            uv[k] = (double)one;
+        }
+        make_png(2, 2, checks);
+        const char *text =
+            replaced(textured(), "\"textures\":[{\"source\":0}", "\"textures\":[{\"source\":0,\"sampler\":1}");
+        text = replaced(text, "{\"wrapS\":33071}]",
+                        i == 2 ? "{\"wrapS\":33648,\"wrapT\":33648,\"minFilter\":9987}]"
+                               : "{\"wrapS\":33648,\"wrapT\":33648}]");
+        if (!CHECK_EQ_INT(load_text(TMP ".gltf", text), 0)) return (void)puts(error);
+        const scene_texture *t = &s.textures[s.objects[0].texture_idx];
+        CHECK(t->width == (i == 1 ? 2 : 4) && t->height == t->width && t->clamp_u == (i == 1) &&
+              t->clamp_v == (i == 1));
+        CHECK(t->mipmapped == (i == 2) && s.n_notes == 0);
+        check_mirrored(&image, uv);
+        scene_free(&s);
+    }
+    write_bin();
+}
+
 static void test_texture_changes(void)
 {
     static const change notes[] = {
         {"\"wrapS\":33071", "\"wrapS\":1", "wrap mode 1 of texture 'checks' is unknown: it repeats"},
-        {"\"wrapS\":33071", "\"wrapS\":33648", "mirrored repeat of texture 'checks'"},
         {"{\"source\":0}", "{\"extensions\":{\"EXT_texture_webp\":{}}}",
          "texture 'texture 0' ignored: it has no image"},
         {"data:image/png;base64,", "data:image/jpeg;base64,/9j/",
@@ -721,6 +786,7 @@ int main(void)
     test_required();
     test_diffuse();
     test_quantised_coordinates();
+    test_mirrored();
     test_texture_changes();
     test_texture_errors();
     test_shared_textures();

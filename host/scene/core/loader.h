@@ -127,13 +127,19 @@ void loader_free_mesh_light(loader *l);
 /* texture.c */
 enum { TEXTURE_MAX_PICTURE = 8192 };
 typedef struct {
-    bool clamp_u, clamp_v, bilinear, mipmapped;
+    bool clamp_u, clamp_v, mirrored[2], bilinear, mipmapped;
     bool is_data; /* a mask image: plain numbers, not sRGB */
 } texture_use;
 /* To be asked before a picture is decoded: false, with the error, if it is too much. name: for that. */
 bool texture_may_decode(loader *l, const char *name, const uint8_t *bytes, size_t n_bytes);
 /* Adds the picture, resampled if its sides need it; the picture's pixels are taken or freed in any case. */
 bool texture_add(loader *l, const char *name, rgba8_picture *picture, const texture_use *use, size_t *out);
+
+/* The mirror image behind the image, along u (0) or v (1). */
+bool texture_add_mirror(loader *l, scene_texture *texture, int axis);
+
+/* mirror.c: when all objects are there. Textures that are mirrored become others that look the same. */
+bool mirror_textures(loader *l);
 
 /* mesh.c. The input's arrays are temporary ones of the loader. */
 

@@ -58,6 +58,7 @@ typedef struct {
     int width, height;           /* 1..4096 */
     uint8_t *rgba;               /* 4 per texel, rows from the top: sRGB colour, linear alpha; smaller levels */
     bool clamp_u, clamp_v;       /* else it repeats */
+    bool mirrored[2];            /* along u, v: it repeats mirrored. While a file is loaded: mirror.c undoes it */
     bool bilinear;               /* else nearest */
     bool mipmapped;              /* levels of half the size, rounded down, follow, down to one texel */
     scene_texture_format format; /* texels are rounded to its values, and then to 8 bits */

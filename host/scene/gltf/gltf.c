@@ -154,7 +154,7 @@ static bool load_json(loader *l, const char *text, size_t n_bytes, gltf_bytes gl
     bool ok = gltf_clean(l, &doc) && check_asset(&g) && find_arrays(&g) && spend_arrays(&g, &doc) &&
               gltf_load_buffers(&g) && find_scene(&g, &used_scene) && gltf_scene_knobs(&g, used_scene) &&
               gltf_read_nodes(&g) && gltf_begin_rig(&g) && place_and_animate(&g, used_scene) && emit_nodes(&g) &&
-              gltf_end_rig(&g) && gltf_keep_poses(&g, used_scene);
+              mirror_textures(l) && gltf_end_rig(&g) && gltf_keep_poses(&g, used_scene);
     json_free(&doc);
     return ok;
 }

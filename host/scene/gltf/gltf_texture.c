@@ -13,14 +13,14 @@ enum {
     WRAP_REPEAT = 10497
 };
 
-static bool read_wrap(gltf *g, const json_value *sampler, const char *key, const char *name, bool *clamp)
+static bool read_wrap(gltf *g, const json_value *sampler, const char *key, const char *name, bool *clamp,
+                      bool *mirrored)
 {
     size_t wrap = WRAP_REPEAT;
     if (!gltf_get_size(g, sampler, key, &wrap)) return false;
     *clamp = wrap == WRAP_CLAMP;
-    if (wrap == WRAP_MIRROR)
-        return loader_note(g->l, "mirrored repeat of texture '%s' ignored: it repeats plainly", name);
-    return wrap == WRAP_CLAMP || wrap == WRAP_REPEAT ||
+    *mirrored = wrap == WRAP_MIRROR;
+    return *clamp || *mirrored || wrap == WRAP_REPEAT ||
            loader_note(g->l, "wrap mode %zu of texture '%s' is unknown: it repeats", wrap, name);
 }
 
@@ -29,7 +29,8 @@ static bool read_sampler(gltf *g, const json_value *texture, const char *name, t
     size_t idx = GLTF_NONE, filter = 0, smaller = 0;
     if (!gltf_get_ref(g, texture, "sampler", g->samplers, &idx)) return false;
     const json_value *sampler = json_at(g->samplers, idx);
-    if (!read_wrap(g, sampler, "wrapS", name, &out->clamp_u) || !read_wrap(g, sampler, "wrapT", name, &out->clamp_v) ||
+    if (!read_wrap(g, sampler, "wrapS", name, &out->clamp_u, &out->mirrored[0]) ||
+        !read_wrap(g, sampler, "wrapT", name, &out->clamp_v, &out->mirrored[1]) ||
         !gltf_get_size(g, sampler, "magFilter", &filter) || !gltf_get_size(g, sampler, "minFilter", &smaller))
         return false;
     out->bilinear = filter != FILTER_NEAREST;
@@ -81,7 +82,8 @@ static bool load_image(gltf *g, const json_value *image, const char *name, const
 static bool same_use(const texture_use *a, const texture_use *b)
 {
     return a->clamp_u == b->clamp_u && a->clamp_v == b->clamp_v && a->bilinear == b->bilinear &&
-           a->mipmapped == b->mipmapped && a->is_data == b->is_data;
+           a->mirrored[0] == b->mirrored[0] && a->mirrored[1] == b->mirrored[1] && a->mipmapped == b->mipmapped &&
+           a->is_data == b->is_data;
 }
 
 /* What another glTF texture made of the same image, if it did the same. */
