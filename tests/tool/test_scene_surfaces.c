@@ -271,6 +271,39 @@ static void test_quantised_coordinates(void)
     scene_free(&s);
 }
 
+/* Alpha of COLOR_0 on mesh b, which is BLEND, of factor 0.25: with a texture each face has its mean; without, a ramp of
+ * two texels is looked up; where it is the same all over, and where no alpha counts, there is nothing but a factor. */
+static void test_vertex_alpha(void)
+{
+    static const char colour[] = "\"TEXCOORD_1\":3},\"indices\":1,\"material\":1";
+    static const char texture[] = ",\"baseColorTexture\":{\"index\":1,\"texCoord\":1}";
+    static const double alpha[4] = {4 / 255.0, 7 / 255.0, 12 / 255.0, 16 / 255.0};
+    for (int i = 0; i < 4; i++) {
+        write_bin();
+        for (int k = 0; k < 4; k++) bin[111 + 4 * k] = (uint8_t)(i == 2 ? 51 : 255 * alpha[k] + 0.5);
+        write_file(TMP ".bin", bin, 172);
+        make_png(2, 2, checks);
+        const char *text = replaced(textured(), colour, "\"TEXCOORD_1\":3,\"COLOR_0\":4},\"indices\":1,\"material\":1");
+        if (i == 1) text = replaced(text, texture, "");
+        if (i == 3) text = replaced(text, "BLEND", "OPAQUE");
+        if (!CHECK_EQ_INT(load_text(TMP ".gltf", text), 0)) return (void)puts(error);
+        const scene_object *b = &s.objects[1];
+        CHECK_EQ_INT(has_remark("alpha of COLOR_0 of 'mesh 1' varies over a texture"), i == 0);
+        CHECK_NEAR(b->alpha, 0.25 * (i == 0 ? (alpha[0] + alpha[1] + alpha[2]) / 3 : i == 2 ? 0.2 : 1), 1e-12);
+        CHECK_EQ_INT(strcmp(b[1].name, "b") == 0, i == 0); /* the other face */
+        if (i == 0) CHECK_NEAR(b[1].alpha, 0.25 * (alpha[1] + alpha[2] + alpha[3]) / 3, 1e-12);
+        if (i == 1) {
+            const scene_texture *t = &s.textures[b->texture_idx];
+            const scene_mesh *mesh = &s.meshes[b->mesh_idx];
+            CHECK(t->width == 2 && t->height == 1 && t->clamp_u && t->bilinear && t->rgba[3] == 0 && t->rgba[7] == 255);
+            CHECK(t->rgba[0] == 255 && t->rgba[4] == 255);
+            CHECK_NEAR(mesh->uv[2 * mesh->idx[0]], 0.25 + 0.5 * alpha[0], 1e-12);
+        }
+        scene_free(&s);
+    }
+    write_bin();
+}
+
 /* The texel at a place, as the sampler of the format says. */
 static int wrapped(double at, int n, int how)
 {
@@ -786,6 +819,7 @@ int main(void)
     test_required();
     test_diffuse();
     test_quantised_coordinates();
+    test_vertex_alpha();
     test_mirrored();
     test_texture_changes();
     test_texture_errors();

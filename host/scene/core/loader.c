@@ -230,7 +230,7 @@ scene_mesh *loader_add_mesh(loader *l, const char *name)
     l->light_of_mesh = lights;
     char *copy = grown ? duplicate(l, name) : NULL;
     if (!copy) return NULL;
-    l->light_of_mesh[s->n_meshes] = (mesh_light){0};
+    l->light_of_mesh[s->n_meshes] = (mesh_light){.alpha = 1};
     s->meshes[s->n_meshes] = (scene_mesh){.name = copy};
     return &s->meshes[s->n_meshes++];
 }
@@ -322,6 +322,7 @@ static bool copy_mesh_light(loader *l, scene_object *object)
 {
     const mesh_light *light = &l->light_of_mesh[object->mesh_idx];
     size_t n = l->s->meshes[object->mesh_idx].n_vertices;
+    object->alpha *= light->alpha;
     if (light->mask) object->mask = loader_own(l, n, 4);
     if (light->baked) object->baked = loader_own(l, n, 3 * sizeof *object->baked);
     if (object->mask) memcpy(object->mask, light->mask, n * 4);

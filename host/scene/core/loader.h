@@ -40,6 +40,7 @@ typedef enum {
 typedef struct {
     uint8_t *mask; /* 4 per vertex */
     double *baked; /* 3 per vertex */
+    double alpha;  /* 0..1, times that of every object of the mesh */
 } mesh_light;
 
 typedef struct {

@@ -33,6 +33,7 @@ typedef struct {
 typedef struct {
     bool loaded[2]; /* [1]: with reversed winding, for mirroring instances */
     size_t first_mesh[2], n_meshes[2];
+    bool has_ramp; /* its coordinates are those of the ramp of alpha, which is its texture */
 } gltf_primitive;
 
 /* KHR_texture_transform: texture coordinates times scale, turned by -rotation, plus offset. */
@@ -72,6 +73,8 @@ typedef struct {
     gltf_primitive **primitive; /* [mesh][primitive], rows made on first use */
     gltf_texture *texture;      /* two per texture: as a picture, as data; made on first use */
     bool has_mask_texture;      /* some material or node names one */
+    bool has_ramp;              /* of alpha: the texture with which alpha varies between vertices is made: */
+    size_t ramp_idx;
     double fps;
     gltf_played *played;
     size_t n_played;
@@ -141,6 +144,10 @@ typedef struct {
 /* n_vertices stays 0 if there are none, with a remark. */
 bool gltf_read_attributes(gltf *g, const json_value *attributes, const gltf_wants *wants, scene_mesh *out,
                           gltf_beside *beside);
+
+/* gltf_alpha.c: the meshes of a primitive. */
+bool gltf_split_mesh(gltf *g, const gltf_material *material, scene_mesh *mesh, const gltf_beside *beside, bool flip,
+                     gltf_primitive *out);
 
 /* gltf_texture.c. data: a mask image. *out SCENE_NONE: ignored, with a note. */
 bool gltf_load_texture(gltf *g, size_t texture_idx, bool is_data, size_t *out);

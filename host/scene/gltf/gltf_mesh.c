@@ -118,29 +118,24 @@ static bool load_primitive(gltf *g, const json_value *json, const char *name, co
     const gltf_wants wants = {.uv_set = material->uv_set, .uv = &material->uv, .mask_uv = g->has_mask_texture};
     scene_mesh mesh;
     gltf_beside beside = {0};
-    mesh_splitter splitter;
     if (out->loaded[flip]) return true;
     out->loaded[flip] = true;
     arena_block *mark = g->l->memory.blocks;
     bool ok = read_primitive(g, json, name, &wants, &mesh, &beside);
-    if (ok && mesh.n_triangles > 0) {
-        ok = mesh_splitter_init(&splitter, g->l, &mesh);
-        splitter.light = beside.light;
-        ok = ok && mesh_split(&splitter, name, mesh.idx, mesh.n_triangles, flip, &out->first_mesh[flip],
-                              &out->n_meshes[flip]);
-    }
+    if (ok && mesh.n_triangles > 0) ok = gltf_split_mesh(g, material, &mesh, &beside, flip, out);
     arena_release(&g->l->memory, mark); /* many primitives may share one large vertex buffer */
     return ok;
 }
 
 /* A texture needs coordinates. */
-static bool check_coordinates(gltf *g, const json_value *json, const scene_mesh *mesh, scene_object *object)
+static bool check_coordinates(gltf *g, const json_value *json, const scene_mesh *mesh, bool has_uv,
+                              scene_object *object)
 {
     if (object->mask_texture_idx != SCENE_NONE && !mesh->mask_uv) {
         return gltf_fail(g, json, "a mask_texture is looked up at TEXCOORD_1, which is missing");
     }
     const bool coloured = object->texture_idx != SCENE_NONE, glows = object->emissive_texture_idx != SCENE_NONE;
-    if (mesh->uv) return true;
+    if (has_uv) return true;
     object->texture_idx = object->emissive_texture_idx = SCENE_NONE;
     for (int i = 0; glows && i < 3; i++) object->emissive[i] = 0;
     return (!coloured || loader_remark(g->l, "base colour texture of mesh '%s' ignored: it has no texture coordinates",
@@ -169,7 +164,9 @@ static bool emit_primitive(gltf *g, const gltf_node *node, const json_value *jso
     if (primitive->n_meshes[flip] == 0) return true; /* skipped, with a note */
     scene_object object = material.surface;
     place(&object, g, node, skin);
-    if (!check_coordinates(g, json, &g->l->s->meshes[primitive->first_mesh[flip]], &object)) return false;
+    const scene_mesh *mesh = &g->l->s->meshes[primitive->first_mesh[flip]];
+    if (!check_coordinates(g, json, mesh, mesh->uv && !primitive->has_ramp, &object)) return false;
+    if (primitive->has_ramp) object.texture_idx = g->ramp_idx;
     const char *name = gltf_name(g, node->json, "node");
     object.name = name ? loader_format(g->l, "%s", name) : NULL;
     const size_t first = g->l->s->n_objects;
