@@ -379,7 +379,8 @@ int tool_info(const tool_options *o)
     unlimited.capacity.max_triangles = unlimited.capacity.max_tile_refs = unlimited.capacity.max_lights = 0;
     unlimited.capacity.surface_lights = unlimited.capacity.max_objects = 0;
     engine_picture p;
-    int failed = remarks_on_lights(&s, error, sizeof error) || remarks_on_shadows(&s, error, sizeof error) ||
+    int failed = remarks_on_lights(&s, error, sizeof error) || remarks_on_dark_colours(&s, error, sizeof error) ||
+                 remarks_on_shadows(&s, error, sizeof error) ||
                  engine_fixed(&p, &s, &unlimited, o->width, o->height, ENGINE_COLOUR_ONLY, error, sizeof error);
     if (!failed) {
         report r = {.options = o, .scene = &s, .picture = &p};
