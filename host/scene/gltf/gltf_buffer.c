@@ -160,7 +160,8 @@ bool gltf_view_bytes(gltf *g, const json_value *view, gltf_bytes *out, size_t *s
     if (buffer == GLTF_NONE) return gltf_fail(g, view, "buffer is missing");
     if (n_bytes == GLTF_NONE) return gltf_fail(g, view, "byteLength is missing");
     const gltf_bytes *source = &g->buffer[buffer];
-    if (!source->bytes) return gltf_fail(g, g->buffers->children[buffer], "%s", source->problem);
+    const json_value *owner = g->buffers->children[buffer], *uri = json_get(owner, "uri");
+    if (!source->bytes) return gltf_fail(g, uri ? uri : owner, "%s", source->problem);
     if (offset > source->n_bytes || n_bytes > source->n_bytes - offset) {
         return gltf_fail(g, view, "bytes %zu to %zu lie outside buffer %zu of %zu bytes", offset, offset + n_bytes,
                          buffer, source->n_bytes);
