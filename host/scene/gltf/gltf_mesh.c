@@ -167,6 +167,7 @@ static bool emit_primitive(gltf *g, const gltf_node *node, const json_value *jso
     const scene_mesh *mesh = &g->l->s->meshes[primitive->first_mesh[flip]];
     if (!check_coordinates(g, json, mesh, mesh->uv && !primitive->has_ramp, &object)) return false;
     if (primitive->has_ramp) object.texture_idx = g->ramp_idx;
+    if (skin->n && !mesh->joint) return gltf_fail(g, json, "joints or weights have no elements");
     const char *name = gltf_name(g, node->json, "node");
     object.name = name ? loader_format(g->l, "%s", name) : NULL;
     const size_t first = g->l->s->n_objects;
@@ -191,7 +192,7 @@ static bool has_elements(gltf *g, const json_value *attributes, const char *name
     const size_t n = g->accessors ? g->accessors->n_children : 0;
     if (!idx || idx->type != JSON_NUMBER || !(idx->number < (double)n)) return idx != NULL; /* an error elsewhere */
     const json_value *count = json_get(g->accessors->children[(size_t)idx->number], "count");
-    return !count || count->type != JSON_NUMBER || count->number > 0;
+    return count && count->type == JSON_NUMBER && count->number > 0;
 }
 
 /* Whether the skin moves the primitive. */
