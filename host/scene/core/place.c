@@ -165,7 +165,8 @@ static void move_inside(scene_affine *a, const void *how)
     for (int k = 0; k < 3; k++) a->m[k][3] = at[k];
 }
 
-/* As centre_mesh moves its vertices. Of a skinned object the joints' transforms from the mesh change, in all poses. */
+/* Keeps an object where it was when its mesh is moved by -centre: its transform changes, or those of its joints, in all
+ * poses. Of a rig it gets a node of its own. */
 static bool follow_mesh(loader *l, size_t object_idx, const double *centre)
 {
     scene_object *o = &l->s->objects[object_idx];

@@ -1,7 +1,7 @@
-/* The glTF loader's inside: gltf.c reads the file and drives, gltf_json.c reads typed members, gltf_buffer.c and
- * gltf_accessor.c turn bytes into numbers, gltf_attribute.c and gltf_mesh.c make meshes, gltf_material.c,
- * gltf_texture.c and gltf_light.c what they say, gltf_node.c the hierarchy and the camera, gltf_animation.c moves nodes
- * before that, gltf_knobs.c reads extras.gnomon. */
+/* The glTF loader's inside: gltf.c reads the file and drives, gltf_json.c reads typed members, gltf_clean.c takes out
+ * what is none, gltf_buffer.c and gltf_accessor.c turn bytes into numbers, gltf_attribute.c, gltf_mesh.c and
+ * gltf_alpha.c make meshes, gltf_material.c, gltf_texture.c and gltf_light.c what they say, gltf_node.c the hierarchy
+ * and the camera, gltf_clip.c and gltf_animation.c move nodes before that, gltf_knobs.c reads extras.gnomon. */
 #ifndef GNOMON_HOST_GLTF_H
 #define GNOMON_HOST_GLTF_H
 

@@ -1,5 +1,5 @@
 /* The OBJ loader's inside: obj_text.c reads lines, obj_mtl.c materials, obj.c statements, obj_polygon.c cuts faces,
- * obj_mesh.c makes the meshes.
+ * obj_inside_out.c looks at how they are wound, obj_mesh.c makes the meshes.
  */
 #ifndef GNOMON_HOST_OBJ_H
 #define GNOMON_HOST_OBJ_H
