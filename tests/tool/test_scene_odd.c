@@ -393,6 +393,24 @@ static void test_picture_uris(void)
     }
 }
 
+/* The places of a pyramid as its colours: whole numbers up to 2, which are clamped; a hundred times that, of 255ths. */
+static void test_levels(void)
+{
+    float pos[54];
+    FILE *file = fopen(TMP ".bin", "rb");
+    if (!CHECK(file && fread(pos, sizeof pos, 1, file) == 1)) return;
+    fclose(file);
+    for (int i = 0; i < 2; i++) {
+        write_file(TMP "_nan.bin", pos, sizeof pos);
+        if (!load_pyramid("", ",\"COLOR_0\":1", "")) return;
+        CHECK_EQ_INT(has_remark("vertex colours of 'mesh 0' go up to 200: they are taken for 255ths"), i);
+        CHECK_NEAR(s.meshes[0].rgb[7], i ? 200 / 255.0 : 1, 1e-12);
+        scene_free(&s);
+        for (int k = 0; k < 54; k++) pos[k] *= 100;
+    }
+    write_pyramid();
+}
+
 /* The first bytes tell the format, whatever the name. */
 static void test_formats(void)
 {
@@ -556,6 +574,7 @@ int main(void)
     test_empty();
     test_data_uris();
     test_picture_uris();
+    test_levels();
     test_formats();
     test_flat();
     test_far();

@@ -95,6 +95,23 @@ static bool normalise(gltf *g, gltf_array *a, const char *mesh_name)
                          mesh_name, most);
 }
 
+/* Floats that are all whole and go far beyond 1 are of 255 levels. */
+static bool scale_levels(gltf *g, gltf_array *a, const char *mesh_name)
+{
+    const size_t n = a->component_type == GLTF_FLOAT ? a->count * a->n_components : 0;
+    double most = 0;
+    for (size_t i = 0; i < n; i++) {
+        if (fabs(a->values[i] - floor(a->values[i])) > 0) return true;
+        most = fmax(most, a->values[i]);
+    }
+    if (!(most > 15 && most <= 255)) return true;
+    for (size_t i = 0; i < n; i++) {
+        const bool alpha = a->n_components == 4 && i % 4 == 3; /* which may go from 0 to 1 all the same */
+        a->values[i] /= alpha && a->values[i] <= 1 ? 1 : 255;
+    }
+    return loader_remark(g->l, "vertex colours of '%s' go up to %g: they are taken for 255ths", mesh_name, most);
+}
+
 static bool read_colour(gltf *g, const json_value *attributes, scene_mesh *out, gltf_beside *beside)
 {
     gltf_array a;
@@ -102,6 +119,7 @@ static bool read_colour(gltf *g, const json_value *attributes, scene_mesh *out, 
     if (!a.values) return true;
     if (a.n_components < 3) return gltf_fail(g, json_get(attributes, "COLOR_0"), "VEC3 or VEC4 is expected");
     if (!is_float_or_normalized(&a) && !normalise(g, &a, out->name)) return false;
+    if (!scale_levels(g, &a, out->name)) return false;
     out->rgb = a.values;
     if (a.n_components == 4) beside->alpha = loader_alloc(g->l, a.count, sizeof *beside->alpha);
     if (a.n_components == 4 && !beside->alpha) return false;
