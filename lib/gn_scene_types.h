@@ -92,6 +92,7 @@ enum {
 
 typedef enum { GN_ALPHA_OPAQUE, GN_ALPHA_CLIP, GN_ALPHA_DITHER, GN_ALPHA_BLEND } gn_alpha;
 
+/* Colours here are linear, and 65536 is 1: write GN_UQ16(0.5). Values of 0..255 are allowed, and as good as black. */
 typedef struct {
     const gn_mesh *mesh;
     gn_affine to_world;      /* |position| <= 8192 units; may mirror; without an inverse (scale 0) nothing is drawn */
@@ -267,7 +268,8 @@ gn_light gn_light_sun(int32_t x, int32_t y, int32_t z);
 gn_light gn_light_spot(const int32_t position_q16[3], const int32_t target_q16[3], uint16_t outer_turn);
 gn_light gn_light_point(const int32_t position_q16[3]);
 
-/* At `eye` towards `target`, +Y up, 45 degrees high, near plane 0.1, far plane 100. */
+/* At `eye` towards `target`, which must differ (gn_camera_look_at), +Y up, 45 degrees high, near plane 0.1, far plane
+ * 100. */
 gn_camera gn_camera_default(const int32_t eye_q16[3], const int32_t target_q16[3]);
 
 /* Ambient light 0.15, a dark blue background. Shadows up to a distance of 100 (the last tenth fades), by four cascades

@@ -59,7 +59,8 @@ extern "C" {
     X(GN_ERR_CAMERA_FOCAL,                                                                                             \
       "camera focal length outside 1/32 .. 255.99, or half_height outside 1/256 .. 8192 units or not built in")        \
     X(GN_ERR_CAMERA_DEPTH, "camera near plane outside 1/256 .. 8192 units, or far not beyond near")                    \
-    X(GN_ERR_CAMERA_TRANSFORM, "camera transform is not a rotation with a position inside +-8192")                     \
+    X(GN_ERR_CAMERA_TRANSFORM, "camera transform is not a rotation with a position inside +-8192, or the camera is "   \
+                               "at its own target")                                                                    \
     X(GN_ERR_OBJECT_TRANSFORM,                                                                                         \
       "object transform has exponent outside 0..14, an entry above 1.0, or a position outside +-8192")                 \
     X(GN_ERR_MESH, "mesh has no vertices, no triangles, a null array, or more than 30 fraction bits")                  \
@@ -142,7 +143,8 @@ void gn_affine_scale(gn_affine *inout, int32_t scale_q16); /* object space, |sca
 void gn_affine_mul(gn_affine *out, const gn_affine *a, const gn_affine *b); /* out = a * b; out may be a or b */
 /* A rotation (exp 0) back to right angles; the third axis keeps its direction. */
 void gn_affine_orthonormalise(gn_affine *inout);
-void gn_camera_look_at(gn_affine *out, const int32_t eye_q16[3], const int32_t target_q16[3]); /* +Y up */
+/* +Y up. Eye and target must differ: else *out is no rotation, and gn_begin refuses it (GN_ERR_CAMERA_TRANSFORM). */
+void gn_camera_look_at(gn_affine *out, const int32_t eye_q16[3], const int32_t target_q16[3]);
 uint32_t gn_focal_from_fov_q24(uint16_t vertical_fov_turn); /* 1 / tan(fov / 2), Q8.24, saturates */
 int32_t gn_sin_q30(uint16_t angle_turn);                    /* |error| <= 2 LSB */
 int32_t gn_cos_q30(uint16_t angle_turn);

@@ -27,6 +27,9 @@ const option options[] = {
     {"--light", BY_RENDER | BY_COMPARE, "K", "a light from 0 to 63", "the light of --view shadow and atlas (0)"},
     {"--show", BY_RENDER, NULL, NULL,
      "draw the picture on the terminal, if that shows 24-bit colours; -o may be left out"},
+    {"--clip", BY_ALL, "NAME|N", "a clip's name or number",
+     "the clip of the file's animations that plays; info lists them; asset keeps all, and takes its fits from this one "
+     "(0)"},
     {"--frame", BY_ALL & ~BY_COMPILE, "N", "a frame from 0 to 100000000", "animation frame (0)"},
     {"--frames", BY_RENDER | BY_COMPILE | BY_INFO, "FIRST-LAST", "FIRST-LAST, frames from 0 to 100000000",
      "these frames (compile: all of the animation; info: frame 0 alone); render: as an animated PNG"},
@@ -182,6 +185,7 @@ static int take_value(tool_options *o, const char *name, char *value)
     else if (strcmp(name, "--samples") == 0) failed = parse_int(value, 1, TRUTH_MAX_SAMPLES, &o->samples);
     else if (strcmp(name, "--size") == 0) failed = parse_size(value, o);
     else if (strcmp(name, "--view") == 0) failed = (o->view = view_from_name(value)) < 0;
+    else if (strcmp(name, "--clip") == 0) failed = !*(o->clip = value);
     else if (strcmp(name, "--frame") == 0) failed = parse_int(value, 0, 100000000, &o->frame);
     else if (strcmp(name, "--frames") == 0) failed = parse_frames(value, o);
     else if (strcmp(name, "--board") == 0) failed = !*(o->board = value);

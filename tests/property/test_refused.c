@@ -74,6 +74,11 @@ static void camera_scaled(gn_scene *s)
 {
     s->camera.to_world.exp = 1;
 }
+static void camera_nowhere(gn_scene *s)
+{
+    const int32_t at[3] = {1, 2, 3};
+    gn_camera_look_at(&s->camera.to_world, at, at);
+}
 static void camera_skewed(gn_scene *s)
 {
     s->camera.to_world.m_q30[0][0] /= 2;
@@ -369,6 +374,7 @@ static const struct {
     REFUSED(far_is_near, GN_ERR_CAMERA_DEPTH, "camera.far_q16", 0, 0, 0),
     REFUSED(camera_scaled, GN_ERR_CAMERA_TRANSFORM, "camera.to_world", 0, 0, 0),
     REFUSED(camera_skewed, GN_ERR_CAMERA_TRANSFORM, "camera.to_world", 0, 0, 0),
+    REFUSED(camera_nowhere, GN_ERR_CAMERA_TRANSFORM, "camera.to_world", 0, 0, 0),
     REFUSED(camera_wild, GN_ERR_CAMERA_TRANSFORM, "camera.to_world", 0, 0, 0),
     REFUSED(camera_far_out, GN_ERR_CAMERA_TRANSFORM, "camera.to_world", 0, 0, 0),
     REFUSED(object_exp_high, GN_ERR_OBJECT_TRANSFORM, "object.to_world", 1, 0, 0),

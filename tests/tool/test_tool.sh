@@ -180,8 +180,8 @@ awk 'NR == 8 { print "   \"nodes\": [11]"; skip = 1; next } # a root that turns 
     inside && /^ \]/ { print "  ,{\"matrix\": [1,0,0,0, 0,0,-1,0, 0,1,0,0, 0,0,0,1], \"children\": [0,6,7,8,10]}"; inside = 0 }
     { print }' tests/data/robot.gltf >"$tmp/turned.gltf"
 for frame in 0 20; do
-    good render "$tmp/turned.gltf" -o "$tmp/a.png" --size 48x32 --frame $frame
-    good render tests/data/robot.gltf -o "$tmp/b.png" --size 48x32 --frame $frame --set up=z
+    good render "$tmp/turned.gltf" -o "$tmp/a.png" --size 48x32 --frame $frame --clip 0
+    good render tests/data/robot.gltf -o "$tmp/b.png" --size 48x32 --frame $frame --set up=z --clip 0
     cmp -s "$tmp/a.png" "$tmp/b.png" && pass || fail "up=z: frame $frame of a glTF file is not the file below a node that turns it"
 done
 bad 1 'y or z' info "$cube" --set up=x
@@ -411,8 +411,11 @@ printf 'v 0 0 0\nv 1 0 0\nv 0 1 x\nf 1 2 3\n' >"$tmp/broken.obj"
 bad 1 'broken.obj:3' info "$tmp/broken.obj"
 printf 'v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 4\n' >"$tmp/broken.obj"
 bad 1 'broken.obj:4' info "$tmp/broken.obj"
-cp "$cube" "$tmp/noise.glb"
+printf 'noise\n' >"$tmp/noise.glb"
 bad 1 noise.glb info "$tmp/noise.glb"
+cp "$cube" "$tmp/noise.glb" # the first bytes tell the format
+good info "$tmp/noise.glb" --size 8x8
+grep -q ": the file is OBJ, whatever its name ends in" "$tmp/out" && pass || fail "an OBJ file named .glb: $(cat "$tmp/out")"
 bad 1 'no/such' render "$cube" -o "$tmp/no/such/a.png" --size 8x8
 bad 1 "$tmp/new" render "$cube" -o "$tmp/new" --size 8x8
 bad 2 "cube.obj" compare "$cube" -o "$cube" --size 8x8
@@ -954,6 +957,38 @@ wanted=$(sed -n 's/^#define GN_VERSION_STRING "\(.*\)"/gnomon \1/p' lib/gnomon.h
 [ "$(cat "$tmp/out")" = "$wanted" ] && pass || fail "--version prints '$(cat "$tmp/out")', not '$wanted'"
 numbers=$(sed -n 's/^#define GN_VERSION_M[A-Z]* *\([0-9]*\)$/\1/p; s/^#define GN_VERSION_PATCH *\([0-9]*\)$/\1/p' lib/gnomon.h | tr '\n' . | sed 's/\.$//')
 [ "gnomon $numbers" = "$wanted" ] && pass || fail "GN_VERSION_STRING is '$wanted', the numbers are $numbers"
+
+# ---- Clips, and what surfaces have that the engines have otherwise -----------------------------------------------------------
+
+good info tests/data/robot.gltf --size 16x12 --clip walk
+grep -q -x "    0 'Wave!', 3 s" "$tmp/out" && grep -q -x "    1 'walk', 1.5 s, plays" "$tmp/out" && pass || fail "info --clip walk: $(grep -A 2 clips "$tmp/out")"
+good info tests/data/robot.gltf --size 16x12 --json --clip 1
+valid_json clips
+for command in "render -o $tmp/clip" "compare -o $tmp/clip" "compile -o $tmp/clip" "asset -o $tmp/clip" "bake -o $tmp/clip.gltf" sweep; do
+    bad 1 "there is no clip 'run': it has 0 'Wave!', 1 'walk'" $command tests/data/robot.gltf --size 16x12 --clip run
+done
+said render tests/data/robot.gltf -o "$tmp/a.png" --size 48x32 --frame 9
+grep -q -x "gnomon: of 2 clips the first plays, 'Wave!': --clip takes another, by name or number" "$tmp/err" && pass || fail "two clips: $(cat "$tmp/err")"
+good render tests/data/robot.gltf -o "$tmp/b.png" --size 48x32 --frame 9 --clip 'Wave!'
+cmp -s "$tmp/a.png" "$tmp/b.png" && pass || fail "the first clip is not what plays without --clip"
+good render tests/data/robot.gltf -o "$tmp/b.png" --size 48x32 --frame 9 --clip walk
+cmp -s "$tmp/a.png" "$tmp/b.png" && fail "--clip walk changes nothing" || pass
+# alpha of COLOR_0 from 0 at the left to 1 at the right: cut in the middle, mixed with what is behind, and all the same
+sed 's/MASK/BLEND/' tests/data/vertex_alpha.gltf >"$tmp/blend.gltf"
+for scene in tests/data/vertex_alpha.gltf "$tmp/blend.gltf"; do
+    for with in reference truth; do
+        good compare "$scene" --set transparent_layers=1 --set background=0 --set shadows=0 --with $with --json
+        psnr=$(sed -n 's/.*"psnr_db": *\([0-9.]*\).*/\1/p' "$tmp/out")
+        [ "${psnr%.*}" -ge 55 ] && pass || fail "$scene is $psnr dB from $with"
+    done
+done
+# colours that are meant to be of 255 levels
+printf 'newmtl a\nKd 0.001 0.002 0.003\n' >"$tmp/dark.mtl"
+{ echo 'mtllib dark.mtl'; echo 'usemtl a'; cat "$cube"; } >"$tmp/dark.obj"
+good info "$tmp/dark.obj" --size 16x12
+grep -q "note: all colours are below 1/256, so that all is black" "$tmp/out" && pass || fail "black colours: $(cat "$tmp/out")"
+good info "$cube" --size 16x12
+grep -q "all colours are" "$tmp/out" && fail "colours that are not black are said to be" || pass
 
 echo "$passed passed, $failed failed"
 [ "$failed" = 0 ]

@@ -206,7 +206,7 @@ static void turn_camera(scene_camera *camera, double azimuth, double elevation)
 
 /* Frames what is there before the ground is added. glTF models, and most others, face +Z: that is where it stands, a
  * bit to the side and above. */
-static void make_camera(loader *l, const bounds *b)
+static bool make_camera(loader *l, const bounds *b)
 {
     scene_camera *camera = &l->s->camera;
     const scene_options *options = l->options;
@@ -219,10 +219,12 @@ static void make_camera(loader *l, const bounds *b)
     double distance = fit_distance(l, b, &camera->to_world, camera->focal * options->height / (camera_fill * smaller));
     for (int i = 0; i < 3; i++) camera->to_world.m[i][3] = b->centre[i] + distance * camera->to_world.m[i][2];
     if (options->orbit) camera->focal *= options->zoom; /* as a lens: the camera stays outside */
+    if (!loader_limit_focal(l, &camera->focal)) return false;
     camera->far = distance + sqrt(2) * ground_half_size_radii * b->radius;
     double ground = ground_depth(camera->to_world.m[1][3] - b->low[1], elevation, atan(1 / camera->focal));
     double near = fmin(0.5 * (distance - b->radius), 0.9 * ground);
     camera->near = fmax(near, camera->far / 1000);
+    return true;
 }
 
 /* How deep behind the middle objects are, and their shadows on the ground if there is one. */
@@ -393,7 +395,7 @@ bool loader_add_defaults(loader *l)
         find_view_range(l, false, &seen);
         adapt_shadow(l, &seen);
     } else {
-        make_camera(l, &b);
+        if (!make_camera(l, &b)) return false;
         s->stage.camera = s->camera.to_world;
     }
     if (s->n_lights == 0 && !lights_add(l, "default", SCENE_LIGHT_DIRECTIONAL)) return false;

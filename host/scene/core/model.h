@@ -58,6 +58,7 @@ typedef struct {
     int width, height;           /* 1..4096 */
     uint8_t *rgba;               /* 4 per texel, rows from the top: sRGB colour, linear alpha; smaller levels */
     bool clamp_u, clamp_v;       /* else it repeats */
+    bool mirrored[2];            /* along u, v: it repeats mirrored. While a file is loaded: mirror.c undoes it */
     bool bilinear;               /* else nearest */
     bool mipmapped;              /* levels of half the size, rounded down, follow, down to one texel */
     scene_texture_format format; /* texels are rounded to its values, and then to 8 bits */
@@ -207,7 +208,7 @@ typedef struct {
 
 typedef struct {
     char *name;
-    double duration; /* seconds */
+    double duration; /* seconds; 0: not known */
 } scene_clip;
 
 typedef struct {
@@ -255,6 +256,8 @@ typedef struct {
     int n_fixed_fits;
     scene_added added; /* what the file lacked */
     scene_stage stage;
+    size_t n_clips, clip_idx; /* of the file; the one that plays */
+    scene_clip *clips;
     scene_rig *rig;    /* if scene_options.rig requested it, of glTF; else NULL */
     size_t n_settings; /* extras.gnomon of the glTF scene, in file order: applied like --set, before it */
     scene_setting *settings;
@@ -268,7 +271,7 @@ typedef struct {
     char **files;
     double extent;   /* how far from the origin anything may come, beside where it is; 0: not farther */
     double fps;      /* frames per second of its animation; 0: it has none */
-    double duration; /* seconds until everything in it has come to rest */
+    double duration; /* seconds until everything in the clip that plays has come to rest */
 } scene;
 
 typedef enum { SCENE_GROUND_AUTO, SCENE_GROUND_ON, SCENE_GROUND_OFF } scene_ground;
@@ -282,6 +285,7 @@ typedef struct {
     scene_up up;       /* z: the whole file is turned, so that its front, -y, is at +Z */
     bool smooth;       /* meshes without normals: smooth vertex normals instead of face normals */
     bool outside;      /* a file may name files outside the folder of the scene */
+    const char *clip;  /* the clip that plays, by its name or number; NULL: the first */
     bool rig;          /* nodes and clips are kept */
     bool posed;        /* for what moves alone: textures have no levels, which take long */
     int budget;        /* how many times the usual limits of what a file may ask for (budget.c); 0: once */

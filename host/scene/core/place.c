@@ -134,8 +134,29 @@ static void move_inside(scene_affine *a, const void *how)
     for (int k = 0; k < 3; k++) a->m[k][3] = at[k];
 }
 
+/* Keeps an object where it was when its mesh is moved by -centre: its transform changes, or those of its joints, in all
+ * poses. Of a rig it gets a node of its own. */
+static bool follow_mesh(loader *l, size_t object_idx, const double *centre)
+{
+    scene_object *o = &l->s->objects[object_idx];
+    const scene_poses *p = &l->poses;
+    size_t at = 1;
+    for (size_t i = 0; i < object_idx; i++) at += 1 + l->s->objects[i].n_joints;
+    if (o->n_joints == 0) change_object(l, object_idx, move_inside, centre);
+    for (size_t i = 0; i < o->n_joints; i++) {
+        move_inside(&o->joints[i].now, centre);
+        move_inside(&o->joints[i].rest, centre);
+        move_inside(&o->joints[i].bind, centre);
+        for (size_t k = 0; p->n > 0 && k <= p->n; k++) move_inside(&p->affines[k * p->n_affines + at + i], centre);
+    }
+    if (o->n_joints || !l->s->rig || o->node_idx == SCENE_NONE) return true;
+    scene_affine place = affine_identity();
+    move_inside(&place, centre);
+    return loader_add_rig_node(l, o->node_idx, &place, &o->node_idx);
+}
+
 /* A mesh whose vertices are far from its own origin. */
-static void centre_mesh(loader *l, size_t mesh_idx)
+static bool centre_mesh(loader *l, size_t mesh_idx)
 {
     scene_mesh *mesh = &l->s->meshes[mesh_idx];
     double low[3] = {HUGE_VAL, HUGE_VAL, HUGE_VAL}, high[3] = {-HUGE_VAL, -HUGE_VAL, -HUGE_VAL}, centre[3], half = 0;
@@ -147,10 +168,11 @@ static void centre_mesh(loader *l, size_t mesh_idx)
         centre[k] = low[k] / 2 + high[k] / 2;
         half = fmax(half, (high[k] - low[k]) / 2);
     }
-    if (mesh->joint || !is_far(centre, half)) return;
+    if (!is_far(centre, half)) return true;
     for (size_t i = 0; i < 3 * mesh->n_vertices; i++) mesh->pos[i] -= centre[i % 3];
     for (size_t i = 0; i < l->s->n_objects; i++)
-        if (l->s->objects[i].mesh_idx == mesh_idx) change_object(l, i, move_inside, centre);
+        if (l->s->objects[i].mesh_idx == mesh_idx && !follow_mesh(l, i, centre)) return false;
+    return true;
 }
 
 static void move_scene(loader *l, const double *by)
@@ -167,11 +189,12 @@ static void move_scene(loader *l, const double *by)
 
 bool place_objects(loader *l, const bounds *b, bool *changed)
 {
+    for (size_t i = 0; i < l->s->n_meshes; i++)
+        if (!centre_mesh(l, i)) return false;
     *changed = thicken_objects(l);
     if (l->options->rig) return true; /* whoever poses the nodes has them as they are */
     if (!is_far(b->centre, b->radius)) return true;
     *changed = true;
-    for (size_t i = 0; i < l->s->n_meshes; i++) centre_mesh(l, i);
     move_scene(l, b->centre);
     return loader_note(l, "the scene is far from the origin, at %g %g %g: it is moved to it", b->centre[0],
                        b->centre[1], b->centre[2]);

@@ -72,6 +72,7 @@ int tool_load_with(const tool_options *o, const char *const *sets, int n_sets, s
                    size_t error_bytes)
 {
     scene_options options = {.frame = o->frame,
+                             .clip = o->clip,
                              .width = o->width,
                              .height = o->height,
                              .outside = o->outside,

@@ -24,6 +24,7 @@ typedef struct {
     size_t light;
     int show; /* render: on the terminal */
     int frame;
+    const char *clip; /* by name or number; NULL: the first */
     int json;
     const char *sets[TOOL_SETS_MAX];
     int n_sets;

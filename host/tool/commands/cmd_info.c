@@ -155,6 +155,19 @@ static void json_lights(const report *r)
     printf("]");
 }
 
+static void json_clips(const scene *s)
+{
+    printf(", \"clips\": [");
+    for (size_t i = 0; i < s->n_clips; i++) {
+        printf("%s{\"name\": ", i ? ", " : "");
+        tool_json_string(s->clips[i].name);
+        printf(", \"plays\": %s, ", i == s->clip_idx ? "true" : "false");
+        tool_json_number("seconds", i == s->clip_idx ? s->duration : s->clips[i].duration);
+        printf("}");
+    }
+    printf("]");
+}
+
 static void json_needs(const counts *c)
 {
     printf(", \"features\": {\"vertex_normals\": %d, \"vertex_colours\": %d, \"two_sided\": %d, \"unlit\": %d}",
@@ -191,6 +204,7 @@ static void print_json(const report *r)
            s->n_textures);
     json_lights(r);
     json_objects(&r->counts);
+    json_clips(s);
     json_needs(&r->counts);
     printf(", \"visible_triangles\": %u, \"tile_refs\": %u, \"clipped_triangles\": %u, \"caster_triangles\": %u",
            stats->n_triangles, stats->n_tile_refs, stats->n_clipped, stats->n_caster_triangles);
@@ -324,6 +338,17 @@ static void text_needs(const counts *c)
     printf("%s%s\n", c->smooth ? " vertex_normals" : "", c->coloured ? " vertex_colours" : "");
 }
 
+static void text_clips(const scene *s)
+{
+    if (s->n_clips) printf("  %zu clip%s:\n", s->n_clips, s->n_clips == 1 ? "" : "s");
+    for (size_t i = 0; i < s->n_clips; i++) {
+        const double duration = i == s->clip_idx ? s->duration : s->clips[i].duration;
+        printf("    %zu '%s'", i, s->clips[i].name);
+        if (duration > 0) printf(", %.3g s", duration);
+        printf("%s\n", i == s->clip_idx && s->n_clips > 1 ? ", plays" : "");
+    }
+}
+
 static void text_ram(const report *r)
 {
     printf("  RAM with features and capacities for just that:\n");
@@ -348,6 +373,7 @@ static void print_text(const report *r)
     text_objects(&r->counts);
     printf("  %zu lights, %zu with a shadow\n", s->n_lights, r->counts.shadow_lights);
     for (size_t i = 0; i < s->n_lights; i++) text_light(r, i);
+    text_clips(s);
     text_needs(&r->counts);
     printf("  at %dx%d, frame %d: %u visible triangles (%u clipped), %u tile references, %u caster triangles\n",
            o->width, o->height, o->frame, stats->n_triangles, stats->n_clipped, stats->n_tile_refs,
@@ -371,7 +397,8 @@ int tool_info(const tool_options *o)
     unlimited.capacity.max_triangles = unlimited.capacity.max_tile_refs = unlimited.capacity.max_lights = 0;
     unlimited.capacity.surface_lights = unlimited.capacity.max_objects = 0;
     engine_picture p;
-    int failed = remarks_on_lights(&s, error, sizeof error) || remarks_on_shadows(&s, error, sizeof error) ||
+    int failed = remarks_on_lights(&s, error, sizeof error) || remarks_on_dark_colours(&s, error, sizeof error) ||
+                 remarks_on_shadows(&s, error, sizeof error) ||
                  engine_fixed(&p, &s, &unlimited, o->width, o->height, ENGINE_COLOUR_ONLY, error, sizeof error);
     if (!failed) {
         report r = {.options = o, .scene = &s, .picture = &p};
