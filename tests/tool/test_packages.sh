@@ -20,7 +20,7 @@ for file in $(awk '!/^#/ { print $3 }' boards/packages/list); do
     [ -e "$package/$file" ] && pass || fail "$file is not in the archive"
 done
 for example in boards/packages/*/*.ino boards/packages/*/*.c boards/packages/*/*/*.c; do
-    [ "$(wc -l <"$example")" -le 60 ] && pass || fail "$example has more than 60 lines"
+    [ "$(wc -l <"$example")" -le 70 ] && pass || fail "$example has more than 70 lines"
 done
 
 # ---- One header, one source: the same picture as from lib/ -------------------------------------------------------------------
@@ -73,6 +73,7 @@ ok gcc -std=c99 -Wall -Wextra -Werror -I"$package/single" "-DTWO_BUFFERS=\"$pack
 ok "$tmp/two"
 cat >"$tmp/two_cores.cpp" <<'C'
 #include <string.h>
+#include <Arduino.h>
 #include <thread>
 #include TWO_CORES
 static void reference(void *to, int x, int y, int w, int h, const void *pixels)
@@ -95,8 +96,22 @@ int main()
     return gn_render(&renderer, &scene, reference, wanted) ? 2 : memcmp(picture, wanted, sizeof wanted) != 0;
 }
 C
-ok g++ -std=c++11 -Wall -Wextra -Werror -pthread -I"$package/arduino/Gnomon/src" "-DTWO_CORES=\"$package/arduino/Gnomon/examples/TwoCores/TwoCores.ino\"" -o "$tmp/cores" "$tmp/two_cores.cpp" "$tmp/single.o"
+host=tests/property/arduino
+ok g++ -std=c++11 -Wall -Wextra -Werror -pthread -I$host/cores/host -I"$package/arduino/Gnomon/src" "-DTWO_CORES=\"$package/arduino/Gnomon/examples/TwoCores/TwoCores.ino\"" -o "$tmp/cores" "$tmp/two_cores.cpp" $host/cores/host/main.cpp "$tmp/single.o"
 ok "$tmp/cores"
+
+# ---- The sketch that drives a panel by itself, on models of both controllers, from power-on -------------------------------------
+
+for file in tests/tool/packages/glass tests/firmware/panel_model tests/firmware/panel_model_st7789 tests/firmware/panel_model_ssd1306 tests/firmware/panel_model_ssd1327; do
+    ok gcc -std=c11 -Wall -Wextra -Werror -O1 -Itests/support -c -o "$tmp/$(basename $file).o" $file.c
+done
+sketch=$package/arduino/Gnomon/examples/Panel/Panel.ino
+sed 's/IS_ST7789 = 0/IS_ST7789 = 1/' "$sketch" >"$tmp/st7789.ino"
+for panel in "$sketch" "$tmp/st7789.ino"; do
+    ok g++ -std=c++11 -Wall -Wextra -Werror -I$host/cores/host -I$host/libraries/SPI -I"$package/arduino/Gnomon/src" "-DPANEL=\"$panel\"" -o "$tmp/panel" \
+        tests/tool/packages/panel_sketch.cpp $host/cores/host/main.cpp $host/libraries/SPI/SPI.cpp "$tmp/glass.o" "$tmp"/panel_model*.o "$tmp/single.o"
+    ok "$tmp/panel"
+done
 
 # ---- CMake: as a folder, installed and found, by pkg-config -------------------------------------------------------------------
 
@@ -105,14 +120,37 @@ if command -v cmake >/dev/null 2>&1; then
     ok cmake -S "$example" -B "$tmp/sub"
     ok cmake --build "$tmp/sub"
     same "$tmp/sub/spin"
-    ok cmake -S "$package/lib" -B "$tmp/lib" -DCMAKE_INSTALL_PREFIX="$tmp/prefix" "-DGNOMON_DEFINITIONS=GN_MAX_TRIANGLES=77;GN_CLIPS=0"
+    ok cmake -S "$package" -B "$tmp/lib" -DCMAKE_INSTALL_PREFIX="$tmp/elsewhere" "-DGNOMON_DEFINITIONS=GN_MAX_TRIANGLES=77;GN_CLIPS=0"
     ok cmake --build "$tmp/lib"
-    ok cmake --install "$tmp/lib"
+    ok cmake --install "$tmp/lib" --prefix "$tmp/prefix" # another than was configured
     mkdir -p "$tmp/alone" # without the source beside it
     cp "$example"/* "$tmp/alone"
     ok cmake -S "$tmp/alone" -B "$tmp/found" -DCMAKE_PREFIX_PATH="$tmp/prefix"
     ok cmake --build "$tmp/found"
     same "$tmp/found/spin"
+    # a program asks for the version that it was written for; a patch is no reason to refuse, another minor version is
+    for wanted in "${version%.*}" "$version" 0.1 0.99; do
+        printf 'cmake_minimum_required(VERSION 3.13)\nproject(any C)\nfind_package(gnomon %s QUIET)\nmessage("found ${gnomon_FOUND}")\n' $wanted >"$tmp/any.cmake"
+        rm -rf "$tmp/any" && mkdir "$tmp/any" && mv "$tmp/any.cmake" "$tmp/any/CMakeLists.txt"
+        case $wanted in "${version%.*}" | "$version") is=1 ;; *) is=0 ;; esac
+        cmake -S "$tmp/any" -B "$tmp/any/build" -DCMAKE_PREFIX_PATH="$tmp/prefix" 2>&1 | grep -q "^found $is" && pass || fail "find_package(gnomon $wanted) of $version: not $is"
+    done
+    # the archive as it is, with a knob that the project sets; the library refuses a program with another
+    mkdir -p "$tmp/fetch" && cp "$spin" "$tmp/fetch"
+    cat >"$tmp/fetch/CMakeLists.txt" <<CMAKE
+cmake_minimum_required(VERSION 3.14)
+project(fetch C)
+include(FetchContent)
+set(GNOMON_DEFINITIONS GN_MAX_TRIANGLES=77)
+FetchContent_Declare(gnomon URL $archive)
+FetchContent_MakeAvailable(gnomon)
+add_executable(spin spin.c)
+target_link_libraries(spin gnomon::gnomon)
+CMAKE
+    ok cmake -S "$tmp/fetch" -B "$tmp/fetch/build" -DCMAKE_EXPORT_COMPILE_COMMANDS=ON
+    ok cmake --build "$tmp/fetch/build"
+    same "$tmp/fetch/build/spin"
+    [ "$(grep -c 'DGN_MAX_TRIANGLES=77 ' "$tmp/fetch/build/compile_commands.json")" = 2 ] && pass || fail "FetchContent: a knob that the project sets is lost"
     if command -v pkg-config >/dev/null 2>&1; then
         flags=$(PKG_CONFIG_PATH=$(dirname "$(find "$tmp/prefix" -name gnomon.pc)") pkg-config --cflags --libs gnomon)
         case $flags in *GN_MAX_TRIANGLES=77*) pass ;; *) fail "pkg-config says '$flags'" ;; esac
@@ -540,7 +578,7 @@ fi
 
 if command -v arduino-builder >/dev/null 2>&1; then
     mkdir -p "$tmp/hardware/gnomon/host"
-    cp -r tests/property/arduino/platform.txt tests/property/arduino/boards.txt tests/property/arduino/cores "$tmp/hardware/gnomon/host"
+    cp -r tests/property/arduino/platform.txt tests/property/arduino/boards.txt tests/property/arduino/cores tests/property/arduino/libraries "$tmp/hardware/gnomon/host"
     for sketch in "$package"/arduino/Gnomon/examples/*/*.ino; do
         out=$tmp/out-$(basename "$sketch" .ino)
         mkdir -p "$out"
@@ -550,6 +588,13 @@ if command -v arduino-builder >/dev/null 2>&1; then
     done
 else fail "arduino-builder is missing: apt-get install arduino-builder"
 fi
+
+# TFT_eSPI sends bytes as they lie in memory; a status is looked at; each tells its speed.
+for sketch in boards/packages/arduino/*.ino; do
+    ! grep -q pushImage "$sketch" || grep -q 'picture = .*RGB565_SWAPPED\|size = .*RGB565_SWAPPED' "$sketch" && pass || fail "$sketch: pushImage with bytes in the wrong order"
+    grep -n -E '^ *gn_(init|render|begin|shadow_tile|prepare|screen_tile|pick)\(' "$sketch" >"$tmp/found" && fail "$sketch: a status is not looked at: $(head -n 1 "$tmp/found")" || pass
+    grep -q 'Serial.println(1000.0 / (millis() - start))' "$sketch" && pass || fail "$sketch does not print its frames per second"
+done
 
 # ---- Manifests: library.properties of Arduino, keywords.txt, library.json of PlatformIO ------------------------------------------
 
