@@ -218,10 +218,10 @@ kconfig="-DGN_USER_CONFIG=\"gnomon_kconfig.h\" -I$package/zephyr/gnomon/src"
 ok gcc -std=c99 -w -include "$tmp/sdk/other.h" $kconfig -c -o "$tmp/other.o" "$package/zephyr/gnomon/src/gnomon.c"
 ok gcc -std=c99 -w -include "$tmp/sdk/sdkconfig.h" $kconfig -o "$tmp/mixed" "$spin" "$tmp/other.o"
 "$tmp/mixed" 2>&1 | grep -q "different configurations" && pass || fail "an option of Kconfig does not reach the library"
-for key in version description license dependencies; do
+for key in version description url repository license dependencies; do
     grep -q "^$key: *" "$package/esp-idf/gnomon/idf_component.yml" && pass || fail "idf_component.yml has no $key"
 done
-for file in $(sed -n 's/^  \(cmake\|kconfig\): //p' "$package/zephyr/gnomon/zephyr/module.yml") samples/spin/prj.conf samples/spin/src/main.c; do
+for file in $(sed -n 's/^  \(cmake\|kconfig\): //p' "$package/zephyr/gnomon/zephyr/module.yml") samples/spin/sample.yaml samples/spin/prj.conf samples/spin/src/main.c; do
     [ -e "$package/zephyr/gnomon/$file" ] && pass || fail "zephyr: there is no $file"
 done
 
@@ -294,8 +294,12 @@ ok gcc -std=c99 -D_POSIX_C_SOURCE=200809L -Wall -Wextra -Werror -I"$idf" -I"$pac
 for at in 36600 79800 36660; do TZ=UTC "$idf/clock" $at >"$idf/$at" && [ "$(wc -c <"$idf/$at")" = 115200 ] && pass || fail "the clock shows nothing $at seconds after midnight"; done
 cmp -s "$idf/36600" "$idf/79800" && pass || fail "the clock at 10:10 and at 22:10 differs"
 cmp -s "$idf/36600" "$idf/36660" && fail "the clock at 10:10 and at 10:11 is the same" || pass
-grep -q 'SRCS "clock.c" "st7789.c" REQUIRES gnomon' "$clock/main/CMakeLists.txt" && [ -e "$clock/$(sed -n 's/^set(EXTRA_COMPONENT_DIRS \(.*\))/\1/p' "$clock/CMakeLists.txt")/idf_component.yml" ] && pass ||
-    fail "the project of the clock does not name its sources and the component"
+# The registry puts the component elsewhere, and the example anywhere: its manifest names the component, and finds it while it lies in it.
+manifest=$clock/main/idf_component.yml
+grep -q 'SRCS "clock.c" "st7789.c"' "$clock/main/CMakeLists.txt" && grep -q "^  gnomon/gnomon:" "$manifest" && grep -q "version: \"~$version\"" "$manifest" &&
+    [ -e "$clock/main/$(sed -n 's/^ *override_path: "\([^"]*\)".*/\1/p' "$manifest")/idf_component.yml" ] && pass || fail "the project of the clock does not name its sources and the component"
+grep -r -n -F '..' "$clock" --include=CMakeLists.txt >"$tmp/found" && fail "the project of the clock needs what is not in its folder: $(head -n 1 "$tmp/found")" || pass
+[ -s "$package/esp-idf/gnomon/README.md" ] && pass || fail 'the component has no README'
 
 # ---- Pico SDK: its example by CMake on a stand-in of the SDK, whose second core is a thread; it ends after three pictures ---------------
 
@@ -397,7 +401,7 @@ elements() {
         END { exit n != 0 }' "$1"
 }
 elements "$pdsc" >"$tmp/pdsc" && pass || fail "Gnomon.Gnomon.pdsc is not well-formed"
-for element in 'package schemaVersion="[0-9.]*"' vendor name description url releases "release version=\"$version\"" \
+for element in 'package schemaVersion="[0-9.]*"' vendor name description url releases "release version=\"$version\" date=\"[0-9-]*\"" examples 'example name="Lamp" folder="examples/lamp"' 'environment name="csolution"' \
     "component Cclass=\"Graphics\" Cgroup=\"Gnomon\" Cversion=\"$version\"" files; do
     grep -q "^$element" "$tmp/pdsc" && pass || fail "Gnomon.Gnomon.pdsc has no $element"
 done
@@ -446,7 +450,9 @@ void panel_write(int x, int y, int w, int h, const void *pixels)
 }
 int button_is_down(int left_or_right) { return n_pictures == 1 + 2 * (unsigned long)left_or_right; }
 C
-ok gcc $cmsis "$pre_include" -o "$tmp/lamp" "$package/cmsis/examples/lamp.c" "$tmp/lamp_board.c" "$package/cmsis/src/gnomon.c"
+for file in $(sed -n 's/^ *- file: //p; s/^ *- project: //p' "$package"/cmsis/examples/lamp/*.yml); do [ -e "$package/cmsis/examples/lamp/$file" ] && pass || fail "cmsis: there is no $file"; done
+ok gcc $cmsis "$pre_include" -o "$tmp/lamp-example" "$package"/cmsis/examples/lamp/*.c "$package/cmsis/src/gnomon.c"
+ok gcc $cmsis "$pre_include" -o "$tmp/lamp" "$package/cmsis/examples/lamp/lamp.c" "$tmp/lamp_board.c" "$package/cmsis/src/gnomon.c"
 "$tmp/lamp" | awk '{ sum[NR] = $1 } END { exit !(NR == 10 && sum[1] != sum[2] && sum[2] == sum[3] && sum[4] == sum[1] && sum[10] == sum[1]) }' && pass ||
     fail "the lamp does not go there and back"
 
@@ -598,6 +604,13 @@ done
 
 # ---- Manifests: library.properties of Arduino, keywords.txt, library.json of PlatformIO ------------------------------------------
 
+# Addresses are filled in everywhere, and can be others.
+URL=https://example.com/other sh boards/packages/dist.sh "$tmp/c" >/dev/null
+grep -r -l '@[A-Z]*@' "$package" --include=*.json --include=*.yml --include=*.pdsc --include=*.properties >"$tmp/found" && fail "not filled in: $(head -n 1 "$tmp/found")" || pass
+for file in arduino/Gnomon/library.properties arduino/Gnomon/library.json esp-idf/gnomon/idf_component.yml cmsis/Gnomon.Gnomon.pdsc; do
+    grep -q 'https://example.org/gnomon' "$package/$file" && grep -q 'https://example.com/other' "$tmp/c/${package##*/}/$file" && pass || fail "$file does not name URL"
+done
+
 properties=$package/arduino/Gnomon/library.properties
 for key in name version author maintainer sentence paragraph category url architectures; do
     grep -q "^$key=." "$properties" && pass || fail "library.properties has no $key"
@@ -610,7 +623,7 @@ for word in gn_render gn_scene GN_FORMAT_RGB565 gn_pick; do
     awk -v word="$word" '$1 == word { found = 1 } END { exit !found }' "$package/arduino/Gnomon/keywords.txt" && pass || fail "keywords.txt has no $word"
 done
 json=$package/arduino/Gnomon/library.json
-for key in name version description keywords authors license headers frameworks platforms; do
+for key in name version description keywords authors repository homepage license examples headers frameworks platforms; do
     grep -q "^  \"$key\": " "$json" && pass || fail "library.json has no $key"
 done
 grep -q "\"version\": \"$version\"" "$json" && pass || fail "library.json has another version than $version"
