@@ -13,9 +13,17 @@ extern void (*hostWrite)(int pin, int level);
 extern void (*hostWait)(unsigned long ms);
 extern unsigned long hostMillis;
 
-inline void pinMode(int, int) {}
-inline void digitalWrite(int pin, int level) { if (hostWrite) hostWrite(pin, level); }
-inline unsigned long millis() { return hostMillis; }
+inline void pinMode(int, int)
+{
+}
+inline void digitalWrite(int pin, int level)
+{
+    if (hostWrite) hostWrite(pin, level);
+}
+inline unsigned long millis()
+{
+    return hostMillis;
+}
 inline void delay(unsigned long ms)
 {
     hostMillis += ms;
@@ -23,9 +31,17 @@ inline void delay(unsigned long ms)
 }
 
 struct HostSerial {
-    void begin(long) {}
-    void println(const char *text) { puts(text); }
-    void println(double number) { printf("%.2f\n", number); }
+    void begin(long)
+    {
+    }
+    void println(const char *text)
+    {
+        puts(text);
+    }
+    void println(double number)
+    {
+        printf("%.2f\n", number);
+    }
 };
 extern HostSerial Serial;
 #endif
