@@ -162,7 +162,7 @@ $(BUILD)/wasm/%.o: %.c | $(BUILD)/wasm/tools
 $(BUILD)/gnomon.wasm: $(WASM_OBJ)
 	@echo '  LD $@'
 	@$(WASM_CC) $(WASM_OPT) -mexec-model=reactor -L/usr/lib/wasm32-wasi -Wl,-z,stack-size=8388608 -Wl,--stack-first -Wl,--strip-all \
-	  -Wl,--wrap=scene_load,--wrap=picture_decode_rgba8 -o $@ $^ -lm
+	  -Wl,--wrap=picture_decode_rgba8 -o $@ $^ -lm
 
 $(BUILD)/playground.html: $(BUILD)/gnomon.wasm $(WEB) $(wildcard host/scenes/*.gltf boards/*/link.ld) $(wildcard lib/*.h lib/*.c lib/*/*.h lib/*/*.c)
 	@echo '  PAGE $@'
