@@ -298,7 +298,7 @@ cmp -s "$idf/36600" "$idf/36660" && fail "the clock at 10:10 and at 10:11 is the
 manifest=$clock/main/idf_component.yml
 grep -q 'SRCS "clock.c" "st7789.c"' "$clock/main/CMakeLists.txt" && grep -q "^  gnomon/gnomon:" "$manifest" && grep -q "version: \"~$version\"" "$manifest" &&
     [ -e "$clock/main/$(sed -n 's/^ *override_path: "\([^"]*\)".*/\1/p' "$manifest")/idf_component.yml" ] && pass || fail "the project of the clock does not name its sources and the component"
-grep -r -n -F '..' "$clock" --include=CMakeLists.txt >"$tmp/found" && fail "the project of the clock needs what is not in its folder: $(head -n 1 "$tmp/found")" || pass
+grep -r -n -F '..' "$clock" --include=CMakeLists.txt >"$tmp/matches" && fail "the project of the clock needs what is not in its folder: $(head -n 1 "$tmp/matches")" || pass
 [ -s "$package/esp-idf/gnomon/README.md" ] && pass || fail 'the component has no README'
 
 # ---- Pico SDK: its example by CMake on a stand-in of the SDK, whose second core is a thread; it ends after three pictures ---------------
@@ -498,7 +498,7 @@ fi
 # TFT_eSPI sends bytes as they lie in memory; a status is looked at; each tells its speed.
 for sketch in boards/packages/arduino/*.ino; do
     ! grep -q pushImage "$sketch" || grep -q 'picture = .*RGB565_SWAPPED\|size = .*RGB565_SWAPPED' "$sketch" && pass || fail "$sketch: pushImage with bytes in the wrong order"
-    grep -n -E '^ *gn_(init|render|begin|shadow_tile|prepare|screen_tile|pick)\(' "$sketch" >"$tmp/found" && fail "$sketch: a status is not looked at: $(head -n 1 "$tmp/found")" || pass
+    grep -n -E '^ *gn_(init|render|begin|shadow_tile|prepare|screen_tile|pick)\(' "$sketch" >"$tmp/matches" && fail "$sketch: a status is not looked at: $(head -n 1 "$tmp/matches")" || pass
     grep -q 'Serial.println(1000.0 / (millis() - start))' "$sketch" && pass || fail "$sketch does not print its frames per second"
 done
 
@@ -506,7 +506,7 @@ done
 
 # Addresses are filled in everywhere, and can be others.
 URL=https://example.com/other sh boards/packages/dist.sh "$tmp/c" >/dev/null
-grep -r -l '@[A-Z]*@' "$package" --include=*.json --include=*.yml --include=*.pdsc --include=*.properties >"$tmp/found" && fail "not filled in: $(head -n 1 "$tmp/found")" || pass
+grep -r -l '@[A-Z]*@' "$package" --include=*.json --include=*.yml --include=*.pdsc --include=*.properties >"$tmp/matches" && fail "not filled in: $(head -n 1 "$tmp/matches")" || pass
 for file in arduino/Gnomon/library.properties arduino/Gnomon/library.json esp-idf/gnomon/idf_component.yml cmsis/Gnomon.Gnomon.pdsc; do
     grep -q 'https://example.org/gnomon' "$package/$file" && grep -q 'https://example.com/other' "$tmp/c/${package##*/}/$file" && pass || fail "$file does not name URL"
 done
