@@ -15,8 +15,13 @@
 #ifndef GNOMON_H
 #define GNOMON_H
 
+#include <limits.h>
 #include <stddef.h>
 #include <stdint.h>
+
+#if INT_MAX < 2147483647
+#error "Gnomon needs a core of 32 bits, whose int has 32: AVR (Arduino Uno, Nano, Mega) and MSP430 have 16"
+#endif
 
 #include "gn_config.h"
 #include "gn_knobs.h"

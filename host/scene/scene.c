@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "core/loader.h"
+#include "core/turn.h"
 #include "gltf/gltf_load.h"
 #include "obj/obj_load.h"
 
@@ -84,6 +85,7 @@ int scene_load(scene *s, const char *path, const scene_options *options, char *e
     if (error_bytes > 0) error[0] = '\0';
     budget_init(&l);
     bool ok = load_any(&l) && loader_add_defaults(&l);
+    if (ok) scene_turn(s, options);
     loader_free_mesh_light(&l);
     arena_release(&l.memory, NULL);
     s->n_file_notes = s->n_notes;

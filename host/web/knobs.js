@@ -67,7 +67,7 @@ function readBoards(text, files) {
     const name = (/^boards\/([^/]*)\/board\.mk$/.exec(path) || [])[1];
     if (!name || without.has(name)) continue;
     const settings = new TextDecoder().decode(bytes), cpu = (/^BOARD_CPU *:= *(.*)$/m.exec(settings) || ['', ''])[1];
-    const title = settings.split('\n', 1)[0].replace(/^# */, '').split(/[.:] /)[0].replace(/:.*|\.$/, '');
+    const title = settings.split('\n', 1)[0].replace(/^# */, '').split(/[.:] |\.$/)[0];
     const core = cores.find(({has}) => cpu.includes(has));
     boards.push({name, title, core, mhz: clocks.get(name) || 100, assumed: !clocks.has(name)});
   }
@@ -94,3 +94,5 @@ function stepText(from, to) {
   if (Math.abs(speed) >= 0.005) parts.push(`${signed((100 * speed).toFixed(0))} % fps`);
   return parts.length ? parts.join(', ') : 'costs nothing';
 }
+
+if (typeof module !== 'undefined') module.exports = {readBoards};

@@ -418,5 +418,13 @@ if [ "$message" = "without room: 1" ]; then pass; else fail "GN_MAX_SHADOW_TILES
 message=$(small MAX_OTHER_TILES=1)
 if [ "$message" = "without room: 2" ]; then pass; else fail "GN_MAX_OTHER_TILES=1: $message"; fi
 
+# A core whose int has 16 bits is refused in words, first of all, in a program and in the library.
+printf '#include "gnomon.h"\n' >"$tmp/avr.c"
+for core in avr msp430; do
+    for file in "$tmp/avr.c" lib/gnomon.c; do
+        clang --target=$core -w -ffreestanding -fsyntax-only -Ilib "$file" 2>&1 | grep -m 1 'error' | grep -q 'Gnomon needs a core of 32 bits' && pass || fail "$core, $file: no word on its int of 16 bits"
+    done
+done
+
 echo "$passed passed, $failed failed"
 [ "$failed" = 0 ]

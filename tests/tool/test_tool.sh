@@ -152,6 +152,16 @@ good render "$cube" -o "$tmp/b.png" --size 32x24 --orbit 30,25,1
 cmp -s "$tmp/a.png" "$tmp/b.png" && pass || fail "--orbit 30,25,1 is not what is drawn without"
 good render host/scenes/cube.gltf -o "$tmp/b.png" --size 32x24 --orbit 0,10,1 # whose own shadows end before that camera begins
 grep -q "; added: camera" "$tmp/out" && pass || fail "--orbit leaves the camera of the file: $(head -n 1 "$tmp/out")"
+# --turn and --hour: the camera and the sun from where they are; a camera that the file lacks as another's
+good render "$cube" -o "$tmp/b.png" --size 32x24 --turn 0,0,1
+cmp -s "$tmp/a.png" "$tmp/b.png" && pass || fail "--turn 0,0,1 changes something"
+for turn in "--turn 40,0,1" "--turn 0,20,1" "--turn 0,0,1.5" "--hour 8" "--hour 16.5"; do
+    good render host/scenes/cube.gltf -o "$tmp/c.png" --size 32x24
+    good render host/scenes/cube.gltf -o "$tmp/b.png" --size 32x24 $turn
+    cmp -s "$tmp/c.png" "$tmp/b.png" && fail "$turn changes nothing" || pass
+done
+for hour in "" 5 18.5 nan 9,5 1e1; do bad 2 "^gnomon: --hour: bad value '$hour'" info "$cube" --hour "$hour"; done
+bad 2 "^gnomon: --turn: bad value '0,0,0'" info "$cube" --turn 0,0,0
 # up=z: what the file's z axis points to is above, and what faces its -y is in front; of OBJ with normals, glTF, and clips
 cat >"$tmp/up-y.obj" <<'OBJ'
 v -1 0 1

@@ -292,6 +292,10 @@ typedef struct {
     bool orbit;        /* in the place of any camera of the file: */
     double yaw, pitch; /* degrees: from the front (+Z) to the right (+X); upwards */
     double zoom;       /* > 0; 1: all is in the picture */
+    bool turn;         /* the camera, around what it looks at: */
+    double turn_yaw, turn_pitch, turn_zoom; /* degrees to the right, upwards; > 0: how much longer its lens is */
+    bool at_hour;                           /* the first directional light stands as the sun at */
+    double hour;                            /* 6 .. 18 */
     /* NULL, or what loads with the same options, of other frames, need not find again */
     struct scene_seen *seen;
 } scene_options;
