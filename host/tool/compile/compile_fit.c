@@ -12,7 +12,8 @@ static long aligned(long bytes, long to)
 long compile_short_enums_less(const compiled *c)
 {
     const bool fits = c->set.feature.shadows && c->set.feature.tight_fit, groups = c->set.quality.triangle_groups > 0;
-    return c->set.build.compact || fits != groups ? 8 : 16; /* 12, and what aligns the next */
+    if (c->set.build.compact) return aligned(c->set.capacity.max_objects, 4) % 8 ? 16 : 8; /* 12 before the flags */
+    return fits != groups ? 8 : 16; /* 12, and what aligns the next */
 }
 
 compile_memory compile_measure(const compiled *c, const board *b)
