@@ -23,7 +23,7 @@ void prove_flat_patch(void)
     const int32_t most = 1 << 27;
     for (int32_t log2 = 1; log2 <= 4; log2++) {
         gn_flat_patch p;
-        drawing d;
+        gn_drawing d;
         gn_corner_light at;
         gn_receiver_step end, from, step;
         any_flat_patch(&p, most, log2);
