@@ -82,6 +82,7 @@ if [ -n "$target" ]; then
         predicted $preset raw_views=1
         predicted $preset disk_filter=0
         predicted $preset incremental=0
+        predicted $preset vertex_joints=0 texture_levels=0 auto_bias=0
         predicted $preset static_layer=1
         predicted $preset static_layer=1 disk_filter=0 incremental=0
         predicted $preset punctual_lights=0
@@ -98,7 +99,7 @@ if [ -n "$target" ]; then
         predicted $preset surface_lights=1 masks=0 baked_light=0 punctual_lights=0 blended_cascades=0 caster_bias=0
         predicted $preset surface_lights=1 masks=0 baked_light=0 punctual_lights=0 blended_cascades=0 textures=0 visible_alpha=0
         predicted $preset surface_lights=1 masks=0 baked_light=0 punctual_lights=0 blended_cascades=0 textures=0 caster_alpha=0 caster_bias=0
-        predicted $preset surface_lights=1 max_lights=1 shadows=0 masks=0 baked_light=0 punctual_lights=0 textures=0 specular=0 vertex_normals=0 vertex_colours=0 # a small triangle is larger than corners
+        predicted $preset surface_lights=1 max_lights=1 shadows=0 masks=0 baked_light=0 punctual_lights=0 textures=0 specular=0 vertex_normals=0 vertex_colours=0
         predicted $preset surface_lights=1 textures=0 specular=0 masks=0 baked_light=0 punctual_lights=0 main_light=0 shadows=0 persp_step=1
         predicted $preset triangle_groups=100 max_triangles=333
         predicted $preset triangle_groups=1 max_triangles=8 tile_width=72 tile_height=5 shadows=0 orthographic=0

@@ -47,7 +47,7 @@ quick() {
     lib/light/*) echo test_object test_receiver_bias test_lists test_punctual ;;
     lib/shadow/*) echo test_persp test_tiles test_window test_filter ;;
     lib/visible/*) echo test_runs test_walk test_background test_pick ;;
-    lib/shade/*) echo test_pixel test_corner test_facet_lamps test_arrival test_alpha test_background ;;
+    lib/shade/*) echo test_pixel test_corner test_record test_arrival test_alpha test_background ;;
     esac
 }
 slow() {
@@ -58,7 +58,7 @@ slow() {
     lib/light/*) echo test_bias test_casters test_culling ;;
     lib/shadow/*) echo test_fit test_casters test_bias test_culling test_stages test_census ;;
     lib/visible/*) echo test_groups test_exactly test_screen test_corner_cases test_stages ;;
-    lib/shade/*) echo test_facets test_exactly test_radiance test_punctual test_corner_cases test_screen test_contact test_stages test_census ;;
+    lib/shade/*) echo test_patches test_exactly test_radiance test_punctual test_corner_cases test_screen test_contact test_stages test_census ;;
     esac
 }
 tests_of() { # tests_of PASS FILE: each once, if there is such a test

@@ -1,35 +1,33 @@
-/* Harnesses for Frama-C's value analysis, as in prove_base.c: cells, small triangles, forms on the screen. */
+/* Harnesses for Frama-C's value analysis, as in prove_base.c: cells, forms on the screen. */
 #include "prove.h"
 
 #include "base/gn_math.c"
 #include "base/gn_tables.c"
 #include "shade/gn_corner_screen.c"
-#include "shade/gn_facet_screen.h"
-#include "shade/gn_facet_shadow.c"
 #include "shade/gn_lattice_draw.c"
 #include "shade/gn_lattice_texture.c"
 
 /* ---- Cells --------------------------------------------------------------------------------------------------------
  */
 
-static void any_patch(gn_patch *p, int32_t most, int32_t log2)
+static void any_flat_patch(gn_flat_patch *p, int32_t most, int32_t log2)
 {
     int32_t at[4];
     for (int i = 0; i < 4; i++) at[i] = any_i32(-most, most);
-    gn_patch_make(p, at, log2);
+    gn_flat_patch_make(p, at, log2);
 }
 
-/* gn_patch_make, gn_patch_at, step_row: corners up to 2^27, 2 to 16 pixels apart, all pixels between them */
-void prove_patch(void)
+/* gn_flat_patch_make, gn_flat_patch_at, step_row: corners up to 2^27, 2 to 16 pixels apart, all pixels between them */
+void prove_flat_patch(void)
 {
     const int32_t most = 1 << 27;
     for (int32_t log2 = 1; log2 <= 4; log2++) {
-        gn_patch p;
-        drawing d;
+        gn_flat_patch p;
+        gn_drawing d;
         gn_corner_light at;
         gn_receiver_step end, from, step;
-        any_patch(&p, most, log2);
-        sink = gn_patch_at(&p, any_i32(0, 1 << log2), any_i32(0, 1 << log2));
+        any_flat_patch(&p, most, log2);
+        sink = gn_flat_patch_at(&p, any_i32(0, 1 << log2), any_i32(0, 1 << log2));
         d.size_log2 = log2, d.first = any_i32(0, (1 << log2) - 1);
         at.u_q16 = any_i32(-most, most), end.u_q16 = any_i32(-most, most);
         at.v_q16 = any_i32(-most, most), end.v_q16 = any_i32(-most, most);
@@ -62,62 +60,6 @@ void prove_texture_line(void)
             gn_lattice_texture_line(&patch, &texture, log2, t, any_i32(0, (1 << log2) - 1), &line);
             sink = line.at_q17[0];
         }
-}
-
-/* ---- Small triangles ----------------------------------------------------------------------------------------------
- */
-
-/* gn_facet_tinted: colours up to 2^28, vertex colours up to 5 */
-void prove_facet_tinted(void)
-{
-    sink = gn_facet_tinted(any_i32(-(1 << 28), 1 << 28), any_i32(-(5 << 16), 5 << 16));
-}
-
-/* quotient_q30: any numerator, reciprocals of 31 bits and a sign */
-void prove_facet_gradient(void)
-{
-    for (int clz = 0; clz <= 45; clz++) {
-        int32_t out;
-        sink = quotient_q30(any_i64(INT64_MIN, INT64_MAX), clz, any_i32(-INT32_MAX, INT32_MAX), &out);
-    }
-}
-
-/* deepest_q30: bounds within 15 texels of vertex 0, in tiles of up to 256; filters that reach 1 to 4 texels; gradients
- * below 2^25 */
-void prove_deepest(void)
-{
-    vertex_places p;
-    receiver_plane r;
-    r.p = &p;
-    for (int32_t i = 0; i < 16; i++)
-        for (int32_t k = 0; k < 16; k++)
-            for (int32_t reach = 1; reach <= 4; reach++) {
-                const int32_t base = 16 * i + k, first = base * 65536;
-                p.at[0][0] = any_i32(first, first + 65535);
-                r.lo[0] = any_i32(first - 15 * 65536 + 65535, first + 65535);
-                r.hi[0] = any_i32(first, first + 15 * 65536);
-                if (any_i32(0, 1)) r.gradient_q30[0] = any_i32(1, (1 << 25) - 1);
-                else r.gradient_q30[0] = any_i32(-(1 << 25) + 1, 0);
-                int32_t v = deepest_q30(&r, 0, any_i32(base - 14 - reach, base + 14 + reach), reach * 65536);
-                //@ assert -(1 << 29) < v < (1 << 29);
-                sink = v;
-            }
-}
-
-/* placed, depth_q30_of: rows of any numbers, vertices up to 2^30 */
-void prove_placed(void)
-{
-    int32_t m[3], v[3];
-    gn_light_view view;
-    for (int i = 0; i < 3; i++) m[i] = any_i32(INT32_MIN, INT32_MAX), v[i] = any_i32(-(1 << 30), 1 << 30);
-    for (int32_t shift = 0; shift <= 62; shift++)
-        sink = placed(m, v, shift, any_i32(INT32_MIN, INT32_MAX), any_i32(INT32_MIN, INT32_MAX));
-    for (int up = -40; up <= 14; up++) {
-        view.tile_log2 = 5, view.depth_log2 = 14 - 5 - up;
-        int32_t depth = depth_q30_of(&view, any_i32(INT32_MIN, INT32_MAX));
-        //@ assert up < 0 || -(1 << 29) <= depth < (1 << 30);
-        sink = depth;
-    }
 }
 
 /* ---- Forms on the screen ------------------------------------------------------------------------------------------
