@@ -146,7 +146,7 @@ GN_HOT void gn_patch_unit(int32_t v[3])
     for (int i = 0; i < 3; i++) n[i] = down >= 0 ? v[i] >> down : v[i] * (1 << -down);               /* below 2^14 */
     const uint32_t n2 = (uint32_t)(n[0] * n[0]) + (uint32_t)(n[1] * n[1]) + (uint32_t)(n[2] * n[2]); /* 3 * 2^28 */
     const int32_t up = gn_clz32(n2 | 1U) & ~1, more = up >> 1;
-    const int32_t root = (int32_t)(gn_rsqrt_norm(n2 << up, 1) >> 1); /* 2^(46 - more) / length */
+    const int32_t root = (int32_t)(gn_rsqrt_norm((n2 | 1U) << up, 1) >> 1); /* 2^(46 - more) / length */
     GN_UNROLL
     for (int i = 0; i < 3; i++) v[i] = gn_mul_high(n[i] * (1 << more), root);
 }

@@ -2,6 +2,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "scene/gn_sides.h"
 #include "base/gn_math.h"
 #include "shadow/gn_persp.h"
 #include "check.h"
@@ -154,7 +155,7 @@ static void test_small_casters(void)
         const gn_caster_corner *c[3] = {&corner[0], &corner[1], &corner[2]};
         make_spot(&view, i);
         make_caster(corner, &view, &state);
-        casting.job.two_sided = i & 4;
+        casting.job.sides = i & 4 ? GN_SIDES_BOTH : GN_SIDE_CCW;
         int32_t n[2];
         memset(texels, 255, sizeof texels);
         for (int way = 0; way < 2; way++) {
