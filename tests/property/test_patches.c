@@ -4,6 +4,7 @@
 #include <math.h>
 #include <pthread.h>
 
+#include "base/gn_count.h"
 #include "canvas.h"
 #include "check.h"
 #include "knobs.h"
