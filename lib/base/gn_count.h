@@ -43,8 +43,8 @@
     X(cells_judged, "cell whose shadow bounds of depth are asked for")                                                 \
     X(cells_plain, "cell of one colour")                                                                               \
     X(cells_drawn, "cell of several colours")                                                                          \
-    X(patches, "small triangle that is shaded from its record")                                                         \
-    X(patch_pixels, "pixel of one")                                                                                     \
+    X(patches, "small triangle that is shaded from its record")                                                        \
+    X(patch_pixels, "pixel of one")                                                                                    \
     X(parts, "part of a surface of one colour")                                                                        \
     X(windows, "window of texels for several cells")                                                                   \
     X(window_texels, "texel compared with a plane")                                                                    \

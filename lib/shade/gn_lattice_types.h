@@ -3,6 +3,7 @@
 #define GN_LATTICE_TYPES_H
 
 #include "shadow/gn_shadow_types.h"
+#include "shade/gn_patch_types.h"
 #include "shade/gn_surface_types.h"
 
 #if GN_INTERPOLATES
@@ -330,7 +331,8 @@ typedef struct gn_lattice {
     uint32_t bits[GN_PART_WIDTH / 32][GN_PART_ROWS]; /* its pixels */
     union {
         gn_corner corners[GN_CORNERS]; /* those of the part that were asked for last */
-        gn_part part;                  /* a part of one or two colours has none */
+        gn_part part;                  /* a part of one or two colours has none, */
+        gn_patch patch;                /* nor a triangle that is no surface */
     } from;
     uint32_t corner_key[GN_CORNERS];       /* y * 2^16 + x; all ones: none */
     uint32_t corner_used[GN_CORNERS], now; /* when they were, counted */

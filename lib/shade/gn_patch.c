@@ -16,8 +16,10 @@
 
 GN_HOT void gn_patch_begin_tile(gn_shading *s)
 {
-    s->patch.of.object = NULL;
-    for (int i = 0; i < GN_PATCH_NORMALS; i++) s->patch.normal[i].tag = 0;
+    s->patches.of.object = NULL;
+#if GN_VERTEX_NORMALS
+    for (int i = 0; i < GN_PATCH_NORMALS; i++) s->patches.normal[i].tag = 0;
+#endif
     gn_patch_begin_reach(s);
 }
 
@@ -28,7 +30,9 @@ GN_HOT static const gn_tri *record_of(gn_shading *s, uint32_t id)
 {
 #if GN_GROUPS
     if (GN_K(s->frame, triangle_groups))
-        return gn_setup_record(s->frame, s->scratch, &s->scratch->drawn[id], &s->patch.again) ? &s->patch.again : NULL;
+        return gn_setup_record(s->frame, s->scratch, &s->scratch->drawn[id], &s->lattice.from.patch.again)
+                   ? &s->lattice.from.patch.again
+                   : NULL;
 #endif
     return gn_cell_tri(s->frame, id);
 }
@@ -38,7 +42,7 @@ GN_HOT static const gn_tri *record_of(gn_shading *s, uint32_t id)
  * changes. Otherwise pixels multiply. */
 GN_HOT static void find_tint(gn_patch *p)
 {
-    const uint16_t *rgb_uq16 = p->of.object->mesh->rgb_uq16;
+    const uint16_t *rgb_uq16 = p->shared->of.object->mesh->rgb_uq16;
     int32_t tint[3][3];
     int each = p->n_lights > 0;
     for (int k = 0; k < 3; k++) {
@@ -73,10 +77,11 @@ GN_HOT static void find_colours(gn_patch *p)
 
 GN_HOT int gn_patch_begin(gn_shading *s, uint32_t id)
 {
-    gn_patch *p = &s->patch;
+    gn_patch *p = &s->lattice.from.patch;
     const gn_object *object = &s->frame->scene->objects[s->tri->object_idx];
-    if (p->of.object != object) gn_patch_use_object(s, object);
-    if (!p->of.patched) return 0;
+    if (s->patches.of.object != object) gn_patch_use_object(s, object);
+    if (!s->patches.of.patched) return 0;
+    p->shared = &s->patches;
     const gn_tri *tri = record_of(s, id);
     if (!tri || !gn_record_begin(&p->record, s->frame, tri)) return 0;
     p->has_face = p->tinted = p->textured = 0;
@@ -102,7 +107,7 @@ GN_HOT int gn_patch_begin(gn_shading *s, uint32_t id)
 GN_HOT static void add_light_nodes(gn_shading *s, const gn_patch_light *light, const gn_patch_weights ends[2],
                                    int32_t x, int32_t y, int32_t n)
 {
-    gn_patch *p = &s->patch;
+    gn_patch *p = &s->lattice.from.patch;
     gn_row_value e = gn_patch_row(&light->irradiance_q15, ends, n);
     const uint32_t r = light->colour[0], g = light->colour[1], b = light->colour[2], *attenuation = p->attenuation;
     const int32_t down = light->down;
@@ -149,7 +154,7 @@ GN_HOT static uint32_t nodes_beyond(const int32_t (*node)[3], int32_t n)
 GN_HOT static void draw_textured(gn_shading *s, const int32_t from[3], const int32_t step[3],
                                  const gn_patch_weights ends[2], int32_t x, int32_t y, int32_t n)
 {
-    gn_patch *p = &s->patch;
+    gn_patch *p = &s->lattice.from.patch;
     gn_pixel_line line = {.node = (const int32_t(*)[3])p->node_q24, .spacing_log2 = 4, .texel = p->texel};
     for (int c = 0; c < 3; c++) p->node_q24[0][c] = from[c], p->node_q24[1][c] = from[c] + step[c] * (n - 1);
     line.inside = !(nodes_beyond(line.node, 2) >> 24);
@@ -163,7 +168,7 @@ GN_HOT static void draw_textured(gn_shading *s, const int32_t from[3], const int
 GN_HOT static void draw_patch_nodes(gn_shading *s, const int32_t from[3], const int32_t step[3],
                                     const gn_patch_weights ends[2], int32_t x, int32_t y, int32_t n)
 {
-    gn_patch *p = &s->patch;
+    gn_patch *p = &s->lattice.from.patch;
     gn_pixel_line line = {.node = (const int32_t(*)[3])p->node_q24};
     int32_t r = from[0], g = from[1], b = from[2], (*node)[3] = p->node_q24;
     for (int32_t(*end)[3] = node + n; node < end; node++, r += step[0], g += step[1], b += step[2])
@@ -182,7 +187,7 @@ GN_HOT static void draw_patch_nodes(gn_shading *s, const int32_t from[3], const 
 
 GN_HOT static void draw_patch_row(gn_shading *s, int32_t x, int32_t y, int32_t n)
 {
-    gn_patch *p = &s->patch;
+    gn_patch *p = &s->lattice.from.patch;
     gn_patch_weights ends[2];
     int32_t from[3], step[3] = {0, 0, 0};
     ends[0] = gn_record_weights(&p->record, s->frame, x, y);
@@ -203,7 +208,7 @@ GN_HOT static void draw_patch_row(gn_shading *s, int32_t x, int32_t y, int32_t n
 GN_HOT void gn_patch_draw(gn_shading *s, gn_run_taker *taker)
 {
     const uint32_t stride = (uint32_t)GN_K(s->frame, tile_width);
-    gn_patch *p = &s->patch;
+    gn_patch *p = &s->lattice.from.patch;
     uint32_t packed = 0, q20[3];
     const int raw = GN_RAW_VIEWS && s->frame->picture.format == GN_FORMAT_RAW32;
     for (int c = 0; c < 3; c++) q20[c] = (uint32_t)gn_max32(p->colour_q24[c][0], 0) >> 4;

@@ -53,7 +53,7 @@ GN_HOT static int find_base(const gn_frame *frame, gn_patch_object *of)
 
 GN_HOT void gn_patch_use_object(gn_shading *s, const gn_object *object)
 {
-    gn_patch_object *of = &s->patch.of;
+    gn_patch_object *of = &s->patches.of;
     const int unlit = (object->flags & GN_OBJECT_UNLIT) != 0;
     of->object = object;
     of->patched = (uint8_t)(is_patched(s->frame, object) && find_base(s->frame, of));
@@ -65,8 +65,8 @@ GN_HOT void gn_patch_use_object(gn_shading *s, const gn_object *object)
     for (int c = 0; shows_shadow(s->frame) && c < 3; c++) of->base_q24[c] = 0;
     if (!of->patched || !GN_VERTEX_NORMALS || !object->mesh->nrm_q15) return;
     gn_xform_normal_matrix(of->to_world_q30, object->to_world.m_q30);
-#if GN_VERTEX_JOINTS
-    for (int i = 0; i < GN_PATCH_JOINTS; i++) s->patch.joint[i].tag = 0;
+#if GN_VERTEX_JOINTS && GN_VERTEX_NORMALS
+    for (int i = 0; i < GN_PATCH_JOINTS; i++) s->patches.joint[i].tag = 0;
 #endif
 }
 
@@ -74,7 +74,7 @@ GN_HOT void gn_patch_use_object(gn_shading *s, const gn_object *object)
 
 GN_HOT const int32_t *gn_patch_face(gn_shading *s)
 {
-    gn_patch *p = &s->patch;
+    gn_patch *p = &s->lattice.from.patch;
     if (p->has_face) return p->face_q30;
     gn_record_face(&p->record, s->frame, p->view_q14);
     for (int i = 0; i < 3; i++) {
@@ -100,7 +100,7 @@ GN_HOT static inline void add_turned(int32_t out[3], const int16_t m_q14[9], con
 #if GN_VERTEX_JOINTS
 GN_HOT static GN_NOINLINE void make_patch_joint(const gn_shading *s, const gn_affine *joint, gn_patch_joint *out)
 {
-    const gn_patch_object *of = &s->patch.of;
+    const gn_patch_object *of = &s->patches.of;
     int32_t posed[3][3];
     gn_xform_normal_matrix(posed, joint->m_q30);
     for (int k = 0; k < 9; k++) {
@@ -114,10 +114,10 @@ GN_HOT static GN_NOINLINE void make_patch_joint(const gn_shading *s, const gn_af
 /* The weighted mean of where joints turn it: of different sizes where joints stretch it, which is not seen. */
 GN_HOT static void turn_by_joints(gn_shading *s, uint32_t vertex_idx, const int32_t n[3], int32_t out[3])
 {
-    const gn_vertex_joints of = gn_skin_joints(s->patch.of.object->skin, vertex_idx);
+    const gn_vertex_joints of = gn_skin_joints(s->patches.of.object->skin, vertex_idx);
     for (uint32_t i = 0; i < of.n; i++) {
         const uint32_t idx = of.idx[i];
-        gn_patch_joint *joint = &s->patch.joint[idx & (GN_PATCH_JOINTS - 1)];
+        gn_patch_joint *joint = &s->patches.joint[idx & (GN_PATCH_JOINTS - 1)];
         if (!of.weight_u8[i]) continue;
         if (joint->tag != idx + 1) {
             make_patch_joint(s, &of.joint[idx], joint);
@@ -131,7 +131,7 @@ GN_HOT static void turn_by_joints(gn_shading *s, uint32_t vertex_idx, const int3
 /* A vertex's normal in the world, before the triangle's back is turned. */
 GN_HOT static GN_NOINLINE uint32_t make_patch_normal(gn_shading *s, uint32_t vertex_idx)
 {
-    const gn_object *object = s->patch.of.object;
+    const gn_object *object = s->patches.of.object;
     const gn_normal *nrm = object->mesh->nrm_q15 + 3 * (size_t)vertex_idx;
     const int32_t n[3] = {nrm[0] >> 1, nrm[1] >> 1, nrm[2] >> 1};
     int32_t turned[3] = {0, 0, 0};
@@ -140,7 +140,7 @@ GN_HOT static GN_NOINLINE uint32_t make_patch_normal(gn_shading *s, uint32_t ver
 #endif
     if (!GN_SKIN(object)) {
         int16_t m_q14[9];
-        for (int k = 0; k < 9; k++) m_q14[k] = (int16_t)(s->patch.of.to_world_q30[k / 3][k % 3] >> 16);
+        for (int k = 0; k < 9; k++) m_q14[k] = (int16_t)(s->patches.of.to_world_q30[k / 3][k % 3] >> 16);
         add_turned(turned, m_q14, n, 255);
     }
     gn_patch_unit(turned);
@@ -152,9 +152,9 @@ GN_HOT static GN_NOINLINE uint32_t make_patch_normal(gn_shading *s, uint32_t ver
 /* Corner k's normal, Q14, on the side that is seen. */
 GN_HOT static inline void patch_normal(gn_shading *s, int k, int32_t out_q14[3])
 {
-    const gn_patch_record *r = &s->patch.record;
+    const gn_patch_record *r = &s->lattice.from.patch.record;
     const uint32_t vertex_idx = r->vertex[k], tag = gn_vertex_tag(r->tri->source.object_idx, vertex_idx);
-    gn_patch_normal *entry = &s->patch.normal[vertex_idx & (GN_PATCH_NORMALS - 1)];
+    gn_patch_normal *entry = &s->patches.normal[vertex_idx & (GN_PATCH_NORMALS - 1)];
     if (entry->tag != tag) {
         entry->packed = make_patch_normal(s, vertex_idx);
         entry->tag = tag;
@@ -170,9 +170,9 @@ GN_HOT static inline void patch_normal(gn_shading *s, int k, int32_t out_q14[3])
  * them is not linear. */
 GN_HOT static int find_patch_normals(gn_shading *s, int32_t n[3][3])
 {
-    gn_patch *p = &s->patch;
+    gn_patch *p = &s->lattice.from.patch;
 #if GN_VERTEX_NORMALS
-    const gn_normal *nrm = p->of.object->mesh->nrm_q15;
+    const gn_normal *nrm = p->shared->of.object->mesh->nrm_q15;
     if (nrm) {
         int32_t nearest = 1 << 14;
         for (int k = 0; k < 3; k++) patch_normal(s, k, n[k]);
@@ -201,7 +201,7 @@ GN_HOT static void sun_irradiance(const gn_shading *s, const gn_light_state *lig
     const int32_t *l = light->to_light_q30;
     for (int k = 0; k < 3; k++) {
         int32_t cosine = (n[k][0] * (l[0] >> 16) + n[k][1] * (l[1] >> 16) + n[k][2] * (l[2] >> 16)) >> 14;
-        if (GN_K(s->frame, vertex_light) || !s->patch.smooth) cosine = gn_max32(cosine, 0);
+        if (GN_K(s->frame, vertex_light) || !s->lattice.from.patch.smooth) cosine = gn_max32(cosine, 0);
         e_q24[k] = cosine * 1024;
     }
 }
@@ -227,11 +227,12 @@ GN_HOT static int lamp_is_even(const int32_t from[3][3], const int32_t e_q24[3])
 /* Of a spot or point light. Returns 0 if it is not even. */
 GN_HOT static int lamp_irradiance(gn_shading *s, const gn_light_state *light, const int32_t n[3][3], int32_t e_q24[3])
 {
-    int32_t(*from)[3] = s->patch.from_q16;
-    gn_record_find_depths(&s->patch.record, s->frame);
+    int32_t(*from)[3] = s->lattice.from.patch.from_q16;
+    gn_record_find_depths(&s->lattice.from.patch.record, s->frame);
     for (int i = 0; i < 3; i++) {
         int32_t at[3];
-        if (!gn_record_places(&s->patch.record, s->frame, &light->from_light[i], light->ray_shift, at)) return 0;
+        if (!gn_record_places(&s->lattice.from.patch.record, s->frame, &light->from_light[i], light->ray_shift, at))
+            return 0;
         for (int k = 0; k < 3; k++) from[k][i] = at[k];
     }
     for (int k = 0; k < 3; k++) {
@@ -290,7 +291,7 @@ GN_HOT static int find_patch_light(gn_shading *s, uint32_t light_idx, const int3
 {
     const gn_frame *frame = s->frame;
     const gn_light_state *state = &frame->light[light_idx];
-    gn_patch *p = &s->patch;
+    gn_patch *p = &s->lattice.from.patch;
     gn_patch_light *light = &p->light[p->n_lights];
     uint32_t colour[3];
     int32_t e[3];
@@ -307,9 +308,10 @@ GN_HOT static int find_patch_light(gn_shading *s, uint32_t light_idx, const int3
     }
     if (p->n_lights == GN_PATCH_LIGHTS) return 0;
     for (int c = 0; c < 3; c++)
-        colour[c] = shows_shadow(frame) ? 65536U : gn_mul_uq16(state->colour_uq16[c], p->of.object->albedo_uq16[c]);
+        colour[c] =
+            shows_shadow(frame) ? 65536U : gn_mul_uq16(state->colour_uq16[c], p->shared->of.object->albedo_uq16[c]);
     light->view = NULL;
-    const int said = GN_SHADOWS && p->of.receives ? gn_patch_find_shadow(s, light_idx, light) : GN_PATCH_LIT;
+    const int said = GN_SHADOWS && p->shared->of.receives ? gn_patch_find_shadow(s, light_idx, light) : GN_PATCH_LIT;
     if (said == GN_PATCH_UNEVEN) return 0;
     if (said == GN_PATCH_DARK) return 1;
     if (!light->view && !ends) return add_patch_light(p, colour, e);
@@ -321,7 +323,7 @@ GN_HOT static int find_patch_light(gn_shading *s, uint32_t light_idx, const int3
 GN_HOT static int find_patch_lamps(gn_shading *s, const int32_t n[3][3])
 {
     const gn_frame *frame = s->frame;
-    const gn_object_state *object = &frame->object[s->patch.record.tri->source.object_idx];
+    const gn_object_state *object = &frame->object[s->lattice.from.patch.record.tri->source.object_idx];
     const int all = object->n_lights == GN_OBJECT_LIGHTS_ALL;
     const uint32_t count = all ? frame->scene->n_lights : object->n_lights;
     for (uint32_t i = 0; i < count; i++) {
@@ -335,12 +337,12 @@ GN_HOT static int find_patch_lamps(gn_shading *s, const int32_t n[3][3])
 GN_HOT int gn_patch_find_lights(gn_shading *s)
 {
     const gn_frame *frame = s->frame;
-    gn_patch *p = &s->patch;
+    gn_patch *p = &s->lattice.from.patch;
     int32_t n[3][3];
     p->n_lights = 0;
     for (int c = 0; c < 3; c++)
-        for (int k = 0; k < 3; k++) p->colour_q24[c][k] = p->of.base_q24[c];
-    if (!p->of.lit) return 1;
+        for (int k = 0; k < 3; k++) p->colour_q24[c][k] = p->shared->of.base_q24[c];
+    if (!p->shared->of.lit) return 1;
     if (!find_patch_normals(s, n)) return 0;
     for (uint32_t l = 0; l < frame->scene->n_lights; l++)
         if (frame->light[l].kind == GN_LIGHT_DIRECTIONAL && !find_patch_light(s, l, (const int32_t(*)[3])n)) return 0;

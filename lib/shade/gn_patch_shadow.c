@@ -28,17 +28,17 @@ typedef struct {
 
 GN_HOT void gn_patch_begin_reach(gn_shading *s)
 {
-    gn_patch *p = &s->patch;
+    gn_patch_shared *shared = &s->patches;
     uint64_t most = 1;
     for (int32_t i = 0; i < GN_N_CASCADES(s->frame); i++)
         if (s->frame->cascade[i].radius2_q32 > most) most = s->frame->cascade[i].radius2_q32;
-    p->sphere_down = gn_max32((65 - gn_clz64(most)) / 2 - 15, 0);
+    shared->sphere_down = gn_max32((65 - gn_clz64(most)) / 2 - 15, 0);
     for (int32_t i = 0; i < GN_N_CASCADES(s->frame); i++) {
         const gn_cascade_state *c = &s->frame->cascade[i];
-        gn_patch_sphere *sphere = &p->sphere[i];
-        sphere->centre = c->centre_q16 >> p->sphere_down;
-        sphere->radius2 = (uint32_t)(c->radius2_q32 >> 2 * p->sphere_down);
-        sphere->inner2 = (uint32_t)(c->inner2_q32 >> 2 * p->sphere_down);
+        gn_patch_sphere *sphere = &shared->sphere[i];
+        sphere->centre = c->centre_q16 >> shared->sphere_down;
+        sphere->radius2 = (uint32_t)(c->radius2_q32 >> 2 * shared->sphere_down);
+        sphere->inner2 = (uint32_t)(c->inner2_q32 >> 2 * shared->sphere_down);
         sphere->per_fade = 0xFFFFFFFFU / (sphere->radius2 - sphere->inner2 + 1);
     }
 }
@@ -47,14 +47,14 @@ GN_HOT void gn_patch_begin_reach(gn_shading *s)
 GN_HOT static int32_t cascade_of_corner(const gn_shading *s, int k, uint32_t *fade_uq16)
 {
     const gn_frame *frame = s->frame;
-    const gn_patch *p = &s->patch;
+    const gn_patch *p = &s->lattice.from.patch;
     const gn_tri *tri = p->record.tri;
     const int32_t bits = GN_K(frame, subpixel_bits) - 1, x = tri->x[k] >> bits, y = tri->y[k] >> bits; /* half pixels */
-    const uint32_t z = (uint32_t)gn_record_depth(&p->record, k) >> p->sphere_down;
+    const uint32_t z = (uint32_t)gn_record_depth(&p->record, k) >> p->shared->sphere_down;
     const uint32_t tan2_q24 = (uint32_t)((uint64_t)(uint32_t)(x * x + y * y) * (uint32_t)frame->tan2_per_px2_q44 >> 20);
     const uint64_t across = ((uint64_t)z * z >> 8) * tan2_q24 >> 16; /* 2^34 * 2^26, see find_patch_reach() */
     for (int32_t i = 0; i < GN_N_CASCADES(frame); i++) {
-        const gn_patch_sphere *c = &p->sphere[i];
+        const gn_patch_sphere *c = &p->shared->sphere[i];
         const int64_t dz = (int64_t)z - c->centre;
         const uint64_t d2 = across + (uint64_t)(dz * dz);
         if (d2 >= c->radius2) continue;
@@ -78,7 +78,7 @@ GN_HOT static uint32_t distance_strength(const gn_frame *frame, int32_t z_q16)
  * are blended, or distance is measured from the camera. Found once. */
 GN_HOT static int find_patch_reach(gn_shading *s)
 {
-    gn_patch *p = &s->patch;
+    gn_patch *p = &s->lattice.from.patch;
     const gn_frame *frame = s->frame;
     const int blends = GN_BLENDED_CASCADES && frame->scene->shadow.blend != GN_BLEND_HARD;
     if (p->reach != GN_REACH_UNKNOWN) return p->reach == GN_REACH_EVEN;
@@ -90,7 +90,8 @@ GN_HOT static int find_patch_reach(gn_shading *s)
         uint32_t fade = 65536;
         p->strength_uq16[k] = distance_strength(frame, gn_record_depth(&p->record, k));
         if (!frame->has_cascades) continue;
-        if (gn_record_depth(&p->record, k) >> p->sphere_down >> 21) return 0; /* many times as far as the spheres reach */
+        if (gn_record_depth(&p->record, k) >> p->shared->sphere_down >> 21)
+            return 0; /* many times as far as the spheres reach */
         const int32_t cascade = cascade_of_corner(s, k, &fade);
         if (k && cascade != p->cascade) return 0;
         p->cascade = cascade;
@@ -121,9 +122,9 @@ GN_HOT static int place_in_ortho(gn_shading *s, const gn_light_view *view, gn_au
     gn_bias_auto_face(view, form, gn_patch_face(s), face);
     gn_bias_auto_ortho(view, form, face, offset);
     if (offset[2] <= -TOO_FAR) return GN_PATCH_LIT;
-    if (!gn_record_places(&s->patch.record, s->frame, &fit->ray[0], fit->ray_shift, out->u) ||
-        !gn_record_places(&s->patch.record, s->frame, &fit->ray[1], fit->ray_shift, out->v) ||
-        !gn_record_places(&s->patch.record, s->frame, &fit->ray[2], fit->ray_shift, out->depth))
+    if (!gn_record_places(&s->lattice.from.patch.record, s->frame, &fit->ray[0], fit->ray_shift, out->u) ||
+        !gn_record_places(&s->lattice.from.patch.record, s->frame, &fit->ray[1], fit->ray_shift, out->v) ||
+        !gn_record_places(&s->lattice.from.patch.record, s->frame, &fit->ray[2], fit->ray_shift, out->depth))
         return GN_PATCH_UNEVEN;
     for (int k = 0; k < 3; k++) {
         out->u[k] += offset[0];
@@ -139,7 +140,7 @@ GN_HOT static int place_in_ortho(gn_shading *s, const gn_light_view *view, gn_au
 GN_HOT static int place_in_persp(gn_shading *s, const gn_light_view **view, const gn_light_state *light,
                                  patch_places *out)
 {
-    const gn_patch *p = &s->patch;
+    const gn_patch *p = &s->lattice.from.patch;
     int32_t nearest = INT32_MAX, farthest = 0, seen = 0;
     const int32_t face = light->kind == GN_LIGHT_POINT ? gn_persp_face(p->from_q16[0]) : 0;
     *view += face;
@@ -200,7 +201,8 @@ GN_HOT static int find_texels_read(const gn_light_view *view, const patch_places
 GN_HOT static int ask_texels(gn_shading *s, const gn_light_view *view, const patch_places *at, gn_patch_texels *out)
 {
     int32_t slope_q28[2];
-    if (s->patch.record.px < ASK_PX || view->perspective || GN_VIEW_BITS(view) != 16) return TEXELS_UNKNOWN;
+    if (s->lattice.from.patch.record.px < ASK_PX || view->perspective || GN_VIEW_BITS(view) != 16)
+        return TEXELS_UNKNOWN;
     if (view->filter > GN_FILTER_3X3 || !find_texels_read(view, at, out)) return TEXELS_UNKNOWN;
     gn_shadow_plane_slopes(view, gn_patch_face(s), NULL, slope_q28);
     if ((gn_abs32(slope_q28[0]) | gn_abs32(slope_q28[1])) >> 23)
@@ -208,7 +210,7 @@ GN_HOT static int ask_texels(gn_shading *s, const gn_light_view *view, const pat
     const int32_t across = slope_q28[0] * 4, down = slope_q28[1] * 4, rise = across * (out->w - 1),
                   fall = down * (out->h - 1);
     const int64_t to_u = out->u * 65536 + 32768 - at->u[0], to_v = out->v * 65536 + 32768 - at->v[0]; /* 2^22 */
-    const int64_t first = at->depth[0] + ((across * to_u + down * to_v) >> 16); /* 2^30 + 2^31 */
+    const int64_t first = at->depth[0] + ((across * to_u + down * to_v) >> 16);                       /* 2^30 + 2^31 */
     if (first < 0 || first > FAR_Q30) return TEXELS_UNKNOWN;
     int32_t depth = (int32_t)first;
     const uint16_t *texel = view->depth.d16 + out->v * view->tile_texels + out->u;
@@ -244,7 +246,7 @@ GN_HOT int gn_patch_find_shadow(gn_shading *s, uint32_t light_idx, gn_patch_ligh
 {
     const gn_frame *frame = s->frame;
     const gn_light_state *state = &frame->light[light_idx];
-    gn_patch *p = &s->patch;
+    gn_patch *p = &s->lattice.from.patch;
     const gn_light_view *view = &frame->view[state->view_idx];
     uint32_t k[3], any = 0;
     patch_places at;
@@ -309,7 +311,7 @@ GN_HOT static void attenuation_by_filter(gn_shading *s, const gn_patch_light *li
                                          gn_receiver *r, int32_t u_step, int32_t v_step, int32_t n)
 {
     gn_row_value depth = gn_patch_row(&light->depth_q30, ends, n);
-    for (uint32_t *out = s->patch.attenuation, *end = out + n; out < end; out++, depth.at += depth.step) {
+    for (uint32_t *out = s->lattice.from.patch.attenuation, *end = out + n; out < end; out++, depth.at += depth.step) {
         r->depth_q32 = (uint32_t)gn_max32(0, gn_min32(depth.at, (1 << 30) - 1)) << 2;
         *out = gn_filter_attenuation(s->frame, light->view, r);
         r->u_q16 += u_step;
@@ -322,9 +324,9 @@ GN_HOT void gn_patch_attenuation(gn_shading *s, const gn_patch_light *light, con
                                  int32_t y, int32_t n)
 {
     const gn_row_value u = gn_patch_row(&light->u_q16, ends, n), v = gn_patch_row(&light->v_q16, ends, n);
-    uint32_t *out = s->patch.attenuation;
+    uint32_t *out = s->lattice.from.patch.attenuation;
     GN_COUNT(edge_lookups, n);
-    if (light->has_words) attenuation_by_words(&s->patch, light, u, v, n);
+    if (light->has_words) attenuation_by_words(&s->lattice.from.patch, light, u, v, n);
     else {
         gn_receiver r = {u.at, v.at, 0, {0, 0}, x, y};
         attenuation_by_filter(s, light, ends, &r, u.step, v.step, n);
@@ -350,7 +352,7 @@ GN_HOT void gn_patch_attenuation(gn_shading *s, const gn_patch_light *light, con
                                  int32_t y, int32_t n)
 {
     (void)light, (void)ends, (void)x, (void)y;
-    for (int32_t i = 0; i < n; i++) s->patch.attenuation[i] = 65536;
+    for (int32_t i = 0; i < n; i++) s->lattice.from.patch.attenuation[i] = 65536;
 }
 #endif
 

@@ -67,7 +67,7 @@ typedef struct {
     gn_patch_value strength_q16; /* the light's, less what fades with distance */
 } gn_patch_light;
 
-enum { GN_PATCH_LIGHTS = 3, GN_PATCH_NORMALS = 64 /* a power of two */ };
+enum { GN_PATCH_LIGHTS = 3, GN_PATCH_NORMALS = 32 /* a power of two */ };
 
 /* A vertex's normal in the world, unit length: three axes of 10 bits, the first in the highest. */
 typedef struct {
@@ -81,7 +81,7 @@ typedef struct {
     uint16_t tag; /* the joint's index + 1, 0: none */
     int16_t m_q14[9];
 } gn_patch_joint;
-enum { GN_PATCH_JOINTS = 32 /* a power of two */ };
+enum { GN_PATCH_JOINTS = 16 /* a power of two */ };
 #endif
 
 /* What an object's triangles have in common. */
@@ -102,23 +102,36 @@ typedef struct {
 } gn_patch_sphere;
 #endif
 
-enum { GN_REACH_UNKNOWN, GN_REACH_EVEN, GN_REACH_UNEVEN };
-
-/* The triangle at hand. */
+/* What lasts while a screen tile is shaded. */
 typedef struct {
-    gn_patch_object of;
-    gn_patch_record record;
-    gn_tri again;                     /* of groups: the record, made again */
-    int32_t view_q14[3], face_q30[3]; /* the face's normal towards the viewer: along the camera's axes, in the world */
-    uint8_t has_face, smooth, tinted, textured, varies;
-    uint8_t graded; /* colours differ between the corners */
-    uint8_t n_lights;
-    uint8_t reach;   /* GN_REACH_*: of shadows, over the triangle */
-    int32_t cascade; /* of the corners */
+    gn_patch_object of; /* the object at hand */
+#if GN_VERTEX_NORMALS
+    gn_patch_normal normal[GN_PATCH_NORMALS];
+#if GN_VERTEX_JOINTS
+    gn_patch_joint joint[GN_PATCH_JOINTS]; /* of that object */
+#endif
+#endif
 #if GN_SHADOWS && GN_AUTO_BIAS
     int32_t sphere_down;
     gn_patch_sphere sphere[4];
 #endif
+} gn_patch_shared;
+
+enum { GN_REACH_UNKNOWN, GN_REACH_EVEN, GN_REACH_UNEVEN };
+
+/* The triangle at hand. */
+typedef struct {
+    gn_patch_shared *shared;
+    gn_patch_record record;
+#if GN_GROUPS
+    gn_tri again; /* of groups: the record, made again */
+#endif
+    int32_t view_q14[3], face_q30[3]; /* the face's normal towards the viewer: along the camera's axes, in the world */
+    uint8_t has_face, smooth, tinted, textured, varies;
+    uint8_t graded; /* colours differ between the corners */
+    uint8_t n_lights;
+    uint8_t reach;             /* GN_REACH_*: of shadows, over the triangle */
+    int32_t cascade;           /* of the corners */
     uint32_t strength_uq16[3]; /* of shadows at the corners */
     int32_t from_q16[3][3];    /* from the spot or point light at hand to the corners, world axes */
     int32_t colour_q24[3][3];  /* by channel, at the corners: light that pixels do not ask for */
@@ -131,10 +144,6 @@ typedef struct {
 #if GN_MIPMAPS
     gn_texture level;
 #endif
-#endif
-    gn_patch_normal normal[GN_PATCH_NORMALS];
-#if GN_VERTEX_JOINTS
-    gn_patch_joint joint[GN_PATCH_JOINTS]; /* of the object at hand */
 #endif
     uint32_t attenuation[GN_PATCH_ROW_PX];
     int32_t node_q24[GN_PATCH_ROW_PX][3];

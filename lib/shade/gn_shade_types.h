@@ -27,7 +27,7 @@ typedef struct gn_shading {
     gn_mixture mixture;
 #endif
 #if GN_INTERPOLATES
-    gn_patch patch;
+    gn_patch_shared patches;
     gn_lattice lattice;
 #endif
 } gn_shading;

@@ -112,7 +112,7 @@ while read -r feature pattern; do
     grep -q -x -E "$pattern" "$tmp/all_symbols" && pass || fail "$feature: there is no symbol $pattern at all"
     gone "$feature" "$feature" "$pattern" && pass || fail "$feature is off, and there is $(tr '\n' ' ' <"$tmp/found")"
 done <<'LIST'
-SHADOWS gn_(atlas|caster|cascade|ortho|persp|filter|blocks|cull|tiles|bias)_.*|gn_.*weights|gn_disk_.*
+SHADOWS gn_(atlas|caster|cascade|ortho|persp|filter|blocks|cull|tiles|bias)_.*|gn_tent.*|gn_disk_.*
 PUNCTUAL_LIGHTS gn_(persp|punctual|object_list)_.*
 FILTER_MAX gn_tent_weights
 DISK_FILTER gn_disk_.*|disk.*|gn_blocks_.*

@@ -119,7 +119,7 @@ static void test_begin(void)
         any_picture();
         if (!any_corners(40) || !any_plane(13, 1.5)) continue;
         const int small = gn_record_begin(&r, &frame, &tri), order = (int)gn_tri_order(&tri);
-        double most = 0, least = INFINITY, lo[2] = {INFINITY, INFINITY}, hi[2] = {-INFINITY, -INFINITY};
+        double most = 0, least = HUGE_VAL, lo[2] = {HUGE_VAL, HUGE_VAL}, hi[2] = {-HUGE_VAL, -HUGE_VAL};
         for (int k = 0; k < 3; k++) {
             most = fmax(most, nearness(k)), least = fmin(least, nearness(k));
             lo[0] = fmin(lo[0], tri.x[k]), hi[0] = fmax(hi[0], tri.x[k]);

@@ -22,7 +22,7 @@ static long light_bytes(bool short_enums)
 
 static long scene_bytes(bool short_enums)
 {
-    return short_enums ? 228 : 248;
+    return short_enums ? 228 : 244;
 }
 
 static long mesh_bytes(const gn_mesh *m, const gn_knobs *knobs)

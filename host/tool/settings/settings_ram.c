@@ -101,19 +101,30 @@ static int has_levels(const settings *s)
     return s->feature.textures && s->feature.texture_levels;
 }
 
+static int wide_coordinates(const settings *s);
+
 /* gn_patch of lib/shade/gn_patch_types.h */
 static long patch_bytes(const settings *s)
 {
     layout all = {0, 4};
-    put(&all, 1, 220, 4);                                                /* of to cascade */
-    if (s->feature.shadows && s->feature.auto_bias) put(&all, 1, 68, 4); /* sphere_down, sphere */
-    put(&all, 1, 132, 4);                                                /* strength_uq16 to colour */
-    put(&all, 3, 252, 4);                                                /* light */
-    put(&all, 3, 16, 4);                                                 /* tint_q16 */
-    if (s->feature.textures) put(&all, 1, has_levels(s) ? 52 : 36, 4);   /* texture to level */
-    put(&all, 64, 8, 4);                                                 /* normal */
-    if (s->feature.vertex_joints) put(&all, 32, 20, 4);                  /* joint */
-    put(&all, 1, 384, 4);                                                /* attenuation to texel */
+    put(&all, 1, 100, 4);                                                           /* shared, record */
+    if (s->quality.triangle_groups) put(&all, 1, wide_coordinates(s) ? 44 : 32, 4); /* again */
+    put(&all, 1, 168, 4);                                                           /* view_q14 to colour */
+    put(&all, 3, 252, 4);                                                           /* light */
+    put(&all, 3, 16, 4);                                                            /* tint_q16 */
+    if (s->feature.textures) put(&all, 1, has_levels(s) ? 52 : 36, 4);              /* texture to level */
+    put(&all, 1, 384, 4);                                                           /* attenuation to texel */
+    return all.size;
+}
+
+/* gn_patch_shared of the same */
+static long patch_shared_bytes(const settings *s)
+{
+    layout all = {0, 4};
+    put(&all, 1, 56, 4); /* of */
+    if (s->feature.vertex_normals) put(&all, 32, 8, 4);
+    if (s->feature.vertex_normals && s->feature.vertex_joints) put(&all, 16, 20, 4);
+    if (s->feature.shadows && s->feature.auto_bias) put(&all, 1, 68, 4);
     return all.size;
 }
 
@@ -140,8 +151,9 @@ static long lattice_bytes(const settings *s)
     put(&all, s->capacity.surface_lights, 12, 4);                              /* light */
     put(&all, 1, 200, 4);                                                      /* face_q30 to bits */
     if (s->feature.shadows && (s->feature.receiver_plane || s->quality.edge))
-        put(&all, 4, 4, 4);            /* slope_view to slope_h_q14 */
-    put(&all, 12, corner_bytes(s), 4); /* from */
+        put(&all, 4, 4, 4); /* slope_view to slope_h_q14 */
+    const long corners = 12 * corner_bytes(s), patch = patch_bytes(s);
+    put(&all, 1, corners > patch ? corners : patch, 4); /* from */
     put(&all, 1, corner_bytes(s), 4);
     put(&all, 1, 196, 4); /* corner_key to cell_corner */
     if (s->feature.shadows) put(&all, n_views(s) >= 4 ? 4 : n_views(s) >= 2 ? 2 : 1, 344, 4); /* windows */
@@ -184,7 +196,7 @@ static void put_work(layout *out, const settings *s)
     put(&all, 1, 28 + 4 * values + incident + (s->feature.specular ? 24 : 0), 4); /* sample */
     if (s->quality.transparent_layers) put(&all, 4, 4, 4);                        /* mixture */
     if (s->quality.persp_step > 1) {
-        put(&all, 1, patch_bytes(s), 4);
+        put(&all, 1, patch_shared_bytes(s), 4);
         put(&all, 1, lattice_bytes(s), 8);
     }
     pad(&all, all.align);
