@@ -16,7 +16,7 @@ OWN_SCENES := $(foreach s,cube sundial avenue desk room fence mixed,host/scenes/
 WERROR ?=
 WARN := -Wall -Wextra -Wconversion -Wsign-conversion -Wdouble-promotion -Wshadow -Wundef $(WERROR)
 # Room for any scene.
-ROOM := -DGN_SEPARATE_FILES -DGN_RAW_VIEWS=1 -DGN_ERROR_FIELDS=1 -DGN_STATIC_LAYER=1 -DGN_MAX_WIDTH=2048 -DGN_MAX_HEIGHT=2048 -DGN_MAX_TRIANGLES=65534 \
+ROOM := -DGN_SEPARATE_FILES -DGN_RAW_VIEWS=1 -DGN_ERROR_FIELDS=1 -DGN_STATIC_LAYER=1 -DGN_CASTER_CULLING=1 -DGN_MAX_WIDTH=2048 -DGN_MAX_HEIGHT=2048 -DGN_MAX_TRIANGLES=65534 \
   -DGN_MAX_TILE_REFS=1000000 -DGN_MAX_LIGHTS=64 -DGN_SURFACE_LIGHTS=64 -DGN_MAX_OBJECTS=65535 -DGN_MAX_SHADOW_TILES=16 \
   -DGN_MAX_OTHER_TILES=16 -DGN_VERTEX_CACHE=1024
 # The host build of the library: every knob at run time. The pixels are the target's, bit for bit. For the tests alone: CONSTANTS.
@@ -112,7 +112,7 @@ report: $(BUILD)/gnomon $(BUILD)/make_report ## one page of pictures, metrics an
 
 playground: $(BUILD)/playground.html ## one page with the whole tool in it, for any browser: build/playground.html
 
-test-playground: ## the playground in node and in a headless browser; installs what it needs
+test-playground: deps ## the playground in node and in a headless browser, in minutes; installs what it needs
 	@sh tests/web/playground.sh
 
 tables: $(BUILD)/gen_tables ## regenerate lib/base/gn_tables.c
@@ -142,7 +142,8 @@ $(BUILD)/make_report: $(patsubst %,$(BUILD)/obj/host/%.o, report/make_report rep
 
 # The tool for the page: the same sources as WebAssembly, but for the one that starts processes.
 WASM_CC ?= clang --target=wasm32-wasi -isystem /usr/include/wasm32-wasi
-WASM_CFLAGS := -std=c11 -D_POSIX_C_SOURCE=200809L -O2 $(WARN) -Ilib $(HOST_KNOBS) -DSLOW_LIBRARY=0 -Dmain=gnomon_main
+WASM_OPT ?= -O2
+WASM_CFLAGS := -std=c11 -D_POSIX_C_SOURCE=200809L $(WASM_OPT) $(WARN) -Ilib $(HOST_KNOBS) -DSLOW_LIBRARY=0 -Dmain=gnomon_main
 WASM_SRC := $(filter-out %/sweep_target.c, $(HOST_SRC)) $(LIB_SRC) host/tool/main.c $(wildcard host/web/*.c)
 WASM_OBJ := $(WASM_SRC:%.c=$(BUILD)/wasm/%.o)
 WEB := $(wildcard host/web/*.js host/web/*.css host/web/*.html host/web/*.ino host/web/*.txt) host/web/page.sh
@@ -160,8 +161,8 @@ $(BUILD)/wasm/%.o: %.c | $(BUILD)/wasm/tools
 
 $(BUILD)/gnomon.wasm: $(WASM_OBJ)
 	@echo '  LD $@'
-	@$(WASM_CC) -O2 -mexec-model=reactor -L/usr/lib/wasm32-wasi -Wl,-z,stack-size=8388608 -Wl,--stack-first -Wl,--strip-all \
-	  -Wl,--wrap=scene_load,--wrap=picture_decode_rgba8 -o $@ $^ -lm
+	@$(WASM_CC) $(WASM_OPT) -mexec-model=reactor -L/usr/lib/wasm32-wasi -Wl,-z,stack-size=8388608 -Wl,--stack-first -Wl,--strip-all \
+	  -Wl,--wrap=picture_decode_rgba8 -o $@ $^ -lm
 
 $(BUILD)/playground.html: $(BUILD)/gnomon.wasm $(WEB) $(wildcard host/scenes/*.gltf boards/*/link.ld) $(wildcard lib/*.h lib/*.c lib/*/*.h lib/*/*.c)
 	@echo '  PAGE $@'

@@ -103,7 +103,8 @@ $(FW_OBJ_DIR)/boards/common/memory.o $(FW_OBJ_DIR)/boards/common/start.o: FW_CFL
 ifneq ($(SCENE),)
 # scene.d, which is written beside it, names what else the scene was read from.
 $(FW_OBJ): $(FW_SCENE_DIR)/scene.c
-$(FW_SCENE_DIR)/scene.c: $(SCENE) $(BUILD)/gnomon $(FW_SCENE_DIR)/scene.flags
+# Whether it fits is asked of the board's linker script and board.mk.
+$(FW_SCENE_DIR)/scene.c: $(SCENE) $(BUILD)/gnomon $(FW_SCENE_DIR)/scene.flags $(if $(strip $(FW_SCENE_BOARD)),$(wildcard boards/$(BOARD)/link.ld boards/$(BOARD)/board.mk))
 	@mkdir -p $(@D)
 	@$(BUILD)/gnomon compile $(SCENE) -o $(@D) $(FW_SCENE_BOARD) $(if $(PRESET),--set preset=$(PRESET)) $(SCENE_FLAGS) || \
 	  { echo 'options for gnomon compile: make ... SCENE_FLAGS="--set KEY=VALUE"' >&2; exit 1; }

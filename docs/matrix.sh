@@ -29,8 +29,6 @@ base() {
         EMISSIVE | ORTHOGRAPHIC | TILE_DRAWING | CLIPPING | CLIPS | PICKING) echo none ;;
     TEXTURE_*) echo textures ;;
     EMISSIVE_TEXTURES) echo glow ;;
-    TILE_LIGHTS) echo lights ;;
-    LINEAR_KERNELS) echo filters ;;
     BLENDED_CASCADES | CASTER_CULLING) echo cascades ;;
     *) echo shadows ;;
     esac

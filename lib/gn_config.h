@@ -157,9 +157,6 @@
 #ifndef GN_SHADOWS
 #define GN_SHADOWS 1
 #endif
-#ifndef GN_DEPTH_BLOCKS
-#define GN_DEPTH_BLOCKS (!GN_COMPACT)
-#endif
 #ifndef GN_BLENDED_CASCADES
 #define GN_BLENDED_CASCADES (!GN_COMPACT)
 #endif
@@ -169,20 +166,14 @@
 #ifndef GN_DISK_FILTER
 #define GN_DISK_FILTER (!GN_COMPACT)
 #endif
-#ifndef GN_LINEAR_KERNELS
-#define GN_LINEAR_KERNELS (!GN_COMPACT)
-#endif
 #ifndef GN_PUNCTUAL_LIGHTS
 #define GN_PUNCTUAL_LIGHTS (!GN_COMPACT)
 #endif
 #ifndef GN_MAIN_LIGHT
 #define GN_MAIN_LIGHT (!GN_COMPACT)
 #endif
-#ifndef GN_TILE_LIGHTS
-#define GN_TILE_LIGHTS (!GN_COMPACT)
-#endif
 #ifndef GN_CASTER_CULLING
-#define GN_CASTER_CULLING (!GN_COMPACT)
+#define GN_CASTER_CULLING 0
 #endif
 #ifndef GN_CASTER_ALPHA
 #define GN_CASTER_ALPHA (!GN_COMPACT)

@@ -33,7 +33,6 @@
     X(GN_FIELD_SHADOW_CASCADE_FADE, "shadow.cascade_fade_uq16")                                                        \
     X(GN_FIELD_SHADOW_FILTER, "shadow.filter")                                                                         \
     X(GN_FIELD_SHADOW_OTHER_FILTER, "shadow.other_filter")                                                             \
-    X(GN_FIELD_SHADOW_KERNEL, "shadow.kernel")                                                                         \
     X(GN_FIELD_SHADOW_PENUMBRA, "shadow.penumbra_uq16")                                                                \
     X(GN_FIELD_SHADOW_DISK_SAMPLES, "shadow.disk_samples")                                                             \
     X(GN_FIELD_SHADOW_MIXING, "shadow.mixing")                                                                         \

@@ -65,7 +65,7 @@
     X(max_lights, MAX_LIGHTS, 1, 64, "lights in a scene", "176 bytes each, 36 without spot and point lights")          \
     X(surface_lights, SURFACE_LIGHTS, 1, 64, "lights that can affect one surface",                                     \
       "620 bytes each, 84 with persp_step 1")                                                                          \
-    X(max_objects, MAX_OBJECTS, 1, 65535, "objects in a scene", "36 bytes each, 24 without spot and point lights")     \
+    X(max_objects, MAX_OBJECTS, 1, 65535, "objects in a scene", "37 bytes each, 25 without spot and point lights")     \
     X(max_shadow_tiles, MAX_SHADOW_TILES, 1, 16, "tiles of the directional atlas: lights times cascades",              \
       "232 bytes each, 16 less without incremental, 8 less without auto_bias")                                         \
     X(max_other_tiles, MAX_OTHER_TILES, 1, 16, "tiles of the local-light atlas: 1 per spot, 6 per point light",        \
@@ -94,19 +94,18 @@
 
 #define GN_FEATURE_KNOBS(X)                                                                                            \
     X(shadows, SHADOWS, 0, 1, "shadow maps", "atlas, rasteriser and filters")                                          \
-    X(depth_blocks, DEPTH_BLOCKS, 0, 1, "bounds of shadow depth per 8x8 texels decide most lookups at once",           \
-      "4 bytes of RAM per 64 texels; the same picture with and without")                                               \
     X(blended_cascades, BLENDED_CASCADES, 0, 1, "soft and dithered blending between cascades",                         \
       "three more values per light and sample")                                                                        \
     X(filter_max, FILTER_MAX, 0, 4, "largest filter built: 0 hard, 1 2x2, 2 3x3, 3 5x5, 4 7x7", "flash")               \
-    X(disk_filter, DISK_FILTER, 0, 1, "rotated disk filter", "flash; a table of 256 bytes")                            \
-    X(linear_kernels, LINEAR_KERNELS, 0, 1, "the cheaper linear kernels", "flash")                                     \
+    X(disk_filter, DISK_FILTER, 0, 1, "rotated disk filter",                                                           \
+      "flash; a table of 256 bytes; 4 bytes of RAM per 64 texels")                                                     \
     X(punctual_lights, PUNCTUAL_LIGHTS, 0, 1, "spot and point lights", "flash; the local-light atlas")                 \
     X(main_light, MAIN_LIGHT, 0, 1, "a main light with cascades; other directional lights take one tile each",         \
       "flash; the local-light atlas")                                                                                  \
-    X(tile_lights, TILE_LIGHTS, 0, 1, "lists of lights per screen tile", "flash; the same picture with and without")   \
     X(caster_culling, CASTER_CULLING, 0, 1,                                                                            \
-      "casters whose shadows lie wholly in a smaller cascade are not drawn into larger ones", "flash")                 \
+      "casters whose shadows lie wholly in a smaller cascade are not drawn into larger ones; off by default: the "     \
+      "scenes of the project take 0.5 % more instructions with it",                                                    \
+      "flash; the same picture with and without")                                                                      \
     X(caster_alpha, CASTER_ALPHA, 0, 1, "casters cut by alpha: clip and dither", "flash")                              \
     X(visible_alpha, VISIBLE_ALPHA, 0, 1, "surfaces cut by alpha: clip and dither", "flash")                           \
     X(textures, TEXTURES, 0, 1, "textures: colour and alpha", "flash; a table of 512 bytes; a lookup per pixel")       \

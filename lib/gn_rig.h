@@ -43,9 +43,11 @@ typedef struct {
 } gn_rig;
 
 /* Places everything that stands on the rig's nodes as a clip has it at a time. Beyond the end of the clip is its end; a
- * clip that is not there is the pose at rest. The result depends on nothing else, so that nothing drifts: within 2
- * units per node above, beside the rounding of the keys. `nodes`: n_nodes, written. Nothing is checked: the rig is as
- * the tool wrote it. */
+ * clip that is not there is the pose at rest. A scale of 0, or of another sign, is as gn_affine says. The result
+ * depends on nothing else, so that nothing drifts: within 2 units per node above, beside the rounding of the keys.
+ * `nodes`: n_nodes, written. Nothing is checked: the rig is as the tool wrote it. Arguments need live no longer than
+ * the call; but joints of a skin may point into `nodes`, which then must live as long as the object. A gn_rig and all
+ * that it leads to: as long as it is posed. */
 void gn_pose(const gn_rig *rig, uint32_t clip_idx, uint32_t time_q16, gn_affine *nodes, gn_object *objects,
              gn_light *lights, gn_camera *cameras);
 

@@ -1,5 +1,6 @@
 /* What a caller describes: meshes, textures, objects, lights, the camera, the scene, and their defaults. A part of
- * gnomon.h, which includes it. Everything is read only during a call. */
+ * gnomon.h, which includes it; its comment on pointers says how long each must live. Nothing here is written to by the
+ * library, but for what gn_pose places. */
 #ifndef GN_SCENE_TYPES_H
 #define GN_SCENE_TYPES_H
 
@@ -30,8 +31,9 @@ typedef struct {
 
 /* What moves an object's vertices before its to_world: each to the mean of where its joints take it, by its weights. */
 typedef struct {
-    const gn_affine *joint;   /* n_joints: from the mesh's space, as stored, to the object's, as posed now. Each takes
-                                 its vertices to within +-16384 units; it may flatten */
+    /* n_joints: from the mesh's space, as stored, to the object's, as posed now. Each takes its vertices to within
+     * +-16384 units; it may flatten. Joints that mirror turn all triangles: the first that has an inverse tells. */
+    const gn_affine *joint;
     const uint8_t *joint_idx; /* per_vertex for each of the mesh's vertices */
     const uint8_t *weight_u8; /* the same; 255 is 1, and those of a vertex are 255 in all */
     uint16_t n_joints;
@@ -90,9 +92,10 @@ enum {
 
 typedef enum { GN_ALPHA_OPAQUE, GN_ALPHA_CLIP, GN_ALPHA_DITHER, GN_ALPHA_BLEND } gn_alpha;
 
+/* Colours here are linear, and 65536 is 1: write GN_UQ16(0.5). Values of 0..255 are allowed, and as good as black. */
 typedef struct {
     const gn_mesh *mesh;
-    gn_affine to_world;
+    gn_affine to_world;      /* |position| <= 8192 units; may mirror; without an inverse (scale 0) nothing is drawn */
     uint32_t albedo_uq16[3]; /* linear, 0..65536 */
     uint32_t flags;
     gn_alpha visible_alpha; /* clip: no surface where alpha is below the cutoff; dither: where it is below the noise;
@@ -160,7 +163,6 @@ typedef struct {
 } gn_camera;
 
 typedef enum { GN_FILTER_HARD, GN_FILTER_2X2, GN_FILTER_3X3, GN_FILTER_5X5, GN_FILTER_7X7, GN_FILTER_DISK } gn_filter;
-typedef enum { GN_KERNEL_TENT, GN_KERNEL_LINEAR } gn_kernel;
 /* Of baked and realtime shadows. */
 typedef enum { GN_MIXING_NONE, GN_MIXING_ALWAYS, GN_MIXING_DISTANCE } gn_mixing;
 typedef enum { GN_TILES_EQUAL, GN_TILES_IMPORTANCE, GN_TILES_WORTH } gn_tile_sizes;
@@ -191,9 +193,8 @@ typedef struct {
     uint32_t cascade_fade_uq16;  /* the last part of the last cascade, 66 .. 65536 */
     gn_filter filter;            /* of the directional atlas */
     gn_filter other_filter;      /* of the local-light atlas: spot and point lights, and single tiles (main_light) */
-    gn_kernel kernel;
-    uint32_t penumbra_uq16; /* disk radius: directional in 0.02 units, spot and point in 0.004 tiles; 0 .. 64.0 */
-    uint32_t disk_samples;  /* disk filter: 1..64 */
+    uint32_t penumbra_uq16;      /* disk radius: directional in 0.02 units, spot and point in 0.004 tiles; 0 .. 64.0 */
+    uint32_t disk_samples;       /* disk filter: 1..64 */
     gn_mixing mixing;
     gn_tile_sizes tile_sizes; /* worth: by pixels that are looked up; needs tight_fit. Default of all presets but
                                  accurate */
@@ -267,7 +268,8 @@ gn_light gn_light_sun(int32_t x, int32_t y, int32_t z);
 gn_light gn_light_spot(const int32_t position_q16[3], const int32_t target_q16[3], uint16_t outer_turn);
 gn_light gn_light_point(const int32_t position_q16[3]);
 
-/* At `eye` towards `target`, +Y up, 45 degrees high, near plane 0.1, far plane 100. */
+/* At `eye` towards `target`, which must differ (gn_camera_look_at), +Y up, 45 degrees high, near plane 0.1, far plane
+ * 100. */
 gn_camera gn_camera_default(const int32_t eye_q16[3], const int32_t target_q16[3]);
 
 /* Ambient light 0.15, a dark blue background. Shadows up to a distance of 100 (the last tenth fades), by four cascades

@@ -22,6 +22,7 @@
 #include "scene/gn_pose.c"
 #endif
 #include "scene/gn_scene.c"
+#include "scene/gn_sides.c"
 #if GN_ERROR_FIELDS
 #include "scene/gn_field.c"
 #endif
@@ -117,9 +118,8 @@
 #include "shadow/gn_filter_cells.c"
 #include "shadow/gn_window.c"
 #endif
-#if GN_DEPTH_BLOCKS
+#if GN_DISK_FILTER
 #include "shadow/gn_blocks.c"
-#include "shadow/gn_lookup_bounds.c"
 #endif
 #if GN_INCREMENTAL
 #include "shadow/gn_kept.c"

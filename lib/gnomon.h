@@ -15,8 +15,13 @@
 #ifndef GNOMON_H
 #define GNOMON_H
 
+#include <limits.h>
 #include <stddef.h>
 #include <stdint.h>
+
+#if INT_MAX < 2147483647
+#error "Gnomon needs a core of 32 bits, whose int has 32: AVR (Arduino Uno, Nano, Mega) and MSP430 have 16"
+#endif
 
 #include "gn_config.h"
 #include "gn_knobs.h"
@@ -51,15 +56,18 @@ extern "C" {
     X(GN_ERR_PICTURE_SIZE, "picture width or height is 0 or above GN_MAX_WIDTH x GN_MAX_HEIGHT")                       \
     X(GN_ERR_FORMAT, "unknown pixel format or view, or one that is not built in")                                      \
     X(GN_ERR_KNOB, "a run-time knob is out of its range")                                                              \
-    X(GN_ERR_ORDER, "call out of order: begin, shadow tiles, prepare, screen tiles")                                   \
+    X(GN_ERR_NO_INIT, "call out of order: gn_init must be called before, and succeed")                                 \
+    X(GN_ERR_NO_BEGIN, "call out of order: gn_begin must be called before, for each frame anew, and succeed")          \
+    X(GN_ERR_NO_SHADOW_TILE, "call out of order: gn_shadow_tile must be called before for every tile, and succeed")    \
+    X(GN_ERR_NO_PREPARE, "call out of order: gn_prepare or gn_render must be called before, and succeed")              \
     X(GN_ERR_INDEX, "no such tile or light")                                                                           \
     X(GN_ERR_CAMERA_FOCAL,                                                                                             \
       "camera focal length outside 1/32 .. 255.99, or half_height outside 1/256 .. 8192 units or not built in")        \
     X(GN_ERR_CAMERA_DEPTH, "camera near plane outside 1/256 .. 8192 units, or far not beyond near")                    \
-    X(GN_ERR_CAMERA_TRANSFORM, "camera transform is not a rotation with a position inside +-8192")                     \
+    X(GN_ERR_CAMERA_TRANSFORM, "camera transform is not a rotation with a position inside +-8192, or the camera is "   \
+                               "at its own target")                                                                    \
     X(GN_ERR_OBJECT_TRANSFORM,                                                                                         \
-      "object transform has exponent outside 0..14, an entry above 1.0, a position outside +-8192, "                   \
-      "or no inverse")                                                                                                 \
+      "object transform has exponent outside 0..14, an entry above 1.0, or a position outside +-8192")                 \
     X(GN_ERR_MESH, "mesh has no vertices, no triangles, a null array, or more than 30 fraction bits")                  \
     X(GN_ERR_MESH_INDEX, "mesh index is not below its vertex count")                                                   \
     X(GN_ERR_VERTEX_RANGE, "vertex position is beyond +-2^30, or +-16384 units from the camera or a spot or point "    \
@@ -92,8 +100,7 @@ extern "C" {
     X(GN_ERR_SURFACE_LIGHTS, "more lights can affect one surface than GN_SURFACE_LIGHTS")                              \
     X(GN_ERR_SHADOW_DISTANCE, "shadow distance outside 1/256 .. 8192 units, or not beyond the camera's near plane")    \
     X(GN_ERR_SHADOW_FADE, "distance fade or cascade fade outside 0.001 .. 1")                                          \
-    X(GN_ERR_SHADOW_FILTER,                                                                                            \
-      "unknown shadow filter or kernel, one that is not built in, or disk samples outside 1..64")                      \
+    X(GN_ERR_SHADOW_FILTER, "unknown shadow filter, one that is not built in, or disk samples outside 1..64")          \
     X(GN_ERR_SHADOW_MODE, "unknown mixing, tile sizes, refresh or list length, or one that is not built in")           \
     X(GN_ERR_SHADOW_CASCADES,                                                                                          \
       "more than 4 cascades, ratios above 1 or not ascending, or a blend that is not built in")                        \
@@ -123,7 +130,9 @@ const char *gn_status_text(gn_status status);
 
 /* ---- Transforms -------------------------------------------------------------------------------------------------- */
 
-/* p' = m * 2^(exp - 30) * p + t. Entries |m| <= 2^30 (1.0); the shared exponent 0..14 carries scales up to 16384. */
+/* p' = m * 2^(exp - 30) * p + t. Entries |m| <= 2^30 (1.0); the shared exponent 0..14 carries scales up to 16384.
+ * An object whose m mirrors (its determinant is negative) is drawn right: its triangles are clockwise on the screen.
+ * One whose m has no inverse (a scale of 0 along some axis) is not drawn, casts nothing, and is no error. */
 typedef struct {
     int32_t m_q30[3][3];
     int32_t t_q16[3];
@@ -135,16 +144,28 @@ typedef struct {
 void gn_affine_identity(gn_affine *out);
 /* Y, then X, then Z */
 void gn_affine_rotation(gn_affine *out, uint16_t yaw_turn, uint16_t pitch_turn, uint16_t roll_turn);
-void gn_affine_scale(gn_affine *inout, int32_t scale_q16);                  /* object space, 2^-16 < scale < 8192 */
+void gn_affine_scale(gn_affine *inout, int32_t scale_q16); /* object space, |scale| < 8192; negative: mirrors */
 void gn_affine_mul(gn_affine *out, const gn_affine *a, const gn_affine *b); /* out = a * b; out may be a or b */
 /* A rotation (exp 0) back to right angles; the third axis keeps its direction. */
 void gn_affine_orthonormalise(gn_affine *inout);
-void gn_camera_look_at(gn_affine *out, const int32_t eye_q16[3], const int32_t target_q16[3]); /* +Y up */
+/* +Y up. Eye and target must differ: else *out is no rotation, and gn_begin refuses it (GN_ERR_CAMERA_TRANSFORM). */
+void gn_camera_look_at(gn_affine *out, const int32_t eye_q16[3], const int32_t target_q16[3]);
 uint32_t gn_focal_from_fov_q24(uint16_t vertical_fov_turn); /* 1 / tan(fov / 2), Q8.24, saturates */
 int32_t gn_sin_q30(uint16_t angle_turn);                    /* |error| <= 2 LSB */
 int32_t gn_cos_q30(uint16_t angle_turn);
 
-/* ---- Scene: described by the caller, read only during a call ----------------------------------------------------- */
+/* ---- Scene: described by the caller ------------------------------------------------------------------------------
+ *
+ * Pointers. Each argument of a call need live no longer than the call, but:
+ * - gn_renderer, gn_frame, gn_scratch: from gn_init to the last call; most programs have them static
+ * - a gn_scene, its lights and fixed_fits, draw_user: from gn_begin to the frame's last screen tile; with gn_render
+ *   until it returns: they may be local variables
+ * - its objects, and what they lead to (meshes, textures, palettes, masks, skins, joints): as long, and as they were
+ *   until the last gn_pick of that frame. Make them static or const
+ * - mesh and texture arrays are known again by their addresses: after their contents change, gn_forget_shadows()
+ * - what gn_get_stats and gn_get_detail return: as long as the renderer; gn_init and gn_begin write it anew. The depth
+ *   of a gn_tile_info: until the next gn_begin. Texts of gn_status_text and gn_field_text: always
+ * - the pixels that a callback gets: until it returns. A gn_panel: as long as the panel shows what was drawn by it */
 
 #include "gn_scene_types.h"
 
@@ -259,7 +280,8 @@ static inline gn_status gn_init(gn_renderer *r, const gn_picture *picture)
  * in its flush callback are refused; gn_init there ends the frame with GN_ERR_REENTERED. */
 gn_status gn_render(gn_renderer *r, const gn_scene *scene, gn_flush_fn flush, void *user);
 
-/* The same in steps, for time slicing and several cores. The scene must stay unchanged until the last screen tile. */
+/* The same in steps, for time slicing and several cores. The scene and all that it leads to must live and stay
+ * unchanged until the last screen tile. */
 gn_status gn_begin(gn_renderer *r, const gn_scene *scene); /* validates; fits the lights' views */
 uint32_t gn_shadow_tile_count(const gn_renderer *r);
 gn_status gn_shadow_tile(gn_renderer *r, uint32_t tile_idx); /* each once, any order */
@@ -300,8 +322,9 @@ uint32_t gn_get_shadow_tile(const gn_renderer *r, uint32_t light_idx, uint32_t v
 
 #if GN_PICKING
 /* The object and its triangle that a pixel of the frame prepared last shows; both GN_NOTHING where there is none.
- * Either pointer may be NULL. The scene must be as it was. It takes the time of one screen tile's visible surfaces and
- * uses the renderer's scratch: not while another core draws with that. */
+ * Either pointer may be NULL. The objects, and what they lead to, must live and be as they were when the frame was
+ * begun; gn_scene, its lights and its camera are not read: they may be gone. It takes the time of one screen tile's
+ * visible surfaces and uses the renderer's scratch: not while another core draws with that. */
 #define GN_NOTHING UINT32_MAX
 gn_status gn_pick(gn_renderer *r, uint32_t x, uint32_t y, uint32_t *object_idx, uint32_t *triangle_idx);
 #endif

@@ -23,7 +23,7 @@ shipped() {
         SCENES=25000 "$build/shipped/$name" 20000 >/dev/null || echo "$name failed"
 }
 shipped tiny tests/property/test_random.c -DGN_PRESET=GN_PRESET_TINY
-shipped accurate tests/property/test_random.c -DGN_PRESET=GN_PRESET_ACCURATE -DGN_ATLAS_SIZE=128 -DGN_OTHER_ATLAS_SIZE=64 -DGN_STATIC_LAYER=1
+shipped accurate tests/property/test_random.c -DGN_PRESET=GN_PRESET_ACCURATE -DGN_ATLAS_SIZE=128 -DGN_OTHER_ATLAS_SIZE=64 -DGN_STATIC_LAYER=1 -DGN_CASTER_CULLING=1
 shipped accurate-defaults tests/unit/test_defaults.c -DGN_PRESET=GN_PRESET_ACCURATE -DGN_ATLAS_SIZE=128 -DGN_OTHER_ATLAS_SIZE=128
 shipped fast tests/property/test_random.c -DGN_CORE_DIVIDES=1 -DGN_PRESET=GN_PRESET_FAST -DGN_ATLAS_SIZE=32 -DGN_OTHER_ATLAS_SIZE=128
 shipped least tests/property/test_random.c -DGN_PRESET=GN_PRESET_TINY -DGN_PUNCTUAL_LIGHTS=0 -DGN_CASTER_CLIPPING=0 -DGN_CASTER_ALPHA=0 -DGN_CASTER_BIAS=0 \

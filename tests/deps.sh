@@ -24,6 +24,10 @@ objdump binutils
 clang clang
 clang-format clang-format
 /usr/lib/llvm-*/lib/clang/*/lib/*/libclang_rt.asan*.a libclang-rt-dev
+wasm-ld lld
+/usr/include/wasm32-wasi/stdio.h wasi-libc
+/usr/lib/llvm-*/lib/clang/*/lib/wasi/libclang_rt.builtins-wasm32.a libclang-rt-dev-wasm32
+node nodejs
 valgrind valgrind
 arduino-builder arduino-builder
 cmake cmake

@@ -11,7 +11,7 @@
 #   documents/  rules of the source, and documents that say what is so
 #   prove/      what Frama-C proves of lib/: make prove, not here: it is no tool of the tests
 #   bench/      instructions against baselines
-#   web/        the playground in node and in a browser: make test-playground, not here: it takes minutes and a browser
+#   web/        the playground as WebAssembly in node; the page in a browser: make test-playground, which takes minutes
 #
 # THOROUGH=1, as make soak runs it: also combinations whose parts are tested each.
 cd "$(dirname "$0")/.." || exit 1

@@ -1,9 +1,10 @@
 #!/bin/sh
 # The campaigns, each in a build of its own under the address and undefined-behaviour sanitizers, with progress on a terminal. What was run
-# goes to build/soak.log: date, commit, campaign, seed, scenes, result. usage: [SEED=n] [SCENES=n] [MODELS="a.obj b.glb"] [CAMPAIGNS="random census"] soak.sh
+# goes to build/soak.log: date, commit, campaign, seed, scenes, result. usage: [SEED=n] [SCENES=n] [MODELS="a.obj b.glb"] [MINUTES=n] [CAMPAIGNS="random census"] soak.sh
 #
 # random    10^6 random scenes: nothing undefined, nothing changed that was kept (tests/property/test_random.c), some minutes
 # shipped   10^5 random scenes of each configuration that ships, and with poisoned gaps in the state (tests/property/test_shipped.sh), half an hour
+# fuzz      scenes and files by coverage, where Clang has libFuzzer (tests/property/test_random.c, tests/tool/test_fuzz.c), MINUTES=60 each
 # extremes  20000 random scenes against the reference (tests/oracle/test_extremes_many.c), about an hour
 # census    planes at 100 times as many angles (tests/oracle/test_census.c)
 # culling   casters left out at many more places (tests/property/test_culling.c)
@@ -16,7 +17,7 @@
 # suite     make test with THOROUGH=1: also the combinations whose parts it tests each, half an hour
 cd "$(dirname "$0")/.." || exit 1
 build=build/soak
-: "${SEED:=$(date +%Y%m%d)}" "${CAMPAIGNS:=random shipped files panels math culling census accuracy rows seams views machines suite ${MODELS:+models }extremes}"
+: "${SEED:=$(date +%Y%m%d)}" "${CAMPAIGNS:=random shipped fuzz files panels math culling census accuracy rows seams views machines suite ${MODELS:+models }extremes}"
 asked=$SCENES
 passed=0 failed=0
 
@@ -46,6 +47,42 @@ shipped() {
     start=$(date +%s)
     SCENES=${asked:-100000} SOAK=1 SEED=$SEED sh tests/property/test_shipped.sh >$build/shipped.out
     SCENES=${asked:-100000} record $? shipped
+}
+
+# by_coverage NAME TARGET: test_TARGET as a libFuzzer. What it has reached is kept in build/soak/corpus for the next time; an input that fails is named in its output
+by_coverage() {
+    minutes=${MINUTES:-60} corpus=$build/corpus/$1 program=$build/fuzz/test_$2
+    echo "fuzz-$1: seed $SEED, $minutes minutes"
+    mkdir -p "$corpus"
+    if ! make -s -j2 "$program" BUILD=$build/fuzz CC=clang OPT=-O1 WERROR= \
+        SAN="-fsanitize=fuzzer,address,undefined -fno-sanitize-recover=all -DLIBFUZZER" >$build/make 2>&1; then
+        tail -n 5 $build/make
+        failed=$((failed + 1))
+        return
+    fi
+    seeds=
+    [ "$1" != files ] || seeds=build/tmp/fuzz/seeds
+    [ -z "$seeds" ] || mkdir -p $seeds
+    start=$(date +%s)
+    "$program" -seed="$SEED" -max_total_time=$((60 * minutes)) -max_len=16384 -len_control=0 -timeout=60 -print_final_stats=1 \
+        -artifact_prefix="$build/fuzz/$1-" "$corpus" $seeds >"$build/fuzz-$1.out" 2>&1
+    status=$?
+    grep -a -E 'ERROR|runtime error|failed:|Test unit written' "$build/fuzz-$1.out" | head -n 5
+    [ $status = 0 ] || echo "0 passed, 1 failed" >>"$build/fuzz-$1.out"
+    sed -n 's/^stat::number_of_executed_units: *\([0-9]*\)$/\1 passed, 0 failed/p' "$build/fuzz-$1.out" >"$build/fuzz-$1.count"
+    [ $status != 0 ] || cat "$build/fuzz-$1.count" >>"$build/fuzz-$1.out"
+    SCENES=0 record $status "fuzz-$1"
+}
+
+fuzz() {
+    mkdir -p $build/fuzz
+    echo 'int LLVMFuzzerTestOneInput(const unsigned char *bytes, unsigned long n); int LLVMFuzzerTestOneInput(const unsigned char *bytes, unsigned long n) { return !bytes && n; }' >$build/fuzz/probe.c
+    if ! clang -fsanitize=fuzzer -o $build/fuzz/probe $build/fuzz/probe.c >/dev/null 2>&1; then
+        echo "$(date -u +%Y-%m-%d) fuzz left out: there is no clang with libFuzzer (Debian: clang libclang-rt-dev)" | tee -a build/soak.log
+        return
+    fi
+    by_coverage scenes random
+    by_coverage files fuzz
 }
 
 machines() {
@@ -82,6 +119,7 @@ for name in $CAMPAIGNS; do
     files | panels) campaign $name 1000000 ;;
     extremes) campaign extremes 20000 ;;
     shipped) shipped ;;
+    fuzz) fuzz ;;
     suite) suite ;;
     machines) machines ;;
     census | culling | math | models | accuracy | rows | seams | views) campaign $name 0 ;;

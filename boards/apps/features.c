@@ -212,10 +212,6 @@ static void disk(void)
     demo.scene.shadow.penumbra_uq16 = GN_UQ16(6);
     demo.scene.shadow.disk_samples = 12;
 }
-static void linear(void)
-{
-    demo.scene.shadow.kernel = GN_KERNEL_LINEAR;
-}
 static void cascades(void)
 {
     demo.scene.shadow.n_cascades = 2;
@@ -299,7 +295,6 @@ static const struct {
     {"filter_5x5", "shadows", filter_5x5},
     {"filter_7x7", "shadows", filter_7x7},
     {"disk_filter", "shadows", disk},
-    {"linear_kernels", "filter_3x3", linear},
     {"receiver_plane", "filter_3x3", receiver_plane},
     {"many_cascades", "shadows", cascades},
     {"blended_cascades", "many_cascades", soft_blend},

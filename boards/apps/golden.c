@@ -46,11 +46,10 @@ static void large_filter(gn_scene *s)
     s->shadow.filter = GN_FILTER_7X7;
     s->shadow.other_filter = GN_FILTER_7X7;
 }
-static void linear(gn_scene *s)
+static void middle_filter(gn_scene *s)
 {
     s->shadow.filter = GN_FILTER_5X5;
     s->shadow.other_filter = GN_FILTER_5X5;
-    s->shadow.kernel = GN_KERNEL_LINEAR;
 }
 static void disk(gn_scene *s)
 {
@@ -178,7 +177,7 @@ static const golden_frame frames[] = {
     {&golden_sundial, 72, 0, 0, GN_FORMAT_RGB565, 0, "7x7", large_filter},
     {&golden_desk, 0, 0, 0, GN_FORMAT_RGB565, 0, "2x2", small_filter},
     {&golden_room, 0, 0, 0, GN_FORMAT_RGB565, 0, "7x7", large_filter},
-    {&golden_mixed, 24, 0, 0, GN_FORMAT_RGB565, 0, "5x5 linear", linear},
+    {&golden_mixed, 24, 0, 0, GN_FORMAT_RGB565, 0, "5x5", middle_filter},
     {&golden_fence, 0, 0, 0, GN_FORMAT_RGB565, 0, "disk", disk},
     {&golden_fence, 0, 0, 0, GN_FORMAT_RGB565, 0, "8-bit depth", shallow},
     {&golden_room, 0, 0, 0, GN_FORMAT_RGB565, 0, "32-bit depth", deep},

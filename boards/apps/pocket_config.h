@@ -20,13 +20,10 @@
 #define GN_FILTER_MAX       2 /* hard, 2x2, 3x3 */
 
 /* What the scene does not use, and what only saves instructions, is not built. */
-#define GN_DEPTH_BLOCKS     0
 #define GN_BLENDED_CASCADES 0
 #define GN_DISK_FILTER      0
-#define GN_LINEAR_KERNELS   0
 #define GN_PUNCTUAL_LIGHTS  0
 #define GN_MAIN_LIGHT       0
-#define GN_TILE_LIGHTS      0
 #define GN_CASTER_CULLING   0
 #define GN_CASTER_ALPHA     0
 #define GN_VISIBLE_ALPHA    0

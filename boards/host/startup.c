@@ -37,11 +37,12 @@ int board_file_create(const char *path)
 
 int board_file_write(int file, const void *bytes, size_t n_bytes)
 {
-    return fwrite(bytes, 1, n_bytes, files[file]) != n_bytes;
+    return file < 0 || fwrite(bytes, 1, n_bytes, files[file]) != n_bytes;
 }
 
 int board_file_close(int file)
 {
+    if (file < 0) return -1;
     int failed = fclose(files[file]);
     files[file] = NULL;
     return failed;

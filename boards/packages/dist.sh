@@ -1,9 +1,14 @@
 #!/bin/sh
 # Makes build/dist/gnomon-VERSION/ and its .tar.gz from boards/packages/list. usage: dist.sh OUT
+# Environment: URL, the address of the project, that the manifests name. The date of a release is that of CHANGELOG; before that, of the
+# last commit.
 cd "$(dirname "$0")/../.." || exit 1
 out=${1:-build/dist}
 version=$(sed -n 's/^#define GN_VERSION_STRING "\(.*\)"/\1/p' lib/gnomon.h)
 name=gnomon-$version
+url=${URL:-https://example.org/gnomon}
+date=$(sed -n "s/^## $version, \([0-9]*-[0-9]*-[0-9]*\)\$/\1/p" docs/CHANGELOG.md)
+date=${date:-$(git log -1 --format=%cs 2>/dev/null || date -u +%F)}
 rm -rf "${out:?}/$name" "$out/$name.tar.gz"
 mkdir -p "$out/$name" || exit 1
 
@@ -30,7 +35,7 @@ grep -v '^#' boards/packages/list | while read -r how from to; do
     mkdir -p "$(dirname "$out/$name/$to")"
     case $how in
     copy) cp -r "$from" "$out/$name/$to" ;;
-    fill) sed "s/@VERSION@/$version/g" "$from" >"$out/$name/$to" ;;
+    fill) sed "s/@VERSION@/$version/g; s|@URL@|$url|g; s/@DATE@/$date/g" "$from" >"$out/$name/$to" ;;
     one) awk -f boards/packages/one_file.awk -v root=lib "$from" >"$out/$name/$to" ;;
     options | header | wizard) sh boards/packages/kconfig.sh "$how" >"$out/$name/$to" ;;
     readme) readme "$from" >"$out/$name/$to" ;;

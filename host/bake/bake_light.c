@@ -43,7 +43,7 @@ static bool meet_nearest(void *user, const truth_caster *c)
     outlook *out = user;
     truth_hit hit;
     if (c->source.object == out->from->object && c->source.idx == out->from->idx) return true;
-    if (!truth_meets(&hit, out->ray, c->p, c->uncertainty, true) || hit.t >= out->nearest) return true;
+    if (!truth_meets_caster(&hit, out->ray, c, true) || hit.t >= out->nearest) return true;
     out->nearest = hit.t;
     out->behind = hit.front && !c->two_sided; /* it faces where the ray goes */
     return true;

@@ -194,7 +194,7 @@ static bool parse_string(parser *p, const char **out)
         int c = peek(p);
         if (c < 0) return fail_at(p, start, "the string does not end");
         if (c == '"') break;
-        if (c < 0x20) return fail(p, "control character in a string");
+        if (c < 0x20 && c != '\t' && c != '\n' && c != '\r') return fail(p, "control character in a string");
         if (c == '\\') {
             p->at++;
             if (!parse_escape(p, copy, &n)) return false;
@@ -237,8 +237,26 @@ static int compare_keys(const void *a, const void *b)
     return order ? order : (x->offset > y->offset) - (x->offset < y->offset);
 }
 
+/* Of members with one key the last counts, as in other readers. */
+static void drop_members(parser *p, json_value *object, json_value *const *sorted)
+{
+    size_t n_kept = 0, n = object->n_children;
+    for (size_t i = 1; i < n; i++) {
+        if (strcmp(sorted[i - 1]->key, sorted[i]->key) != 0) continue;
+        if (p->doc->n_duplicates++ == 0 || p->doc->duplicate == sorted[i - 1]) p->doc->duplicate = sorted[i];
+        sorted[i - 1]->key = NULL;
+    }
+    for (size_t i = 0; i < n; i++) {
+        json_value *child = object->children[i];
+        if (!child->key) continue;
+        child->child_idx = n_kept;
+        object->children[n_kept++] = child;
+    }
+    object->n_children = n_kept;
+}
+
 /* Sorted neighbours rather than all pairs: an object of a hundred thousand keys must not take minutes. */
-static bool check_duplicates(parser *p, const json_value *object)
+static bool drop_duplicates(parser *p, json_value *object)
 {
     size_t n = object->n_children;
     if (n < 2) return true;
@@ -246,9 +264,7 @@ static bool check_duplicates(parser *p, const json_value *object)
     if (!sorted) return fail(p, "out of memory");
     memcpy(sorted, object->children, n * sizeof(json_value *));
     qsort(sorted, n, sizeof(json_value *), compare_keys);
-    for (size_t i = 1; i < n; i++) {
-        if (strcmp(sorted[i - 1]->key, sorted[i]->key) == 0) return fail_at(p, sorted[i]->offset, "duplicate key");
-    }
+    drop_members(p, object, sorted);
     return true;
 }
 
@@ -285,7 +301,7 @@ static bool parse_container(parser *p, json_value *value, json_type type, char e
     if (peek(p) != end) return fail(p, type == JSON_OBJECT ? "',' or '}' is expected" : "',' or ']' is expected");
     p->at++;
     p->depth--;
-    return type != JSON_OBJECT || check_duplicates(p, value);
+    return type != JSON_OBJECT || drop_duplicates(p, value);
 }
 
 static bool parse_value(parser *p, json_value *value)

@@ -1,6 +1,7 @@
-/* A small strict JSON parser (RFC 8259). Beyond the grammar: no byte order mark, well-formed UTF-8 only, duplicate keys
- * are refused, \u0000 is refused (strings are C strings), numbers must fit a double, nesting is at most JSON_MAX_DEPTH
- * deep, and there are at most JSON_MAX_VALUES values: two bytes of text make a value of a hundred. */
+/* A small strict JSON parser (RFC 8259). Stricter than the grammar: no byte order mark, well-formed UTF-8 only, no
+ * \u0000 (strings are C strings), numbers must fit a double, nesting is at most JSON_MAX_DEPTH deep, and there are at
+ * most JSON_MAX_VALUES values: two bytes of text make a value of a hundred. Looser: strings may hold raw tabs and line
+ * breaks, and of members with one key the last counts. */
 #ifndef GNOMON_HOST_JSON_H
 #define GNOMON_HOST_JSON_H
 
@@ -27,6 +28,8 @@ struct json_value {
 
 typedef struct {
     json_value *root;
+    size_t n_duplicates;         /* members that a later one of the same key replaced */
+    const json_value *duplicate; /* a member that replaced one; NULL: there is none */
     arena memory;
 } json_doc;
 

@@ -32,7 +32,7 @@ fi
 
 features=$(sed -n '/GN_FEATURE_KNOBS/,$s/^    X([a-z_0-9]*, \([A-Z_0-9]*\), .*/\1/p' lib/gn_knobs.h | grep -v -e RUNTIME_KNOBS -e RAW_VIEWS)
 # One directional light with a filtered shadow on smooth meshes
-typical="SHADOWS DEPTH_BLOCKS VERTEX_NORMALS"
+typical="SHADOWS VERTEX_NORMALS"
 # flags NAME...: these features; FILTER_MAX as it is given, else 2
 flags() {
     for feature in $features; do
@@ -58,9 +58,9 @@ without() { # without FEATURE: of the typical ones
 
 m0=$(size cortex-m0 $(flags $typical)) m4=$(size cortex-m4 $(flags $typical))
 echo "/* Made by host/generate/gen_flash.sh with $(arm-none-eabi-gcc -dumpversion). Bytes of flash: on Cortex-M0, on Cortex-M4. */"
-echo "FLASH(typical, $m0, $m4) /* shadows, depth_blocks, vertex_normals, filter_max 2, preset balanced */"
+echo "FLASH(typical, $m0, $m4) /* shadows, vertex_normals, filter_max 2, preset balanced */"
 row no_shadows "without shadows, and what is of shadows" $(flags VERTEX_NORMALS)
-for feature in DEPTH_BLOCKS VERTEX_NORMALS; do
+for feature in VERTEX_NORMALS; do
     row no_$(echo $feature | tr A-Z a-z) "without" $(flags $(without $feature))
 done
 for max in 0 1 3 4; do row filter_max_$max "another filter_max" $(flags $typical FILTER_MAX=$max); done

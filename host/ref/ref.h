@@ -138,7 +138,6 @@ double ref_light_attenuation(const scene_light *light, const double point[3]);
 /* How a map is looked up (MODEL 7). */
 typedef struct {
     scene_filter filter;
-    scene_kernel kernel;
     int disk_samples;   /* n */
     int x, y;           /* of the pixel: the disk's rotation */
     int edge;           /* N of F7; 0: off */
@@ -147,10 +146,9 @@ typedef struct {
 
 double ref_filtered(const ref_light_view *view, const ref_lookup *how, double u, double v, double d);
 double ref_attenuation(const ref_light_view *view, scene_filter filter, double u, double v,
-                       double d);                                    /* tent, no disk, no receiver's plane */
-double ref_tent_weight(int filter_size, double centre, int texel);   /* filter_size 3, 5, 7 */
-double ref_linear_weight(int filter_size, double centre, int texel); /* the same for the linear kernel */
-void ref_disk_sample(double out[2], int i, int x, int y);            /* sample i at pixel (x, y), in the unit disk */
+                       double d);                                  /* tent, no disk, no receiver's plane */
+double ref_tent_weight(int filter_size, double centre, int texel); /* filter_size 3, 5, 7 */
+void ref_disk_sample(double out[2], int i, int x, int y);          /* sample i at pixel (x, y), in the unit disk */
 
 /* shadow_l of MODEL 9 for strength > 0 and a light with a tile: rt attenuation, m mask. */
 double ref_mix(scene_mixing mixing, double strength, double g, double m, double rt);

@@ -63,7 +63,7 @@ static bool is_cut(const ref_frame *frame, const caster_triangle *t, const doubl
 static void cast_on_texel(const ref_frame *frame, ref_light_view *view, const caster_triangle *t, int i, int j)
 {
     double bary[3];
-    const int orientation = texel_coverage(t, i + 0.5, j + 0.5, bary);
+    const int orientation = texel_coverage(t, i + 0.5, j + 0.5, bary) * t->source.instance->sign;
     /* u x v = w, away from the light: what faces the light turns clockwise in (U, V). */
     if (orientation == 0 || (orientation > 0 && t->culled_back)) return;
     const double sum = bary[0] + bary[1] + bary[2];
@@ -162,7 +162,7 @@ static bool render_tile(ref_light_view *view, const ref_frame *frame, const scen
     if (!view->depth) return false;
     for (size_t i = 0; i < n_texels; i++) view->depth[i] = view->depth_range;
     for (size_t i = 0; i < frame->s->n_objects; i++)
-        if (frame->s->objects[i].caster != SCENE_CASTER_OFF) cast_object(view, frame, i, light);
+        if (ref_casts(frame, i)) cast_object(view, frame, i, light);
     return true;
 }
 

@@ -19,24 +19,6 @@ double ref_tent_weight(int filter_size, double centre, int texel)
     return tent_integral(texel + 1 - centre, h) - tent_integral(texel - centre, h);
 }
 
-/* Weight of a texel under the linear kernel. [F6] */
-double ref_linear_weight(int filter_size, double centre, int texel)
-{
-    /* Each weight is base + slope f. */
-    static const double base[3][8] = {{1, 2, 1, 0}, {1, 3, 4, 3, 1, 0}, {1, 5, 12, 16, 12, 5, 1, 0}};
-    static const double slope[3][8] = {{-1, -1, 1, 1}, {-1, -2, -1, 1, 2, 1}, {-1, -4, -7, -4, 4, 7, 4, 1}};
-    static const double total[3] = {4, 12, 52};
-    const int k = (filter_size - 1) / 2;
-    const int i = texel - ((int)floor(centre + 0.5) - (k + 1));
-    if (i < 0 || i >= 2 * (k + 1)) return 0.0;
-    return (base[k - 1][i] + slope[k - 1][i] * frac(centre + 0.5)) / total[k - 1];
-}
-
-static double kernel_weight(scene_kernel kernel, int filter_size, double x, int i)
-{
-    return kernel == SCENE_KERNEL_LINEAR ? ref_linear_weight(filter_size, x, i) : ref_tent_weight(filter_size, x, i);
-}
-
 /* Weight of texel i along one axis around x; every filter but the disk is separable. [F1] [F2] */
 static double axis_weight(const ref_lookup *how, double x, int i)
 {
@@ -46,11 +28,11 @@ static double axis_weight(const ref_lookup *how, double x, int i)
     case SCENE_FILTER_2X2:
         return fmax(0.0, 1.0 - fabs(i + 0.5 - x));
     case SCENE_FILTER_3X3:
-        return kernel_weight(how->kernel, 3, x, i);
+        return ref_tent_weight(3, x, i);
     case SCENE_FILTER_5X5:
-        return kernel_weight(how->kernel, 5, x, i);
+        return ref_tent_weight(5, x, i);
     case SCENE_FILTER_7X7:
-        return kernel_weight(how->kernel, 7, x, i);
+        return ref_tent_weight(7, x, i);
     case SCENE_FILTER_DISK:
         break;
     }

@@ -25,6 +25,7 @@ typedef struct {
     vec3 *normal;             /* unit world normals; NULL: face normals */
     vec3 box_centre;          /* the world box of MODEL 6 */
     vec3 box_half;            /* its half extents */
+    int sign;                 /* scene_object_sign; 0: it neither shows, casts nor receives */
     bool lit[REF_MAX_LIGHTS]; /* the object's light list */
 } ref_instance;
 
@@ -123,6 +124,7 @@ ref_camera ref_make_camera(const scene_camera *camera, int width, int height);
 const char *ref_transform_objects(ref_frame *frame); /* and their world boxes */
 void ref_free_instances(ref_frame *frame);
 ref_triangle ref_triangle_of(const ref_frame *frame, size_t object_idx, size_t triangle_idx);
+bool ref_casts(const ref_frame *frame, size_t object_idx);
 vec3 ref_face_normal(const ref_triangle *triangle); /* unit, world */
 
 /* ref_texture.c */

@@ -60,8 +60,7 @@ static vec3 add_light(ref_frame *frame, const ref_surface *at, size_t l, size_t 
     return vec3_scale(vec3_mul(vec3_load(frame->s->lights[l].colour), reflected), incidence.attenuation * shadow);
 }
 
-/* Ambient, baked light, what each light adds and the surface emits; there are no lists per screen tile. [M2] [M9] [M10]
- * [R9] */
+/* Ambient, baked light, what each light adds and the surface emits. [M2] [M9] [M10] */
 static vec3 light_surface(ref_frame *frame, const ref_surface *at, size_t pixel)
 {
     const ref_triangle *t = &at->triangle;

@@ -92,7 +92,7 @@ static void draw_on_pixel(ref_frame *frame, const view_triangle *triangle, int i
     const ref_camera *camera = &frame->camera;
     const double s = i + 0.5 - camera->half_width_px, t = camera->half_height_px - (j + 0.5);
     double weight[3];
-    const int facing = pixel_coverage(triangle, s, t, camera->focal_px, weight);
+    const int facing = pixel_coverage(triangle, s, t, camera->focal_px, weight) * triangle->source.instance->sign;
     const scene_object *object = triangle->source.object;
     if (facing == 0 || (facing < 0 && !object->two_sided)) return;
     const double sum = weight[0] + weight[1] + weight[2];
@@ -157,7 +157,8 @@ void ref_find_surfaces(ref_frame *frame)
     }
     for (size_t o = 0; o < frame->s->n_objects; o++) {
         const scene_object *object = &frame->s->objects[o];
-        const size_t n_triangles = object->hidden ? 0 : frame->s->meshes[object->mesh_idx].n_triangles;
+        const size_t n_triangles =
+            object->hidden || !frame->instances[o].sign ? 0 : frame->s->meshes[object->mesh_idx].n_triangles;
         const vec3 *view = frame->instances[o].view;
         for (size_t i = 0; i < n_triangles; i++) {
             view_triangle triangle = {.id = (int64_t)(((uint64_t)o << 32) | i), .source = ref_triangle_of(frame, o, i)};

@@ -86,9 +86,10 @@ static convex corners_inside(const ref_frame *frame, const ref_instance *instanc
     return c;
 }
 
-bool ref_is_seen(const scene_object *object)
+bool ref_is_seen(const ref_frame *frame, size_t object_idx)
 {
-    return object->receives && !object->hidden && !object->unlit;
+    const scene_object *object = &frame->s->objects[object_idx];
+    return frame->instances[object_idx].sign && object->receives && !object->hidden && !object->unlit;
 }
 
 static void widen(ref_bounds *b, const ref_camera *camera, const ref_light_view *axes, const convex *points)
@@ -207,7 +208,7 @@ static void see_punctual(const ref_frame *frame, ref_seen *seen, const scene_lig
     const double t = pyramid(&axes, light, face);
     const vec3 from = vec3_sub(vec3_load(light->position), camera->position);
     for (size_t o = 0; o < frame->s->n_objects; o++) {
-        if (!ref_is_seen(&frame->s->objects[o]) || !ref_reaches(light, &frame->instances[o])) continue;
+        if (!ref_is_seen(frame, o) || !ref_reaches(light, &frame->instances[o])) continue;
         const ref_bounds b = ref_bounds_of(frame, &frame->instances[o], &f, &axes);
         if (!b.any) continue;
         span at[3];

@@ -29,7 +29,7 @@ ref_frustum ref_frustum_part(const ref_camera *camera, double first, double last
 /* Of what the frustum's part holds of an object's box. */
 ref_bounds ref_bounds_of(const ref_frame *frame, const ref_instance *instance, const ref_frustum *f,
                          const ref_light_view *axes);
-bool ref_is_seen(const scene_object *object);
+bool ref_is_seen(const ref_frame *frame, size_t object_idx);
 
 /* Pixels that x by y would show at depth z, face on. */
 double ref_pixels(const ref_camera *camera, double x, double y, double z);

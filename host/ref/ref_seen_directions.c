@@ -18,7 +18,7 @@ static ref_seen rectangle(const ref_frame *frame, const ref_light_view *axes, co
 {
     ref_seen seen = {.any = false};
     for (size_t o = 0; o < frame->s->n_objects; o++) {
-        if (!ref_is_seen(&frame->s->objects[o])) continue;
+        if (!ref_is_seen(frame, o)) continue;
         const ref_bounds b = ref_bounds_of(frame, &frame->instances[o], f, axes);
         for (int k = 0; b.any && k < 3; k++) {
             if (!seen.any || b.lo[3 + k] < seen.lo[k]) seen.lo[k] = b.lo[3 + k];
@@ -54,7 +54,7 @@ static reach reach_of(const ref_frame *frame, const ref_frustum *f, const ref_li
     reach r = {{HUGE_VAL, HUGE_VAL, HUGE_VAL}, {-HUGE_VAL, -HUGE_VAL, -HUGE_VAL}};
     for (size_t o = 0; o < frame->s->n_objects; o++) {
         double centre[3], half[3];
-        if (!ref_is_seen(&frame->s->objects[o]) || !ref_bounds_of(frame, &frame->instances[o], f, axes).any) continue;
+        if (!ref_is_seen(frame, o) || !ref_bounds_of(frame, &frame->instances[o], f, axes).any) continue;
         vec3_store(centre, frame->instances[o].box_centre);
         vec3_store(half, frame->instances[o].box_half);
         for (int k = 0; k < 3; k++) {
@@ -109,7 +109,7 @@ static bool find_casters(const ref_frame *frame, const reach *near, const ref_li
 {
     bool any = false;
     for (size_t o = 0; o < frame->s->n_objects; o++) {
-        if (frame->s->objects[o].caster == SCENE_CASTER_OFF || !may_shadow(&frame->instances[o], axes, seen) ||
+        if (!ref_casts(frame, o) || !may_shadow(&frame->instances[o], axes, seen) ||
             shadows_nothing(&frame->instances[o], near, axes[0].axis[2]))
             continue;
         for (int turn = 0; turn < REF_TURNS; turn++) {

@@ -60,7 +60,6 @@ static double attenuation_in(const ref_frame *frame, const ref_surface *at, size
     const scene_shadow *shadow = &frame->s->shadow;
     if (view->unseen) return 1.0;
     ref_lookup how = {.filter = view->filter,
-                      .kernel = shadow->kernel,
                       .disk_samples = shadow->disk_samples > 0 ? shadow->disk_samples : DEFAULT_SAMPLES,
                       .edge = view->filter <= SCENE_FILTER_2X2 ? frame->options->edge : 0,
                       .x = at->x,

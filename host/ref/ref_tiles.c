@@ -22,8 +22,8 @@ static bool shadows_something(const ref_frame *frame, const scene_light *light)
 {
     bool casts = false, receives = false;
     for (size_t i = 0; i < frame->s->n_objects; i++) {
-        if (!ref_reaches(light, &frame->instances[i])) continue;
-        casts = casts || frame->s->objects[i].caster != SCENE_CASTER_OFF;
+        if (!frame->instances[i].sign || !ref_reaches(light, &frame->instances[i])) continue;
+        casts = casts || ref_casts(frame, i);
         receives = receives || frame->s->objects[i].receives;
     }
     return casts && receives;

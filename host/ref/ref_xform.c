@@ -113,6 +113,7 @@ const char *ref_transform_objects(ref_frame *frame)
         const scene_object *object = &s->objects[i];
         if (!transform_object(&frame->instances[i], object, &s->meshes[object->mesh_idx], &frame->camera))
             return "out of memory for the transformed vertices";
+        frame->instances[i].sign = scene_object_sign(object);
         fit_world_box(&frame->instances[i], object, &s->meshes[object->mesh_idx]);
     }
     return NULL;
@@ -129,6 +130,11 @@ void ref_free_instances(ref_frame *frame)
     frame->instances = NULL;
 }
 
+bool ref_casts(const ref_frame *frame, size_t object_idx)
+{
+    return frame->instances[object_idx].sign && frame->s->objects[object_idx].caster != SCENE_CASTER_OFF;
+}
+
 ref_triangle ref_triangle_of(const ref_frame *frame, size_t object_idx, size_t triangle_idx)
 {
     const scene_object *object = &frame->s->objects[object_idx];
@@ -141,5 +147,6 @@ vec3 ref_face_normal(const ref_triangle *triangle)
 {
     const vec3 *world = triangle->instance->world;
     const vec3 p0 = world[triangle->idx[0]];
-    return vec3_unit(vec3_cross(vec3_sub(world[triangle->idx[1]], p0), vec3_sub(world[triangle->idx[2]], p0)));
+    const vec3 n = vec3_cross(vec3_sub(world[triangle->idx[1]], p0), vec3_sub(world[triangle->idx[2]], p0));
+    return vec3_unit(triangle->instance->sign < 0 ? vec3_scale(n, -1.0) : n);
 }

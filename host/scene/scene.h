@@ -4,8 +4,8 @@
 
 #include "core/model.h"
 
-/* Loads .obj, .gltf or .glb by the file's ending. Returns 0; on failure returns -1 with one line in error (what, and
- * where: file, line or JSON path) and leaves *s empty. */
+/* Loads OBJ, glTF or GLB: the first bytes tell which, else the file's ending. Returns 0; on failure returns -1 with one
+ * line in error (what, and where: file, line or JSON path) and leaves *s empty. */
 int scene_load(scene *s, const char *path, const scene_options *options, char *error, size_t error_bytes);
 
 #endif

@@ -27,6 +27,9 @@ const option options[] = {
     {"--light", BY_RENDER | BY_COMPARE, "K", "a light from 0 to 63", "the light of --view shadow and atlas (0)"},
     {"--show", BY_RENDER, NULL, NULL,
      "draw the picture on the terminal, if that shows 24-bit colours; -o may be left out"},
+    {"--clip", BY_ALL, "NAME|N", "a clip's name or number",
+     "the clip of the file's animations that plays; info lists them; asset keeps all, and takes its fits from this one "
+     "(0)"},
     {"--frame", BY_ALL & ~BY_COMPILE, "N", "a frame from 0 to 100000000", "animation frame (0)"},
     {"--frames", BY_RENDER | BY_COMPILE | BY_INFO, "FIRST-LAST", "FIRST-LAST, frames from 0 to 100000000",
      "these frames (compile: all of the animation; info: frame 0 alone); render: as an animated PNG"},
@@ -39,6 +42,12 @@ const option options[] = {
      "sees "
      "it (90: from +X), degrees upwards, and size: 1 leaves room for the shadow, about 1.5 fills the picture "
      "(30,25,1)"},
+    {"--turn", BY_ALL, "YAW,PITCH,ZOOM",
+     "YAW,PITCH,ZOOM: degrees from -360 to 360 and -90 to 90, a factor from 0.1 to 100",
+     "turns the camera, the file's or another, around what it looks at: degrees to the right and upwards, and how much "
+     "longer its lens is (0,0,1)"},
+    {"--hour", BY_ALL, "H", "an hour from 6 to 18",
+     "the first directional light stands as a sun at that hour: from the east at 6 to the west at 18 (as in the file)"},
     {"--outside", BY_ALL, NULL, NULL, "the scene may name files outside its folder"},
     {"--budget", BY_ALL, "N", "a number from 1 to 64",
      "load scenes N times as large as usual, in textures, vertices, triangles, materials and memory (1)"},
@@ -55,7 +64,7 @@ const option options[] = {
      "the most RAM: of the renderer (advise), of everything (compile, info)"},
     {"--flash", BY_COMPILE | BY_INFO, "BYTES", "a number of bytes from 1 to 1000000000", "the most flash"},
     {"--optimise", BY_COMPILE | BY_INFO, "-Os|-O2", "-Os, -O2, ...",
-     "how the library is built, for the estimate of flash (as the board says)"},
+     "how the library is built, for the estimate of flash (as board.mk says; else -O2)"},
     {"--margin", BY_COMPILE | BY_INFO, "PERCENT", "per cent from 0 to 1000",
      "capacity for more triangles and tile references than the frames took (10)"},
     {"--simplify", BY_COMPILE, "HOW", "none, safe or path",
@@ -128,22 +137,34 @@ static int parse_texels(const char *value, int *texels)
     return parse_int(value, 0, 4096, texels) || (*texels & (*texels - 1)) || (*texels && *texels < 16);
 }
 
-/* Decimal numbers alone: strtod takes more. */
-static int parse_orbit(const char *text, tool_options *o)
+/* n decimal numbers alone with commas between them: strtod takes more. */
+static int parse_numbers(const char *text, int n, double *v)
 {
-    double v[3];
-    for (int i = 0; i < 3; i++) {
+    for (int i = 0; i < n; i++) {
         char *end;
         v[i] = strtod(text, &end);
-        if (end == text || strspn(text, "+-.0123456789") != (size_t)(end - text) || *end != (i < 2 ? ',' : 0))
+        if (end == text || strspn(text, "+-.0123456789") != (size_t)(end - text) || *end != (i < n - 1 ? ',' : 0))
             return -1;
         text = end + 1;
     }
-    o->orbit = 1;
-    o->yaw = v[0];
-    o->pitch = v[1];
-    o->zoom = v[2];
+    return 0;
+}
+
+static int parse_orbit(const char *text, int *given, double *yaw, double *pitch, double *zoom)
+{
+    double v[3];
+    if (parse_numbers(text, 3, v)) return -1;
+    *given = 1;
+    *yaw = v[0];
+    *pitch = v[1];
+    *zoom = v[2];
     return v[0] >= -360 && v[0] <= 360 && v[1] >= -90 && v[1] <= 90 && v[2] >= 0.1 && v[2] <= 100 ? 0 : -1;
+}
+
+static int parse_hour(const char *text, tool_options *o)
+{
+    o->at_hour = 1;
+    return parse_numbers(text, 1, &o->hour) || !(o->hour >= 6 && o->hour <= 18) ? -1 : 0;
 }
 
 static int parse_frames(const char *text, tool_options *o)
@@ -182,11 +203,15 @@ static int take_value(tool_options *o, const char *name, char *value)
     else if (strcmp(name, "--samples") == 0) failed = parse_int(value, 1, TRUTH_MAX_SAMPLES, &o->samples);
     else if (strcmp(name, "--size") == 0) failed = parse_size(value, o);
     else if (strcmp(name, "--view") == 0) failed = (o->view = view_from_name(value)) < 0;
+    else if (strcmp(name, "--clip") == 0) failed = !*(o->clip = value);
     else if (strcmp(name, "--frame") == 0) failed = parse_int(value, 0, 100000000, &o->frame);
     else if (strcmp(name, "--frames") == 0) failed = parse_frames(value, o);
     else if (strcmp(name, "--board") == 0) failed = !*(o->board = value);
     else if (strcmp(name, "--target") == 0) failed = !*(o->target = value);
-    else if (strcmp(name, "--orbit") == 0) failed = parse_orbit(value, o);
+    else if (strcmp(name, "--orbit") == 0) failed = parse_orbit(value, &o->orbit, &o->yaw, &o->pitch, &o->zoom);
+    else if (strcmp(name, "--turn") == 0)
+        failed = parse_orbit(value, &o->turn, &o->turn_yaw, &o->turn_pitch, &o->turn_zoom);
+    else if (strcmp(name, "--hour") == 0) failed = parse_hour(value, o);
     else if (strcmp(name, "--budget") == 0) failed = parse_int(value, 1, 64, &o->budget);
     else if (strcmp(name, "--triangles") == 0) failed = parse_int(value, 1, 100000000, &o->triangles);
     else if (strcmp(name, "--flash") == 0) failed = parse_int(value, 1, BUDGET_MAX, &o->flash);

@@ -155,11 +155,11 @@ static void build(truth_tracer *t)
     }
 }
 
-static size_t count_casters(const scene *s)
+static size_t count_casters(const ref_frame *frame)
 {
     size_t n = 0;
-    for (size_t o = 0; o < s->n_objects; o++)
-        if (s->objects[o].caster != SCENE_CASTER_OFF) n += s->meshes[s->objects[o].mesh_idx].n_triangles;
+    for (size_t o = 0; o < frame->s->n_objects; o++)
+        if (ref_casts(frame, o)) n += frame->s->meshes[frame->s->objects[o].mesh_idx].n_triangles;
     return n;
 }
 
@@ -181,14 +181,14 @@ static void take_object(truth_tracer *t, const ref_frame *frame, size_t object_i
 
 const char *truth_begin(truth_tracer *tracer, const ref_frame *frame)
 {
-    const size_t n = count_casters(frame->s);
+    const size_t n = count_casters(frame);
     *tracer = (truth_tracer){.s = frame->s};
     if (n > UINT32_MAX / 2) return "too many triangles";
     tracer->casters = calloc(n + 1, sizeof *tracer->casters);
     tracer->nodes = calloc(2 * n + 1, sizeof *tracer->nodes);
     if (!tracer->casters || !tracer->nodes) return "out of memory for the casters";
     for (size_t o = 0; o < frame->s->n_objects; o++)
-        if (frame->s->objects[o].caster != SCENE_CASTER_OFF) take_object(tracer, frame, o);
+        if (ref_casts(frame, o)) take_object(tracer, frame, o);
     if (n > 0) build(tracer);
     return NULL;
 }

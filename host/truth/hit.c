@@ -161,3 +161,10 @@ bool truth_meets(truth_hit *hit, const truth_ray *ray, const vec3 triangle[3], d
     locate(hit, &s, edge, side);
     return ray->target.infinite || hit->t < 1.0;
 }
+
+bool truth_meets_caster(truth_hit *hit, const truth_ray *ray, const truth_caster *c, bool two_sided)
+{
+    if (!truth_meets(hit, ray, c->p, c->uncertainty, true)) return false;
+    if (c->source.instance->sign < 0) hit->front = !hit->front;
+    return hit->front || two_sided;
+}

@@ -31,7 +31,7 @@ static bool meet_caster(void *user, const truth_caster *c)
     passage *way = user;
     truth_hit hit;
     if (way->skip && c->source.object == way->skip->object && c->source.idx == way->skip->idx) return true;
-    if (!truth_meets(&hit, way->ray, c->p, c->uncertainty, c->two_sided)) return true;
+    if (!truth_meets_caster(&hit, way->ray, c, c->two_sided)) return true;
     /* P4: the light-plane distance shrinks evenly on the way to the light. Directional lights have no near plane (D9).
      */
     if (!way->ray->target.infinite && !(way->plane_from * (1.0 - hit.t) >= way->near)) return true;

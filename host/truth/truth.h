@@ -52,6 +52,9 @@ typedef struct {
     bool two_sided;
 } truth_caster;
 
+/* The same of a caster; one that its transform mirrors shows its front where its corners turn the other way round. */
+bool truth_meets_caster(truth_hit *hit, const truth_ray *ray, const truth_caster *c, bool two_sided);
+
 typedef struct {
     vec3 low, high;
     uint32_t first;     /* inner: the left child, the right one follows it; leaf: the first caster */

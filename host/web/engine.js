@@ -37,11 +37,9 @@ class Engine {
   }
 
   // One command: its words without the program's name. {status, out, err}; status -1: the tool itself failed.
-  // view: {yaw, pitch, zoom, hour}, how the camera and the sun are turned; hour -1: as in the file.
-  run(args, view) {
+  run(args) {
     try {
       if (!this.exports) this.start();
-      this.exports.web_view(view ? view.yaw : 0, view ? view.pitch : 0, view ? view.zoom : 1, view ? view.hour : -1);
       const argv = this.pass(['gnomon', ...args]);
       const status = this.exports.web_run(args.length + 1, argv);
       this.exports.web_free(argv);
@@ -55,8 +53,8 @@ class Engine {
   }
 
   // A picture: the words of `gnomon render` behind it, without -o. {status, err, info, rgba}
-  draw(args, view) {
-    const said = this.run(['draw', ...args], view);
+  draw(args) {
+    const said = this.run(['draw', ...args]);
     if (said.status !== 0) return said;
     const info = JSON.parse(said.out), n = info.width * info.height;
     const rgb = this.wasi.bytes(this.exports.web_pixels(), 3 * n), rgba = new Uint8ClampedArray(4 * n);

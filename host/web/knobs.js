@@ -24,7 +24,6 @@ const KNOB_GROUPS = [
   ]],
   ['Shadows', [
     {key: 'filter', title: 'Filter', values: FILTERS},
-    {key: 'kernel', title: 'Kernel', select: true, values: ['tent', 'linear']},
     {key: 'atlas_size', title: 'Atlas', values: POWERS(16, 1024), only: 'directional'},
     {key: 'depth_bits', title: 'Bits per texel', values: ['8', '16', '32'], only: 'directional'},
     {key: 'cascades', title: 'Cascades', values: ['1', '2', '3', '4'], only: 'directional'},
@@ -68,7 +67,7 @@ function readBoards(text, files) {
     const name = (/^boards\/([^/]*)\/board\.mk$/.exec(path) || [])[1];
     if (!name || without.has(name)) continue;
     const settings = new TextDecoder().decode(bytes), cpu = (/^BOARD_CPU *:= *(.*)$/m.exec(settings) || ['', ''])[1];
-    const title = settings.split('\n', 1)[0].replace(/^# */, '').split(/[.:] /)[0].replace(/:.*|\.$/, '');
+    const title = settings.split('\n', 1)[0].replace(/^# */, '').split(/[.:] |\.$/)[0];
     const core = cores.find(({has}) => cpu.includes(has));
     boards.push({name, title, core, mhz: clocks.get(name) || 100, assumed: !clocks.has(name)});
   }
@@ -95,3 +94,5 @@ function stepText(from, to) {
   if (Math.abs(speed) >= 0.005) parts.push(`${signed((100 * speed).toFixed(0))} % fps`);
   return parts.length ? parts.join(', ') : 'costs nothing';
 }
+
+if (typeof module !== 'undefined') module.exports = {readBoards};

@@ -3,8 +3,9 @@
 
 int sweep_target_begin(sweep *w)
 {
-    if (!w->options->target) return 0;
-    tool_error("--target %s: nothing counts here", w->options->target);
+    const char *target = w->options.target;
+    if (!target) return 0;
+    tool_error("--target %s: nothing counts here", target);
     return -1;
 }
 

@@ -21,7 +21,7 @@ const drawnAt = [];
 // ---- Words for the tool ----------------------------------------------------------------------------------------------
 
 function sceneHasCamera() {
-  return !(info && info.added.camera);
+  return !state.scene.lacksCamera; // known from its first picture on, also when another cannot be drawn
 }
 
 function turned() {
@@ -34,18 +34,14 @@ function words(over = {}) {
   const preset = 'preset' in over ? over.preset : state.preset;
   if (preset) out.push('--set', `preset=${preset}`);
   for (const [key, value] of Object.entries(sets)) if (key !== 'size' && key !== 'preset') out.push('--set', `${key}=${value}`);
-  if (turned() && !sceneHasCamera()) out.push('--orbit', `${angle(ORBIT.yaw + state.yaw)},${Math.round(ORBIT.pitch + state.pitch)},${state.zoom.toFixed(2)}`);
+  if (turned() && sceneHasCamera()) out.push('--turn', `${angle(state.yaw)},${Math.round(state.pitch)},${state.zoom.toFixed(2)}`);
+  else if (turned()) out.push('--orbit', `${angle(ORBIT.yaw + state.yaw)},${Math.round(ORBIT.pitch + state.pitch)},${state.zoom.toFixed(2)}`);
+  if (state.hour >= 0) out.push('--hour', String(state.hour));
   return out;
 }
 
 function angle(degrees) {
   return Math.round(((((degrees + 180) % 360) + 360) % 360) - 180);
-}
-
-// Where the file has a camera, it is turned around what it sees.
-function viewOf() {
-  const turns = sceneHasCamera();
-  return {yaw: turns ? state.yaw : 0, pitch: turns ? state.pitch : 0, zoom: turns ? state.zoom : 1, hour: state.hour};
 }
 
 function pictureWords(engine) {
@@ -57,7 +53,7 @@ function pictureWords(engine) {
 
 function priceRequest(over) {
   const frame = String(state.frame);
-  return {run: ['price', ...words(over), '--frames', `${frame}-${frame}`, '--simplify', 'none', '--board', state.board.name], view: viewOf()};
+  return {run: ['price', ...words(over), '--frames', `${frame}-${frame}`, '--simplify', 'none', '--board', state.board.name]};
 }
 
 // ---- Pictures --------------------------------------------------------------------------------------------------------
@@ -126,7 +122,7 @@ async function draw() {
   }
   drawing = true;
   const drawn = state.scene;
-  const answer = await live.ask({draw: pictureWords(), view: viewOf()});
+  const answer = await live.ask({draw: pictureWords()});
   drawing = false;
   if (drawn === state.scene) take(answer);
   if (stale) {
@@ -148,6 +144,7 @@ function take(answer) {
   }
   const first = !info;
   info = facts = answer.info;
+  state.scene.lacksCamera = Boolean(info.added.camera);
   const picture = {width: info.width, height: info.height, rgba: answer.rgba};
   others.fixed = picture;
   show($('picture'), picture);
@@ -240,7 +237,7 @@ function tellMemory(price) {
 }
 
 function priceKey(request) {
-  return JSON.stringify([request.run, request.view]);
+  return JSON.stringify(request.run);
 }
 
 function readPrice(answer) {
@@ -290,11 +287,11 @@ function settle() {
 function compare() {
   const engines = mode() === 'four' ? ['reference', 'truth'] : [$('against').value === 'error' ? 'reference' : $('against').value];
   for (const engine of engines) {
-    const words = pictureWords(engine), wanted = JSON.stringify([words, viewOf()]);
+    const words = pictureWords(engine), wanted = JSON.stringify(words);
     if (others[engine] && others[engine].of === wanted) continue;
     delete others[engine];
-    queue.add({draw: words, view: viewOf()}, (answer) => {
-      if (answer.status !== 0 || JSON.stringify([pictureWords(engine), viewOf()]) !== wanted) return;
+    queue.add({draw: words}, (answer) => {
+      if (answer.status !== 0 || JSON.stringify(pictureWords(engine)) !== wanted) return;
       others[engine] = {width: answer.info.width, height: answer.info.height, rgba: answer.rgba, of: wanted};
       showOthers();
     });
@@ -415,7 +412,7 @@ function tellCommand() {
   const [, ...rest] = words();
   const lines = ['gnomon render', quote(own), ...rest, '-o out.png'];
   if (state.frame) lines.push(`--frame ${state.frame}`);
-  $('command').textContent = lines.join(' ') + ((turned() && sceneHasCamera()) || state.hour >= 0 ? '\n# but for the camera or sun, which are turned here' : '');
+  $('command').textContent = lines.join(' ');
 }
 
 // ---- Scenes ----------------------------------------------------------------------------------------------------------
@@ -429,7 +426,7 @@ function addScene(scene) {
   scene.button = button;
   if (scene.own) $('scenes').append(button);
   else $('scenes').prepend(button);
-  queue.add({draw: [scene.path, '--size', '96x72', '--frame', String(scene.frame), '--set', 'atlas_size=128'], view: {yaw: 0, pitch: 0, zoom: 1, hour: -1}, take: []}, (answer) => {
+  queue.add({draw: [scene.path, '--size', '96x72', '--frame', String(scene.frame), '--set', 'atlas_size=128'], take: []}, (answer) => {
     if (answer.status === 0) show(button.querySelector('canvas'), {width: 96, height: 72, rgba: answer.rgba});
     else button.classList.add('failed');
   });
@@ -587,7 +584,7 @@ function make(run, paths) {
   return new Promise((done) => {
     $('taking').textContent = info && info.frames > 1 && run[0] === 'compile' ? `Working on ${info.frames} frames\u2026` : 'Working\u2026';
     $('stop').hidden = false;
-    queue.add({run, view: viewOf(), take: paths}, (answer) => {
+    queue.add({run, take: paths}, (answer) => {
       $('stop').hidden = true;
       $('taking').textContent = answer.status === 0 ? (answer.out.trim() || 'Done.').replace(/^out[^:]*: /, '') : say(answer.err).join(' ');
       done(answer.status === 0 ? new Map(answer.files) : null);
@@ -635,7 +632,7 @@ async function findFit() {
   const text = $('nearest').querySelector('span');
   text.textContent = 'Trying configurations\u2026';
   const frame = String(state.frame), asked = priceKey(priceRequest({}));
-  queue.add({run: ['compile', ...words(), '--frames', `${frame}-${frame}`, '--simplify', 'safe', '-o', 'out', '--board', state.board.name], view: viewOf(), take: COMPILED.map((name) => `out/${name}`)}, (answer) => {
+  queue.add({run: ['compile', ...words(), '--frames', `${frame}-${frame}`, '--simplify', 'safe', '-o', 'out', '--board', state.board.name], take: COMPILED.map((name) => `out/${name}`)}, (answer) => {
     if (asked !== priceKey(priceRequest({}))) return;
     const found = /nearest that does: ((?:--set \S+ ?)+): (.*)/.exec(answer.err.trim());
     text.textContent = answer.status === 0 ? 'It fits when simplified: compile does that.' : found ? found[2] : say(answer.err).join(' ').replace(/^.*; /, '');

@@ -35,7 +35,7 @@ class Thread {
     return this.waiting.size > 0;
   }
 
-  // request: {run or draw: words, view, take}
+  // request: {run or draw: words, take}
   ask(request) {
     return new Promise((done) => {
       const id = this.next++;

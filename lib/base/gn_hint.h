@@ -41,20 +41,6 @@
 #define GN_UNROLL
 #endif
 
-/* With GN_SIZE_FIRST a pointer to an element is computed once: the compiler forgets how v was computed. */
-#if GN_SIZE_FIRST && defined(__GNUC__)
-#define GN_ELEMENT(v) __asm__("" : "+r"(v))
-#else
-#define GN_ELEMENT(v) ((void)0)
-#endif
-
-/* For a function with few callers: one copy with GN_SIZE_FIRST, inlined otherwise. */
-#if GN_SIZE_FIRST
-#define GN_SHARED GN_NOINLINE
-#else
-#define GN_SHARED inline
-#endif
-
 /* What the library asks of the core: whether it divides, and whether it multiplies two words to a double one. */
 #ifndef GN_CORE_DIVIDES
 #if defined(__ARM_FEATURE_IDIV) || defined(__riscv_div)

@@ -89,12 +89,13 @@ GN_HOT int64_t gn_bf_apply_bits(int64_t a, uint64_t b_bits)
         r = ua * b.mant;
     }
     if (s >= 0) {
-        r = (s > 62 || (r && gn_clz64(r) <= s)) ? (uint64_t)INT64_MAX : r << s;
+        r = s > 62 || (r && gn_clz64(r) <= s) ? UINT64_MAX : r << s;
     } else {
         /* truncate, then round by the last dropped bit: no addition that could overflow; half of r, or less: r is at
          * most 2^64 - 2^33 + 1 */
         r = s < -64 ? 0 : s == -64 ? r >> 63 : (r >> -s) + ((r >> (-s - 1)) & 1U);
     }
+    if (r >> 61) r = GN_SATURATED;
     return a < 0 ? -(int64_t)r : (int64_t)r;
 }
 

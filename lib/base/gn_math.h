@@ -88,8 +88,8 @@ GN_INLINE gn_bfloat gn_bf_mul(gn_bfloat a, gn_bfloat b)
     return gn_bf_of_bits(gn_bf_mul_bits(gn_bf_bits(a), gn_bf_bits(b)));
 }
 
-/* round(a * b.mant * 2^(b.exp + shift)), saturating at +-2^63. Error at most 1 LSB or 2^-31 of the result, the larger.
- */
+/* round(a * b.mant * 2^(b.exp + shift)), saturating at +-GN_SATURATED. Error at most 1 LSB or 2^-31 of the result, the
+ * larger. */
 GN_INLINE int64_t gn_bf_apply(int64_t a, gn_bfloat b, int32_t shift)
 {
     b.exp += shift;

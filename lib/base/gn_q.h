@@ -85,14 +85,18 @@ GN_HOT static inline int64_t gn_shr64_inline(int64_t v, int32_t s)
     return s ? (v + ((int64_t)1 << (s - 1))) >> s : v;
 }
 
-/* round(v * 2^-s) for any s of either sign; saturates. */
+/* What 64-bit results saturate at, 2^61 - 1: the sum of three of them and of any 32-bit numbers fits 64 bits, so nobody
+ * who adds to such a result need ask whether it is one. */
+#define GN_SATURATED INT64_C(0x1FFFFFFFFFFFFFFF)
+
+/* round(v * 2^-s) for any s of either sign. Where s < 0, saturates at +-GN_SATURATED. */
 GN_HOT static inline int64_t gn_scale64_inline(int64_t v, int32_t s)
 {
     if (s > 63) return 0;
     if (s > 0) return (v >> s) + ((v >> (s - 1)) & 1); /* no addition that could overflow */
     if (s == 0) return v;
     if (v == 0) return 0;
-    if (gn_clz64(gn_abs64_inline(v)) - 1 < -s) return v < 0 ? -INT64_MAX : INT64_MAX;
+    if (gn_clz64(gn_abs64_inline(v)) - 3 < -s) return v < 0 ? -GN_SATURATED : GN_SATURATED;
     return gn_shl64(v, -s);
 }
 

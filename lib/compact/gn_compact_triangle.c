@@ -9,6 +9,7 @@
 #include "base/gn_q.h"
 #include "compact/gn_compact.h"
 #include "scene/gn_scene.h"
+#include "scene/gn_sides.h"
 #include "visible/gn_cell.h"
 #include "visible/gn_screen_rect.h"
 
@@ -68,7 +69,7 @@ static void plane(gn_tri *tri, const gn_compact_corner c[3], uint64_t area)
 }
 
 /* Returns 0 if the triangle faces away or covers no pixel. */
-static int setup(gn_tri *tri, gn_compact_corner c[3], const gn_compact_view *view, uint32_t flags)
+static int setup(gn_tri *tri, gn_compact_corner c[3], const gn_compact_view *view, uint32_t sides)
 {
     for (int i = 0; i < 3; i++) {
         tri->x[i] = (c[i].at_q16[0] + 128) >> (16 - GN_COMPACT_BITS);
@@ -76,8 +77,8 @@ static int setup(gn_tri *tri, gn_compact_corner c[3], const gn_compact_view *vie
     }
     int32_t *x = tri->x, *y = tri->y;
     int64_t area = (int64_t)(x[1] - x[0]) * (y[2] - y[0]) - (int64_t)(x[2] - x[0]) * (y[1] - y[0]);
-    if (area >= 0) {
-        if (!area || !(flags & view->two_sided)) return 0;
+    if (!area || !(sides & (area > 0 ? GN_SIDE_CW : GN_SIDE_CCW))) return 0;
+    if (area > 0) {
         gn_compact_corner swap = c[1];
         int32_t sx = x[1], sy = y[1];
         c[1] = c[2], x[1] = x[2], y[1] = y[2];
@@ -141,7 +142,7 @@ static void emit(gn_frame *frame, gn_compact_job *job, const gn_compact_view *vi
 {
     gn_tri *tri = &job->tri;
     if (!raster && frame->stats.n_triangles < GN_MAX_TRIANGLES) tri = &frame->tri[frame->stats.n_triangles];
-    if (!setup(tri, job->corner, view, frame->scene->objects[object_idx].flags)) return;
+    if (!setup(tri, job->corner, view, gn_sides_of(frame->flags[object_idx], view->two_sided))) return;
     if (raster) {
         raster->bias = caster_bias(tri, frame->scene->lights);
         frame->stats.n_caster_triangles++;
@@ -182,7 +183,7 @@ static gn_status objects(gn_frame *frame, gn_compact_job *job, const gn_compact_
 {
     for (uint32_t i = 0; i < frame->scene->n_objects; i++) {
         const gn_object *object = &frame->scene->objects[i];
-        if ((object->flags ^ view->flags) & view->mask) continue;
+        if ((frame->flags[i] ^ view->flags) & view->mask) continue;
         if (!gn_compact_affine_ok(&object->to_world) ||
             !gn_compact_compose(&job->xform, view, &object->to_world, object->mesh->pos_frac_bits))
             return GN_FAIL_AT(frame, GN_ERR_OBJECT_TRANSFORM, i, GN_FIELD_OBJECT_TO_WORLD);

@@ -34,7 +34,7 @@ typedef struct {
     int32_t size[2];      /* of the raster */
     int32_t guard;        /* camera: |x|, |y| <= guard * z after clipping; light: <= guard, Q16 */
     uint32_t flags, mask; /* objects are drawn whose flags & mask are these */
-    uint32_t two_sided;   /* flags of those whose backs are drawn */
+    uint32_t two_sided;   /* flags of those of which both sides are drawn */
 } gn_compact_view;
 
 /* 1 / width, for ratios to that width. */
@@ -122,6 +122,7 @@ typedef struct gn_frame {
     gn_detail detail;
     gn_light_state light[GN_MAX_LIGHTS];
     gn_light_view view[1];
+    uint8_t flags[GN_MAX_OBJECTS]; /* of each object, as drawn: scene/gn_sides.h */
     gn_tri tri[GN_MAX_TRIANGLES];
     uint16_t atlas[GN_ATLAS_SIZE * GN_ATLAS_SIZE];
 } gn_frame;

@@ -72,7 +72,8 @@ static gn_status lens(gn_frame *frame)
     uint32_t focal2_q16 = (uint32_t)(((uint64_t)camera->focal_q24 * frame->picture.height + 128U) >> 8);
     int32_t clz;
     if (camera->half_height_q16) return about(frame, GN_FIELD_CAMERA_HALF_HEIGHT, GN_ERR_CAMERA_FOCAL);
-    if (!gn_compact_affine_ok(&camera->to_world) || camera->to_world.exp)
+    const int32_t(*m)[3] = camera->to_world.m_q30;
+    if (!gn_compact_affine_ok(&camera->to_world) || camera->to_world.exp || !(m[0][2] | m[1][2] | m[2][2]))
         return about(frame, GN_FIELD_CAMERA_TO_WORLD, GN_ERR_CAMERA_TRANSFORM);
     about(frame, GN_FIELD_CAMERA_FOCAL, GN_OK);
     if (camera->focal_q24 >> 29 || focal2_q16 < 1U << 16)

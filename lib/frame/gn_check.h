@@ -14,6 +14,11 @@ GN_CAPACITY_KNOBS(GN_CHECK_RANGE_)
 GN_FEATURE_KNOBS(GN_CHECK_RANGE_)
 GN_BUILD_KNOBS(GN_CHECK_RANGE_)
 
+/* Knobs that are gone: docs/CHANGELOG.md says what to do instead. */
+#if defined(GN_TILE_LIGHTS) || defined(GN_LINEAR_KERNELS) || defined(GN_DEPTH_BLOCKS)
+#error "the configuration sets a knob that is gone: GN_TILE_LIGHTS, GN_LINEAR_KERNELS or GN_DEPTH_BLOCKS"
+#endif
+
 GN_STATIC_ASSERT(preset_unknown, GN_PRESET >= GN_PRESET_TINY && GN_PRESET <= GN_PRESET_ACCURATE);
 GN_STATIC_ASSERT(persp_step_not_1_4_8_16,
                  GN_PERSP_STEP == 1 || GN_PERSP_STEP == 4 || GN_PERSP_STEP == 8 || GN_PERSP_STEP == 16);
@@ -45,10 +50,8 @@ GN_STATIC_ASSERT(compact_has_one_light_and_one_shadow_tile,
                  GN_COMPACT_IS_((GN_SHADOWS) && GN_MAX_LIGHTS == 1 && GN_MAX_SHADOW_TILES == 1));
 GN_STATIC_ASSERT(compact_has_an_atlas_up_to_256, GN_COMPACT_IS_(GN_ATLAS_SIZE <= 256 && GN_DEPTH_BITS == 16));
 GN_STATIC_ASSERT(compact_has_no_lights_but_directional_ones,
-                 GN_COMPACT_IS_(!GN_PUNCTUAL_LIGHTS && !GN_MAIN_LIGHT && !GN_TILE_LIGHTS && !GN_MASKS &&
-                                !GN_BAKED_LIGHT));
-GN_STATIC_ASSERT(compact_has_the_hard_filter, GN_COMPACT_IS_(!(GN_EDGE) && !GN_FILTER_MAX && !GN_DISK_FILTER &&
-                                                             !GN_LINEAR_KERNELS && !GN_DEPTH_BLOCKS));
+                 GN_COMPACT_IS_(!GN_PUNCTUAL_LIGHTS && !GN_MAIN_LIGHT && !GN_MASKS && !GN_BAKED_LIGHT));
+GN_STATIC_ASSERT(compact_has_the_hard_filter, GN_COMPACT_IS_(!(GN_EDGE) && !GN_FILTER_MAX && !GN_DISK_FILTER));
 GN_STATIC_ASSERT(compact_has_one_cascade, GN_COMPACT_IS_(!GN_MANY_CASCADES && !GN_BLENDED_CASCADES &&
                                                          !GN_CASTER_CULLING && !GN_TILE_IMPORTANCE && !GN_TIGHT_FIT));
 GN_STATIC_ASSERT(compact_has_flat_colours,

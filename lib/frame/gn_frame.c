@@ -3,6 +3,7 @@
  *
  * gn_begin
  * - gn_scene_validate: refuses an invalid scene (scene/)
+ * - gn_sides_setup: which objects mirror, or are flat (scene/gn_sides)
  * - gn_cam_setup: the camera (geometry/gn_xform)
  * - gn_views_setup: which light affects which object (light/gn_lights), how many shadow tiles each light gets
  * (shadow/gn_tiles), and how each view lies in the world (gn_light_views, gn_ortho, gn_persp; light/gn_cascade,
@@ -37,18 +38,9 @@
 #include "base/gn_signature.h"
 #include "frame/gn_check.h"
 #include "scene/gn_scene.h"
+#include "scene/gn_sides.h"
 #include "shade/gn_pixel.h"
 #include "visible/gn_screen_rect.h"
-
-/* Drawing: gn_render has the frame, and its flush callback must leave the renderer alone (other renderers may be
- * called). What begins or draws is refused, and the frame goes on; gn_init clears whatever is there, and so the frame
- * ends with the error. In steps the caller keeps the order: a screen tile sees only that its callback has left another
- * stage; a whole frame, or a second tile with the same scratch, is not seen. After a callback that does not return:
- * gn_init. */
-static gn_status wrong_stage(const gn_frame *frame)
-{
-    return frame->stage == GN_STAGE_DRAWING ? GN_ERR_REENTERED : GN_ERR_ORDER;
-}
 
 #if GN_RUNTIME_KNOBS
 #define GN_KNOB_DEFAULT_(name, MACRO, lo, hi, meaning, cost) frame->knobs.name = GN_##MACRO;
@@ -108,7 +100,8 @@ gn_status gn_begin(gn_renderer *r, const gn_scene *scene)
 {
     if (!r) return GN_ERR_NULL;
     gn_frame *frame = &r->frame;
-    if (frame->stage == GN_STAGE_NONE || frame->stage == GN_STAGE_DRAWING) return gn_fail(frame, wrong_stage(frame), 0);
+    if (frame->stage == GN_STAGE_NONE || frame->stage == GN_STAGE_DRAWING)
+        return gn_fail(frame, gn_wrong_stage(frame), 0);
     frame->stage = GN_STAGE_INIT;
     frame->n_views = 0;
     if (!scene) return GN_FAIL_AT(frame, GN_ERR_NULL, 0, GN_FIELD_SCENE);
@@ -126,9 +119,14 @@ gn_status gn_begin(gn_renderer *r, const gn_scene *scene)
     if (status) return status;
 #endif
     frame->scene = scene;
+#if !GN_COMPACT
+    frame->objects = scene->objects;
+    frame->n_objects = scene->n_objects;
+#endif
 #if GN_SHADOWS
     frame->n_lights = (uint8_t)scene->n_lights;
 #endif
+    gn_sides_setup(frame);
     gn_cam_setup(frame);
     status = gn_views_setup(frame, &r->scratch);
     if (status) return status;
@@ -145,7 +143,7 @@ gn_status gn_shadow_tile(gn_renderer *r, uint32_t tile_idx)
 {
     if (!r) return GN_ERR_NULL;
     gn_frame *frame = &r->frame;
-    if (frame->stage != GN_STAGE_BEGUN) return gn_fail(frame, wrong_stage(frame), 0);
+    if (frame->stage != GN_STAGE_BEGUN) return gn_fail(frame, gn_wrong_stage(frame), 0);
     if (tile_idx >= frame->n_views) return gn_fail(frame, GN_ERR_INDEX, tile_idx);
 #if GN_SHADOWS
     gn_status status =
@@ -161,10 +159,10 @@ gn_status gn_prepare(gn_renderer *r)
 {
     if (!r) return GN_ERR_NULL;
     gn_frame *frame = &r->frame;
-    if (frame->stage != GN_STAGE_BEGUN) return gn_fail(frame, wrong_stage(frame), 0);
+    if (frame->stage != GN_STAGE_BEGUN) return gn_fail(frame, gn_wrong_stage(frame), 0);
 #if GN_SHADOWS
     for (uint32_t i = 0; i < frame->n_views; i++)
-        if (!frame->view[i].tile_done) return gn_fail(frame, GN_ERR_ORDER, i);
+        if (!frame->view[i].tile_done) return gn_fail(frame, GN_ERR_NO_SHADOW_TILE, i);
 #endif
     gn_status status = gn_setup_triangles(frame, &r->scratch);
     if (status) return status;
@@ -188,7 +186,7 @@ static gn_status begin_tile(const gn_frame *frame, gn_scratch *scratch, uint32_t
                             enum gn_stage stage)
 {
     if (!frame || !scratch || !flush) return GN_ERR_NULL;
-    if (frame->stage != stage) return wrong_stage(frame);
+    if (frame->stage != stage) return gn_wrong_stage(frame);
     if (tile_idx >= (uint32_t)frame->tiles_x * frame->tiles_y) return GN_ERR_INDEX;
     gn_raster_tile(frame, scratch, tile_idx);
     return GN_OK;

@@ -19,6 +19,8 @@ typedef struct gn_frame {
 #endif
     /* small fields come first: instructions address them by a short offset */
     const gn_scene *scene;
+    const gn_object *objects; /* the scene's: gn_pick reads these when the scene may be gone */
+    uint32_t n_objects;
     gn_picture picture;
     uint8_t stage;   /* gn_stage in gn_stages.h */
     uint8_t id_bits; /* of a visibility cell: enough for n_triangles + 2 */
@@ -51,6 +53,7 @@ typedef struct gn_frame {
 #if GN_BOXES
     gn_object_state object[GN_MAX_OBJECTS];
 #endif
+    uint8_t flags[GN_MAX_OBJECTS]; /* of each object, as drawn: scene/gn_sides.h */
     gn_tri tri[GN_RECORDS ? GN_MAX_TRIANGLES : 1];
     gn_ref_offset tile_first[GN_TILES_MAX + 1]; /* of groups: a tile's number of triangles */
     uint16_t tile_ref[GN_RECORDS ? GN_MAX_TILE_REFS : 1];
@@ -68,7 +71,7 @@ typedef struct gn_frame {
 #if GN_STATIC_LAYER
     gn_atlas_texels static_atlas;
 #endif
-#if GN_DEPTH_BLOCKS
+#if GN_DISK_FILTER
     gn_depth_block block[GN_ATLAS_TEXELS / 64];
 #endif
 #if GN_OTHER_ATLAS
@@ -76,7 +79,7 @@ typedef struct gn_frame {
 #if GN_STATIC_LAYER
     gn_other_texels static_other_atlas;
 #endif
-#if GN_DEPTH_BLOCKS
+#if GN_DISK_FILTER
     gn_depth_block other_block[GN_OTHER_ATLAS_TEXELS / 64];
 #endif
 #endif

@@ -106,7 +106,10 @@ void gn_camera_look_at(gn_affine *out, const int32_t eye_q16[3], const int32_t t
     for (int i = 0; i < 3; i++) back[i] = (int64_t)eye_q16[i] - target_q16[i];
     gn_affine_identity(out);
     for (int i = 0; i < 3; i++) out->t_q16[i] = eye_q16[i];
-    if (!gn_normalise_q30(z, back)) return; /* eye on target: looks along -Z */
+    if (!gn_normalise_q30(z, back)) { /* eye on target: no rotation, which gn_begin refuses */
+        for (int i = 0; i < 3; i++) out->m_q30[i][i] = 0;
+        return;
+    }
     right[0] = z[2];
     right[1] = 0;
     right[2] = -(int64_t)z[0];

@@ -18,7 +18,7 @@ GN_HOT void gn_alpha_corners(gn_alpha_cut *cut, const uint16_t idx[3])
 }
 
 /* |c| < 2^30; rounded to a unit of c. */
-GN_HOT static GN_SHARED void cut_form(gn_screen_form *out, const int32_t c[3], uint32_t focal2_px_q16)
+GN_HOT static inline void cut_form(gn_screen_form *out, const int32_t c[3], uint32_t focal2_px_q16)
 {
     out->at = gn_shr64((int64_t)c[2] * (int64_t)focal2_px_q16, 16);
     out->x = c[0];

@@ -37,7 +37,7 @@ int gn_bary_beyond(int32_t b_q30[2], const gn_bary *bary, const gn_ray_recip *re
                    uint32_t focal2_px_q16);
 
 /* c . ray at a pixel, Q16 relative to c's own scale. |c| < 2^30, |px|, |py| < 2^13: below 2^63 */
-GN_HOT static GN_SHARED int64_t gn_plane_at(const int32_t c[3], int32_t px, int32_t py, uint32_t focal2_px_q16)
+GN_HOT static inline int64_t gn_plane_at(const int32_t c[3], int32_t px, int32_t py, uint32_t focal2_px_q16)
 {
     return ((int64_t)c[0] * px + (int64_t)c[1] * py) * 65536 + (int64_t)c[2] * (int64_t)focal2_px_q16;
 }

@@ -22,18 +22,16 @@ static inline int64_t joint_coordinate(const gn_affine *joint, int r, const int3
     return gn_shr64(gn_dot64(joint->m_q30[r], p), 30 - joint->exp + pos_frac_bits - 16) + joint->t_q16[r];
 }
 
-void gn_skin_position(int32_t out_q16[3], const gn_object *object, uint32_t vertex_idx)
+/* A vertex of an object of thousands of units, or whose mesh is stored beyond 2^30, in 64 bits. */
+static GN_NOINLINE void far_position(int32_t out_q16[3], const gn_mesh *mesh, const gn_vertex_joints *of,
+                                     const int32_t p[3])
 {
-    const gn_mesh *mesh = object->mesh;
-    const gn_vertex_joints of = gn_skin_joints(object->skin, vertex_idx);
-    const gn_position *at = mesh->pos + 3 * (size_t)vertex_idx;
-    const int32_t p[3] = {at[0], at[1], at[2]};
     const int64_t limit = (int64_t)1 << 30;
     int64_t sum[3] = {0, 0, 0}; /* 255 * 2^30 */
-    for (uint32_t i = 0; i < of.n; i++) {
-        const int32_t weight = of.weight_u8[i];
+    for (uint32_t i = 0; i < of->n; i++) {
+        const int32_t weight = of->weight_u8[i];
         for (int r = 0; weight && r < 3; r++) {
-            const int64_t v = joint_coordinate(&of.joint[of.idx[i]], r, p, mesh->pos_frac_bits);
+            const int64_t v = joint_coordinate(&of->joint[of->idx[i]], r, p, mesh->pos_frac_bits);
             sum[r] += v < -limit || v > limit ? (int64_t)1 << 40 : weight * v; /* refused below; four are under 2^43 */
         }
     }
@@ -41,6 +39,67 @@ void gn_skin_position(int32_t out_q16[3], const gn_object *object, uint32_t vert
     for (int r = 0; r < 3; r++)
         out_q16[r] = sum[r] > GN_WEIGHT_ONE * limit ? INT32_MAX : (int32_t)gn_shr64_inline(sum[r] * 0x1010101, 32);
 }
+
+/* A sum of weights times coordinates, exact: in one register on cores that multiply to two words. */
+typedef struct {
+    int64_t all;
+    int32_t hi, lo; /* on others: 256 hi + lo */
+} weighted_sum;
+
+GN_INLINE void add_weighted(weighted_sum *sum, int32_t weight, int32_t v)
+{
+    if (GN_CORE_LONG_PRODUCTS) sum->all += (int64_t)weight * v;
+    else {
+        sum->hi += weight * (v >> 8);
+        sum->lo += weight * (v & 255);
+    }
+}
+
+/* Over 255, rounded down by less than 1 + 2^-7. */
+GN_INLINE int32_t mean_of(const weighted_sum *sum)
+{
+    const int32_t hi = GN_CORE_LONG_PRODUCTS ? (int32_t)(sum->all >> 8) : sum->hi + (sum->lo >> 8),
+                  lo = (GN_CORE_LONG_PRODUCTS ? (int32_t)sum->all : sum->lo) & 255, rest = hi + lo;
+    return hi + ((rest + (rest >> 8) + (rest >> 16) + (rest >> 24)) >> 8); /* (256 hi + lo) / 255 */
+}
+
+/* Row r times (x, y, z), with 15 bits of the matrix, as if each dropped half a unit; 2^shift of them are a unit of t.
+ */
+#define GN_ROW_(r)                                                                                                     \
+    (((half + (joint->m_q30[r][0] >> 15) * x + (joint->m_q30[r][1] >> 15) * y + (joint->m_q30[r][2] >> 15) * z) >>     \
+      shift) +                                                                                                         \
+     joint->t_q16[r])
+
+void gn_skin_position(int32_t out_q16[3], const gn_object *object, uint32_t vertex_idx)
+{
+    const gn_mesh *mesh = object->mesh;
+    const gn_vertex_joints of = gn_skin_joints(object->skin, vertex_idx);
+    const gn_position *at = mesh->pos + 3 * (size_t)vertex_idx;
+    const int32_t p[3] = {at[0], at[1], at[2]};
+    /* |x| + |y| + |z| < 2^16 - 14 with a matrix up to 2^15: rows are below 2^31 */
+    const uint32_t away[3] = {gn_abs32(p[0]), gn_abs32(p[1]), gn_abs32(p[2])}, size = away[0] + away[1] + away[2],
+                   far = (away[0] | away[1] | away[2]) >> 30;
+    const int32_t down = gn_max32(16 - gn_clz32((size + (size >> 12)) | 1U), 0), round = 1 << down >> 1,
+                  x = (p[0] + round) >> down, y = (p[1] + round) >> down, z = (p[2] + round) >> down,
+                  half = (x + y + z) >> 1, one = mesh->pos_frac_bits - 1 - down;
+    weighted_sum sum_x = {0, 0, 0}, sum_y = {0, 0, 0}, sum_z = {0, 0, 0};
+    for (uint32_t i = 0; i < of.n; i++) {
+        const gn_affine *joint = &of.joint[of.idx[i]];
+        const int32_t weight = of.weight_u8[i], shift = one - joint->exp;
+        if (!weight) continue;
+        if (GN_SELDOM(shift < 2 || far)) {
+            far_position(out_q16, mesh, &of, p);
+            return;
+        }
+        add_weighted(&sum_x, weight, GN_ROW_(0)); /* 2^29 + 2^30 */
+        add_weighted(&sum_y, weight, GN_ROW_(1));
+        add_weighted(&sum_z, weight, GN_ROW_(2));
+    }
+    out_q16[0] = mean_of(&sum_x);
+    out_q16[1] = mean_of(&sum_y);
+    out_q16[2] = mean_of(&sum_z);
+}
+#undef GN_ROW_
 
 /* The weighted mean of the joints' matrices, up to a positive factor: largest entry in 2^29 .. 2^30. */
 static void mean_matrix(int32_t out[3][3], const gn_vertex_joints *of)

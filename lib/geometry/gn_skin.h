@@ -13,8 +13,9 @@
 #define GN_SKIN(object) ((void)(object), (const gn_skin *)NULL)
 #endif
 
-/* A vertex where its joints take it, in the object's space with 16 fraction bits: within 1.25 units of the weighted
- * mean. A coordinate that a joint takes beyond 2^30 is INT32_MAX. */
+/* A vertex where its joints take it, in the object's space with 16 fraction bits: the weighted mean, to 2.25 units and
+ * 2^-14 of the vertex's |x| + |y| + |z| as the largest joint scales it. NUMERICS 4.1. Means beyond 2^30 are left to
+ * gn_position_ok(). */
 void gn_skin_position(int32_t out_q16[3], const gn_object *object, uint32_t vertex_idx);
 
 /* A vertex's unit world normal, Q1.30: by the inverse transposes of its joints' weighted mean and of the object's

@@ -31,7 +31,7 @@ typedef struct {
     int bilinear;
 } footprint;
 
-GN_HOT static GN_SHARED void find_texels(footprint *out, const gn_texture *texture, int32_t u_q20, int32_t v_q20)
+GN_HOT static inline void find_texels(footprint *out, const gn_texture *texture, int32_t u_q20, int32_t v_q20)
 {
     out->bilinear = (texture->flags & GN_TEXTURE_BILINEAR) != 0;
     out->u = find_taps(u_q20, gn_texture_size(texture, 0), gn_texture_clamps(texture, 0), out->bilinear);

@@ -130,7 +130,7 @@ GN_HOT static inline uint32_t gn_texture_to_uq16(uint32_t v)
 
 #if GN_CASTER_ALPHA || GN_VISIBLE_ALPHA
 /* Whether the row's pixel i, whose alpha is 0..65535, is kept. */
-GN_HOT static GN_SHARED int gn_alpha_passes(const gn_alpha_test *test, int32_t i, uint32_t alpha)
+GN_HOT static inline int gn_alpha_passes(const gn_alpha_test *test, int32_t i, uint32_t alpha)
 {
     if (!test->dithers) return alpha >= test->least;
     return gn_mul_uq16(test->whole_uq16, gn_texture_to_uq16(alpha)) >= gn_noise_uq16(test->x + i, test->y);

@@ -114,7 +114,8 @@ void gn_xform_fast_begin(gn_xform_fast *fast, const gn_xform *xform)
 
 int gn_xform_fast_vertex(int32_t out_q16[3], const gn_xform_fast *fast, const gn_position position[3])
 {
-    return gn_xform_fast_inline(out_q16, fast, position);
+    const int32_t p[3] = {position[0], position[1], position[2]};
+    return gn_xform_fast_inline(out_q16, fast, p);
 }
 
 void gn_xform_normal_matrix(int32_t out[3][3], const int32_t m[3][3])

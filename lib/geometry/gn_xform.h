@@ -26,7 +26,7 @@ int gn_xform_fast_vertex(int32_t out_q16[3], const gn_xform_fast *fast, const gn
      (int64_t)fast->row[r].m[2] * p2)
 
 /* The same, spelled out where it is called, and however large the result is. */
-GN_INLINE int gn_xform_fast_wide(int32_t out_q16[3], const gn_xform_fast *fast, const gn_position position[3])
+GN_INLINE int gn_xform_fast_wide(int32_t out_q16[3], const gn_xform_fast *fast, const int32_t position[3])
 {
     uint32_t reach = fast->reach, up = fast->up, down = fast->down;
     int32_t p0 = position[0], p1 = position[1], p2 = position[2];
@@ -50,7 +50,7 @@ GN_INLINE int gn_xform_fast_wide(int32_t out_q16[3], const gn_xform_fast *fast, 
 }
 #undef GN_FAST_ROW_
 
-GN_INLINE int gn_xform_fast_inline(int32_t out_q16[3], const gn_xform_fast *fast, const gn_position position[3])
+GN_INLINE int gn_xform_fast_inline(int32_t out_q16[3], const gn_xform_fast *fast, const int32_t position[3])
 {
     const uint32_t limit = 1U << 29;
     return gn_xform_fast_wide(out_q16, fast, position) &&

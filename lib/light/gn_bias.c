@@ -57,7 +57,6 @@ GN_HOT void gn_bias_punctual(const gn_frame *frame, const gn_light_state *light,
                              const int32_t from_q16[3], int32_t out_q16[3])
 {
     const gn_light_view *view = &frame->view[light->view_idx];
-    GN_ELEMENT(view);
     const gn_light *scene_light = &frame->scene->lights[view->light_idx];
     int64_t z = 0; /* the light-plane distance */
     if (light->kind == GN_LIGHT_SPOT) z = -gn_dot_q30(from_q16, light->to_light_q30);

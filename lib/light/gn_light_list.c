@@ -49,7 +49,6 @@ uint32_t gn_object_list_lights(gn_frame *frame, uint32_t object_idx)
 {
     const gn_scene *scene = frame->scene;
     gn_object_state *object = &frame->object[object_idx];
-    GN_ELEMENT(object);
     light_list list = {.n = 0,
                        .limit = scene->shadow.object_lights ? scene->shadow.object_lights : GN_OBJECT_LIGHTS_MAX};
     uint32_t n_reaching = 0;

@@ -15,7 +15,6 @@
 static void setup_light(gn_frame *frame, uint32_t light_idx)
 {
     const gn_light *light = &frame->scene->lights[light_idx];
-    GN_ELEMENT(light);
     gn_light_state *state = &frame->light[light_idx];
     int64_t towards[3];
     for (int k = 0; k < 3; k++) {

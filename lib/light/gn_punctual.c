@@ -44,7 +44,6 @@ GN_HOT void gn_punctual_setup(gn_frame *frame, uint32_t light_idx)
 {
     const gn_light *from = &frame->scene->lights[light_idx];
     gn_light_state *light = &frame->light[light_idx];
-    GN_ELEMENT(light);
     const gn_cam *cam = &frame->cam;
     int32_t offset[3];
     normalise_colour(light, from);
@@ -149,40 +148,3 @@ GN_HOT uint32_t gn_punctual_irradiance_q24(const gn_punctual_point *point, int32
         gn_scale64(share_q30 * (int64_t)(inverse >> 1), 30 + 61 - 24 - point->scale_shift - point->colour_exp);
     return (uint32_t)gn_clamp64(q24, 0, INT32_MAX);
 }
-
-#if GN_TILE_LIGHTS
-/* Whether a sphere lies outside the plane through the camera and a line of pixels. `edge` is twice the line's distance
- * from the picture's centre in pixels, `across` the centre's coordinate, both positive towards the outside. */
-GN_HOT static int beyond_edge(const gn_frame *frame, int32_t edge, int32_t across_q16, int32_t depth_q16,
-                              uint64_t radius_q16)
-{
-    uint64_t focal2 = (frame->cam.focal2_px_q16 >> 16) + 1; /* 2F, rounded up: the norm must not be too short */
-    if (GN_FLAT_Q16(frame)) depth_q16 = GN_FLAT_Q16(frame); /* the norm is too long for such a plane */
-    int64_t out =
-        gn_shr64((int64_t)across_q16 * (int64_t)frame->cam.focal2_px_q16, 16) - (int64_t)edge * depth_q16; /* 2^47 */
-    uint64_t norm = (uint64_t)gn_isqrt64(focal2 * focal2 + (uint64_t)((int64_t)edge * edge)) + 1;
-    return out > 0 && (uint64_t)out > norm * (radius_q16 + 4);
-}
-
-GN_HOT static int in_tile(const gn_frame *frame, const gn_rect *rect, const gn_light_state *light)
-{
-    if (light->kind == GN_LIGHT_DIRECTIONAL || light->range2_q32 == UINT64_MAX) return 1;
-    const int32_t *at = light->eye_q16;
-    int32_t w = frame->picture.width, h = frame->picture.height;
-    uint64_t radius = (uint64_t)gn_isqrt64(light->range2_q32) + 1;
-    if ((int64_t)at[2] + (int64_t)radius < frame->cam.near_q16) return 0;
-    return !beyond_edge(frame, 2 * rect->x1 - w, at[0], at[2], radius) &&
-           !beyond_edge(frame, w - 2 * rect->x0, -at[0], at[2], radius) &&
-           !beyond_edge(frame, h - 2 * rect->y0, at[1], at[2], radius) &&
-           !beyond_edge(frame, 2 * rect->y1 - h, -at[1], at[2], radius);
-}
-
-/* The lights of a screen tile. [R9] */
-GN_HOT uint64_t gn_punctual_in_tile(const gn_frame *frame, const gn_rect *rect)
-{
-    uint64_t lights = 0;
-    for (uint32_t l = 0; l < frame->scene->n_lights; l++)
-        if (in_tile(frame, rect, &frame->light[l])) lights |= (uint64_t)1 << l;
-    return lights;
-}
-#endif

@@ -39,8 +39,4 @@ int32_t gn_punctual_cosine_q30(const gn_punctual_point *point, int32_t length_q1
 /* factor * cosine / max(d^2, min) * 2^colour_exp: irradiance of a light whose colour is 1, Q24, saturated below 128. */
 uint32_t gn_punctual_irradiance_q24(const gn_punctual_point *point, int32_t cosine_q30);
 
-/* The lights that may reach what a rectangle of pixels shows: bit i is light i of the scene. A spot or point light is
- * one if the sphere of its range meets the rectangle's frustum; a directional light always is. */
-uint64_t gn_punctual_in_tile(const gn_frame *frame, const gn_rect *rect);
-
 #endif

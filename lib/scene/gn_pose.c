@@ -101,18 +101,24 @@ static void place(gn_affine *out, const gn_affine *node, int32_t exp)
     out->exp = kept;
 }
 
+/* A node of scale 0 has no axes: those of the world take their place. */
 static void place_light(gn_light *light, const gn_affine *node)
 {
+    int32_t any = 0;
     for (int r = 0; r < 3; r++) {
         light->position_q16[r] = node->t_q16[r];
         light->direction[r] = -node->m_q30[r][2];
+        any |= node->m_q30[r][2];
     }
+    if (!any) light->direction[2] = -GN_ONE_Q30;
 }
 
 static void place_camera(gn_camera *camera, const gn_affine *node)
 {
     camera->to_world = *node;
     camera->to_world.exp = 0;
+    const int flat = !gn_det_sign(node->m_q30); /* and no axes, as above */
+    for (int i = 0; flat && i < 9; i++) camera->to_world.m_q30[i / 3][i % 3] = i % 4 ? 0 : GN_ONE_Q30;
     gn_affine_orthonormalise(&camera->to_world);
 }
 

@@ -27,6 +27,25 @@ gn_status gn_fail_capacity(gn_frame *frame, gn_status status, uint32_t needed, u
     return status;
 }
 
+/* Drawing: gn_render has the frame, and its flush callback must leave the renderer alone (other renderers may be
+ * called). What begins or draws is refused, and the frame goes on; gn_init clears whatever is there, and so the frame
+ * ends with the error. In steps the caller keeps the order: a screen tile sees only that its callback has left another
+ * stage; a whole frame, or a second tile with the same scratch, is not seen. After a callback that does not return:
+ * gn_init. */
+gn_status gn_wrong_stage(const gn_frame *frame)
+{
+    switch (frame->stage) {
+    case GN_STAGE_NONE:
+        return GN_ERR_NO_INIT;
+    case GN_STAGE_BEGUN:
+        return GN_ERR_NO_PREPARE;
+    case GN_STAGE_DRAWING:
+        return GN_ERR_REENTERED;
+    default: /* what belongs between gn_begin and gn_prepare, too */
+        return GN_ERR_NO_BEGIN;
+    }
+}
+
 #if GN_VALIDATION || (GN_SHADOWS && GN_AUTO_BIAS)
 gn_auto_bias gn_scene_auto_bias(const gn_light *light)
 {
@@ -72,7 +91,7 @@ static int object_transform_ok(const gn_affine *a)
     for (int r = 0; r < 3; r++)
         for (int c = 0; c < 3; c++)
             if (gn_abs32(a->m_q30[r][c]) > 1U << 30) return 0;
-    return gn_det_sign(a->m_q30) != 0;
+    return 1;
 }
 
 static gn_status check_camera(gn_frame *frame, const gn_camera *camera)
@@ -348,8 +367,6 @@ static gn_field wrong_filter(const gn_shadow_settings *shadow)
     int disk = shadow->filter == GN_FILTER_DISK || shadow->other_filter == GN_FILTER_DISK;
     if (!filter_ok(shadow->filter)) return GN_AT(GN_FIELD_SHADOW_FILTER);
     if (!filter_ok(shadow->other_filter)) return GN_AT(GN_FIELD_SHADOW_OTHER_FILTER);
-    if ((uint32_t)shadow->kernel > (GN_LINEAR_KERNELS ? GN_KERNEL_LINEAR : GN_KERNEL_TENT))
-        return GN_AT(GN_FIELD_SHADOW_KERNEL);
     if (shadow->penumbra_uq16 > 64 << 16) return GN_AT(GN_FIELD_SHADOW_PENUMBRA);
     if (disk && (shadow->disk_samples < 1 || shadow->disk_samples > 64)) return GN_AT(GN_FIELD_SHADOW_DISK_SAMPLES);
     return GN_FIELD_NONE;

@@ -11,6 +11,9 @@ gn_auto_bias gn_scene_auto_bias(const gn_light *light);
 /* Whether a skin is one that is built, and within its own arrays: for all its object's vertices. gn_scene_skin.c. */
 gn_status gn_scene_skin_check(gn_frame *frame, const gn_object *object, uint32_t object_idx);
 
+/* Why a call is refused in the frame's stage: the call that is missing before it, or GN_ERR_REENTERED. */
+gn_status gn_wrong_stage(const gn_frame *frame);
+
 /* Records a failure and returns its status. */
 gn_status gn_fail(gn_frame *frame, gn_status status, uint32_t index);
 gn_status gn_fail_field(gn_frame *frame, gn_status status, uint32_t index, gn_field field);

@@ -64,7 +64,7 @@ GN_HOT static GN_NOINLINE uint32_t share_of(gn_shading *s, gn_corner *c, uint32_
 }
 
 /* Light at the corner, Q24. Returns 0 if the corner does not know all, or limits what is dimmed then. */
-GN_HOT static GN_SHARED int light_corner(gn_shading *s, gn_corner *c, int32_t sum_q24[3])
+GN_HOT static inline int light_corner(gn_shading *s, gn_corner *c, int32_t sum_q24[3])
 {
     const gn_surface *surface = &s->surface;
     const int dims = surface->textured | GN_COLOURED(surface);

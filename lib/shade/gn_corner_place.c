@@ -44,8 +44,8 @@ GN_HOT static void coords_directional(const gn_corner_ray *ray, const int32_t n_
 }
 
 /* View depth of the plane at a pixel, up to its largest on the triangle. */
-GN_HOT static GN_SHARED int32_t plane_depth(const gn_lattice *l, const gn_frame *frame, const gn_surface *s, int32_t x,
-                                            int32_t y)
+GN_HOT static inline int32_t plane_depth(const gn_lattice *l, const gn_frame *frame, const gn_surface *s, int32_t x,
+                                         int32_t y)
 {
     const gn_screen_plane *p = &l->plane;
 #if GN_ORTHOGRAPHIC

@@ -45,7 +45,6 @@ GN_HOT static uint32_t raw_value(const gn_shading *s, int32_t x, int32_t y)
 GN_HOT uint32_t gn_exact_pack(gn_shading *s, const uint32_t q20[3])
 {
     uint32_t *last = s->last_q20;
-    GN_ELEMENT(last);
     if (q20[0] != last[0] || q20[1] != last[1] || q20[2] != last[2]) {
         last[0] = q20[0];
         last[1] = q20[1];

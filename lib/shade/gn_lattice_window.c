@@ -92,8 +92,8 @@ GN_HOT static int32_t seen_depth(const gn_lattice *l, const gn_frame *frame, con
 
 /* Where a directional view sees a flat surface at a pixel: what corners say, without its depth if `uv`. Returns 0 if it
  * is not to be told so. */
-GN_HOT static GN_SHARED int see_flat(gn_lattice *l, const gn_frame *frame, const gn_surface *s, uint32_t slot,
-                                     const gn_light_view *view, int32_t x, int32_t y, int uv, gn_window_place *out)
+GN_HOT static inline int see_flat(gn_lattice *l, const gn_frame *frame, const gn_surface *s, uint32_t slot,
+                                  const gn_light_view *view, int32_t x, int32_t y, int uv, gn_window_place *out)
 {
     int32_t z = seen_depth(l, frame, s, x, y);
     gn_corner_ray at;

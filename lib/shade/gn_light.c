@@ -142,8 +142,8 @@ GN_HOT GN_NOINLINE void gn_light_modulate(const gn_frame *frame, const gn_surfac
 }
 
 /* Adds the highlight of a light of the list. */
-GN_HOT static GN_SHARED void add_highlight(const gn_frame *frame, const gn_surface *surface, const gn_sample *sample,
-                                           uint32_t slot, uint32_t shadow_uq16, uint64_t sum_q20[3])
+GN_HOT static inline void add_highlight(const gn_frame *frame, const gn_surface *surface, const gn_sample *sample,
+                                        uint32_t slot, uint32_t shadow_uq16, uint64_t sum_q20[3])
 {
     const gn_light_state *light = surface->light[slot].state;
     uint32_t colour[3];

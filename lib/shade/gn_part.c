@@ -125,8 +125,8 @@ GN_HOT static void store_row(gn_shading *s, int32_t x, int32_t y, int32_t n, con
 
 /* Attenuations of n pixels in a row, `ahead` of them from its first place to its last: sets them where what is known of
  * all of them is GN_WINDOW_MIXED. */
-GN_HOT static GN_SHARED int attenuations(const gn_shading *s, const gn_part_view *view, const row_ends *row, int32_t n,
-                                         int32_t ahead, uint32_t *out)
+GN_HOT static inline int attenuations(const gn_shading *s, const gn_part_view *view, const row_ends *row, int32_t n,
+                                      int32_t ahead, uint32_t *out)
 {
     gn_receiver_step from = {row->at[0], row->at[1], 0}, step = {0, 0, 0};
     if (view->said != GN_WINDOW_MIXED) return view->said;

@@ -128,36 +128,54 @@ GN_HOT static void tint_nodes(gn_patch *p, const gn_patch_weights ends[2], int32
 }
 
 #if GN_TEXTURES
-/* Texels of a row; whether its nodes are within 2^-18 .. 1. */
-GN_HOT static void find_row_texels(gn_patch *p, const gn_patch_weights ends[2], int32_t n, int32_t n_nodes,
-                                   gn_pixel_line *line)
+/* Texels of a row. */
+GN_HOT static void find_row_texels(gn_patch *p, const gn_patch_weights ends[2], int32_t n)
 {
     const gn_row_value u = gn_patch_row(&p->texel_q17[0], ends, n), v = gn_patch_row(&p->texel_q17[1], ends, n);
     const gn_texture_line texels = {{u.at, v.at}, {u.step, v.step}, {0, 0}};
-    uint32_t beyond = 0;
-    for (const int32_t(*node)[3] = line->node, (*end)[3] = node + n_nodes; node < end; node++)
-        beyond |= (uint32_t)((*node)[0] - 64) | (uint32_t)((*node)[1] - 64) | (uint32_t)((*node)[2] - 64);
-    line->inside = !(beyond >> 24);
     gn_texture_row(p->texture, &texels, (1U << n) - 1, p->texel);
-    line->texel = p->texel;
+}
+
+/* Bits from 24 on are set if one of n nodes is not within 2^-18 .. 1. */
+GN_HOT static uint32_t nodes_beyond(const int32_t (*node)[3], int32_t n)
+{
+    uint32_t beyond = 0;
+    for (const int32_t(*end)[3] = node + n; node < end; node++)
+        beyond |= (uint32_t)((*node)[0] - 64) | (uint32_t)((*node)[1] - 64) | (uint32_t)((*node)[2] - 64);
+    return beyond;
+}
+
+/* Textured pixels under linear light: two nodes, 16 pixels apart, of which the second may lie beyond 32 bits. */
+GN_HOT static void draw_textured(gn_shading *s, const int32_t from[3], const int32_t step[3],
+                                 const gn_patch_weights ends[2], int32_t x, int32_t y, int32_t n)
+{
+    gn_patch *p = &s->patch;
+    gn_pixel_line line = {.node = (const int32_t(*)[3])p->node_q24, .spacing_log2 = 4, .texel = p->texel};
+    for (int c = 0; c < 3; c++) p->node_q24[0][c] = from[c], p->node_q24[1][c] = from[c] + step[c] * (n - 1);
+    line.inside = !(nodes_beyond(line.node, 2) >> 24);
+    for (int c = 0; c < 3; c++) p->node_q24[1][c] = (int32_t)((uint32_t)from[c] + 16U * (uint32_t)step[c]);
+    find_row_texels(p, ends, n);
+    gn_pixel_store_line(s->frame, &s->rows, x, y, (1U << n) - 1, &line);
 }
 #endif
 
-/* Pixels that are not linear, a node each; textured ones under linear light have two. */
+/* Pixels that are not linear, a node each. */
 GN_HOT static void draw_patch_nodes(gn_shading *s, const int32_t from[3], const int32_t step[3],
                                     const gn_patch_weights ends[2], int32_t x, int32_t y, int32_t n)
 {
     gn_patch *p = &s->patch;
-    const int log2 = p->n_lights | p->tinted ? 0 : 4;
-    const int32_t n_nodes = log2 ? 2 : n, dr = step[0] << log2, dg = step[1] << log2, db = step[2] << log2;
-    gn_pixel_line line = {.node = (const int32_t(*)[3])p->node_q24, .spacing_log2 = log2};
+    gn_pixel_line line = {.node = (const int32_t(*)[3])p->node_q24};
     int32_t r = from[0], g = from[1], b = from[2], (*node)[3] = p->node_q24;
-    for (int32_t(*end)[3] = node + n_nodes; node < end; node++, r += dr, g += dg, b += db)
+    for (int32_t(*end)[3] = node + n; node < end; node++, r += step[0], g += step[1], b += step[2])
         (*node)[0] = r, (*node)[1] = g, (*node)[2] = b;
     for (int32_t i = 0; i < p->n_lights; i++) add_light_nodes(s, &p->light[i], ends, x, y, n);
     if (p->tinted) tint_nodes(p, ends, n);
 #if GN_TEXTURES
-    if (p->textured) find_row_texels(p, ends, n, n_nodes, &line);
+    if (p->textured) {
+        find_row_texels(p, ends, n);
+        line.texel = p->texel;
+        line.inside = !(nodes_beyond(line.node, n) >> 24);
+    }
 #endif
     gn_pixel_store_line(s->frame, &s->rows, x, y, (1U << n) - 1, &line);
 }
@@ -175,7 +193,10 @@ GN_HOT static void draw_patch_row(gn_shading *s, int32_t x, int32_t y, int32_t n
         const gn_row_value row = gn_patch_row(&p->colour[c], ends, n);
         from[c] = row.at, step[c] = row.step;
     }
-    if (p->n_lights | p->tinted | p->textured) draw_patch_nodes(s, from, step, ends, x, y, n);
+    if (p->n_lights | p->tinted) draw_patch_nodes(s, from, step, ends, x, y, n);
+#if GN_TEXTURES
+    else if (p->textured) draw_textured(s, from, step, ends, x, y, n);
+#endif
     else gn_pixel_store_run(s->frame, &s->rows, x, y, n, from, step);
 }
 

@@ -231,7 +231,7 @@ GN_HOT static int lamp_irradiance(gn_shading *s, const gn_light_state *light, co
     gn_record_find_depths(&s->patch.record, s->frame);
     for (int i = 0; i < 3; i++) {
         int32_t at[3];
-        gn_record_places(&s->patch.record, s->frame, &light->from_light[i], light->ray_shift, at);
+        if (!gn_record_places(&s->patch.record, s->frame, &light->from_light[i], light->ray_shift, at)) return 0;
         for (int k = 0; k < 3; k++) from[k][i] = at[k];
     }
     for (int k = 0; k < 3; k++) {

@@ -51,13 +51,12 @@ GN_HOT static int32_t cascade_of_corner(const gn_shading *s, int k, uint32_t *fa
     const gn_tri *tri = p->record.tri;
     const int32_t bits = GN_K(frame, subpixel_bits) - 1, x = tri->x[k] >> bits, y = tri->y[k] >> bits; /* half pixels */
     const uint32_t z = (uint32_t)gn_record_depth(&p->record, k) >> p->sphere_down;
-    if (z >> 16) return GN_CASCADE_NONE; /* beyond twice the radius */
     const uint32_t tan2_q24 = (uint32_t)((uint64_t)(uint32_t)(x * x + y * y) * (uint32_t)frame->tan2_per_px2_q44 >> 20);
-    const uint64_t across = (uint64_t)(z * z) * tan2_q24 >> 24; /* 2^32 * 2^32 */
+    const uint64_t across = ((uint64_t)z * z >> 8) * tan2_q24 >> 16; /* 2^34 * 2^26, see find_patch_reach() */
     for (int32_t i = 0; i < GN_N_CASCADES(frame); i++) {
         const gn_patch_sphere *c = &p->sphere[i];
-        const int32_t dz = (int32_t)z - c->centre;
-        const uint64_t d2 = across + (uint32_t)(dz * dz);
+        const int64_t dz = (int64_t)z - c->centre;
+        const uint64_t d2 = across + (uint64_t)(dz * dz);
         if (d2 >= c->radius2) continue;
         *fade_uq16 = 65536;
         if (d2 > c->inner2) *fade_uq16 = (uint32_t)((c->radius2 - d2) * c->per_fade >> 16);
@@ -91,6 +90,7 @@ GN_HOT static int find_patch_reach(gn_shading *s)
         uint32_t fade = 65536;
         p->strength_uq16[k] = distance_strength(frame, gn_record_depth(&p->record, k));
         if (!frame->has_cascades) continue;
+        if (gn_record_depth(&p->record, k) >> p->sphere_down >> 21) return 0; /* many times as far as the spheres reach */
         const int32_t cascade = cascade_of_corner(s, k, &fade);
         if (k && cascade != p->cascade) return 0;
         p->cascade = cascade;
@@ -112,23 +112,25 @@ GN_HOT static inline int32_t depth_share_q30(const gn_light_view *view, int32_t 
     return gn_max32(-(1 << 29) >> up, gn_min32(depth_q16, ((1 << 30) - 1) >> up)) * (1 << up);
 }
 
-/* In a directional view. Returns 0 where bias lights everything. */
+/* In a directional view. Returns GN_PATCH_EDGE, GN_PATCH_LIT where bias lights everything, or GN_PATCH_UNEVEN far
+ * outside. */
 GN_HOT static int place_in_ortho(gn_shading *s, const gn_light_view *view, gn_auto_bias form, patch_places *out)
 {
     const gn_ortho_fit *fit = &view->fit.ortho;
     int32_t face[3], offset[3];
     gn_bias_auto_face(view, form, gn_patch_face(s), face);
     gn_bias_auto_ortho(view, form, face, offset);
-    if (offset[2] <= -TOO_FAR) return 0;
-    gn_record_places(&s->patch.record, s->frame, &fit->ray[0], fit->ray_shift, out->u);
-    gn_record_places(&s->patch.record, s->frame, &fit->ray[1], fit->ray_shift, out->v);
-    gn_record_places(&s->patch.record, s->frame, &fit->ray[2], fit->ray_shift, out->depth);
+    if (offset[2] <= -TOO_FAR) return GN_PATCH_LIT;
+    if (!gn_record_places(&s->patch.record, s->frame, &fit->ray[0], fit->ray_shift, out->u) ||
+        !gn_record_places(&s->patch.record, s->frame, &fit->ray[1], fit->ray_shift, out->v) ||
+        !gn_record_places(&s->patch.record, s->frame, &fit->ray[2], fit->ray_shift, out->depth))
+        return GN_PATCH_UNEVEN;
     for (int k = 0; k < 3; k++) {
         out->u[k] += offset[0];
         out->v[k] += offset[1];
         out->depth[k] = depth_share_q30(view, out->depth[k] + offset[2]);
     }
-    return 1;
+    return GN_PATCH_EDGE;
 }
 
 #if GN_PUNCTUAL_LIGHTS
@@ -149,7 +151,10 @@ GN_HOT static int place_in_persp(gn_shading *s, const gn_light_view **view, cons
         const int64_t less =
             gn_bias_auto_persp(*view, &form, gn_patch_face(s), gn_record_depth(&p->record, k), p->from_q16[k], moved);
         if (form != (gn_auto_bias)light->auto_bias) return 0;
-        seen += gn_persp_find_place(s->frame, *view, moved, less, &at);
+        const int beyond = gn_persp_find_place(s->frame, *view, moved, less, &at);
+        seen += beyond;
+        if (!beyond) continue;
+        if ((gn_abs32(at.u_q16) | gn_abs32(at.v_q16)) >> 28) return 0;
         out->u[k] = at.u_q16, out->v[k] = at.v_q16, out->depth[k] = (int32_t)(at.depth_q32 >> 2);
         nearest = gn_min32(nearest, at.far_q16), farthest = gn_max32(farthest, at.far_q16);
     }
@@ -203,7 +208,9 @@ GN_HOT static int ask_texels(gn_shading *s, const gn_light_view *view, const pat
     const int32_t across = slope_q28[0] * 4, down = slope_q28[1] * 4, rise = across * (out->w - 1),
                   fall = down * (out->h - 1);
     const int64_t to_u = out->u * 65536 + 32768 - at->u[0], to_v = out->v * 65536 + 32768 - at->v[0]; /* 2^22 */
-    int32_t depth = at->depth[0] + (int32_t)((across * to_u + down * to_v) >> 16);
+    const int64_t first = at->depth[0] + ((across * to_u + down * to_v) >> 16); /* 2^30 + 2^31 */
+    if (first < 0 || first > FAR_Q30) return TEXELS_UNKNOWN;
+    int32_t depth = (int32_t)first;
     const uint16_t *texel = view->depth.d16 + out->v * view->tile_texels + out->u;
     uint32_t any = 0, all = UINT32_MAX >> (32 - out->w);
     if (depth + gn_min32(rise, 0) + gn_min32(fall, 0) < 0) return TEXELS_UNKNOWN;
@@ -255,7 +262,8 @@ GN_HOT int gn_patch_find_shadow(gn_shading *s, uint32_t light_idx, gn_patch_ligh
     }
 #endif
     if (!view->border_lit) view += p->cascade;
-    if (!place_in_ortho(s, view, (gn_auto_bias)state->auto_bias, &at)) return GN_PATCH_LIT;
+    const int placed = place_in_ortho(s, view, (gn_auto_bias)state->auto_bias, &at);
+    if (placed != GN_PATCH_EDGE) return placed;
     return set_places(s, view, &at, light);
 }
 

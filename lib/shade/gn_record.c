@@ -4,6 +4,7 @@
 #include "base/gn_math.h"
 #include "base/gn_q.h"
 #include "base/gn_tables.h"
+#include "scene/gn_sides.h"
 #include "shade/gn_record.h"
 
 #if GN_INTERPOLATES
@@ -32,7 +33,8 @@ GN_HOT static inline uint32_t nearness_at(const gn_tri *tri, int32_t x, int32_t 
 {
     const int32_t one = 1 << bits, part_x = x & (one - 1), part_y = y & (one - 1);
     const uint32_t whole = (uint32_t)tri->iz_dx * (uint32_t)(x >> bits) + (uint32_t)tri->iz_dy * (uint32_t)(y >> bits);
-    return tri->iz_ref + whole + (uint32_t)((tri->iz_dx >> bits) * part_x + (tri->iz_dy >> bits) * part_y);
+    const int32_t dx = tri->iz_dx >> bits, dy = tri->iz_dy >> bits;
+    return tri->iz_ref + whole + (uint32_t)(dx * part_x) + (uint32_t)(dy * part_y);
 }
 
 static const uint8_t vertex_of[7][3] = {{0, 1, 2}, {0, 1, 2}, {1, 2, 0}, {2, 0, 1}, {0, 2, 1}, {2, 1, 0}, {1, 0, 2}};
@@ -75,7 +77,8 @@ GN_HOT int gn_record_begin(gn_patch_record *r, const gn_frame *frame, const gn_t
     r->px = (gn_max32(w, h) + one - 1) >> bits;
     if (r->px > GN_PATCH_PX) return 0;
     r->tri = tri;
-    r->back = order >= GN_TRI_BACK;
+    const int mirrored = (frame->flags[tri->source.object_idx] & GN_OBJECT_MIRRORED) != 0;
+    r->back = (order >= GN_TRI_BACK) != mirrored;
     r->a[0] = ax, r->a[1] = ay, r->b[0] = bx, r->b[1] = by;
     r->area = (uint32_t)(bx * ay - ax * by); /* 2^26 * 2 */
     r->clz = gn_clz32(r->area);
@@ -114,18 +117,26 @@ GN_HOT static inline int32_t record_scaled(int32_t v, int32_t s)
     return s >= 0 ? (int32_t)((uint32_t)v << gn_min32(s, 31)) : v >> gn_min32(-s, 31);
 }
 
-GN_HOT void gn_record_places(const gn_patch_record *r, const gn_frame *frame, const gn_ray_plane *plane,
-                             int32_t ray_shift, int32_t out_q16[3])
+GN_HOT int gn_record_places(const gn_patch_record *r, const gn_frame *frame, const gn_ray_plane *plane,
+                            int32_t ray_shift, int32_t out_q16[3])
 {
-    const int32_t bits = GN_K(frame, subpixel_bits), up = 32 - ray_shift - r->z_up, d = (int32_t)plane->d_q16;
+    const int32_t bits = GN_K(frame, subpixel_bits), up = 32 - ray_shift - r->z_up, most = 1 << 29;
     const int32_t px = 2 * r->x0 + 1 - frame->picture.width, py = frame->picture.height - 1 - 2 * r->y0;
-    /* rays are of half pixels, and their sums below 2^31: those of corners from that of the record's pixel */
+    /* rays are of half pixels, and their sums below 2^31: those of corners from that of the record's pixel, modulo 2^32 */
     const uint32_t ray = (uint32_t)plane->a0 + (uint32_t)plane->ax * (uint32_t)px + (uint32_t)plane->ay * (uint32_t)py;
-    const int32_t right = plane->ax >> (bits - 1), below = -plane->ay >> (bits - 1), *off = r->off;
-    const int32_t from = (int32_t)(ray - (uint32_t)(right * off[0] + below * off[1]));
-    out_q16[0] = record_scaled(gn_mul_high(r->z[0], from), up) + d;
-    out_q16[1] = record_scaled(gn_mul_high(r->z[1], from + right * r->a[0] + below * r->a[1]), up) + d;
-    out_q16[2] = record_scaled(gn_mul_high(r->z[2], from + right * r->b[0] + below * r->b[1]), up) + d;
+    const uint32_t right = (uint32_t)(plane->ax >> (bits - 1)), below = 0U - (uint32_t)(plane->ay >> (bits - 1));
+    const uint32_t from = ray - right * (uint32_t)r->off[0] - below * (uint32_t)r->off[1];
+    const uint32_t at[3] = {from, from + right * (uint32_t)r->a[0] + below * (uint32_t)r->a[1],
+                            from + right * (uint32_t)r->b[0] + below * (uint32_t)r->b[1]};
+    uint32_t any = 0;
+    if (plane->d_q16 < -most || plane->d_q16 > most) return 0;
+    GN_UNROLL
+    for (int k = 0; k < 3; k++) {
+        const int32_t v = gn_mul_high(r->z[k], (int32_t)at[k]); /* 2^29 */
+        any |= gn_abs32(v);
+        out_q16[k] = record_scaled(v, up) + (int32_t)plane->d_q16;
+    }
+    return up <= 0 || (up < 29 && !(any >> (29 - up)));
 }
 
 GN_HOT void gn_patch_unit(int32_t v[3])
@@ -135,7 +146,7 @@ GN_HOT void gn_patch_unit(int32_t v[3])
     for (int i = 0; i < 3; i++) n[i] = down >= 0 ? v[i] >> down : v[i] * (1 << -down);               /* below 2^14 */
     const uint32_t n2 = (uint32_t)(n[0] * n[0]) + (uint32_t)(n[1] * n[1]) + (uint32_t)(n[2] * n[2]); /* 3 * 2^28 */
     const int32_t up = gn_clz32(n2 | 1U) & ~1, more = up >> 1;
-    const int32_t root = (int32_t)(gn_rsqrt_norm(n2 << up, 1) >> 1); /* 2^(46 - more) / length */
+    const int32_t root = (int32_t)(gn_rsqrt_norm((n2 | 1U) << up, 1) >> 1); /* 2^(46 - more) / length */
     GN_UNROLL
     for (int i = 0; i < 3; i++) v[i] = gn_mul_high(n[i] * (1 << more), root);
 }
@@ -146,11 +157,11 @@ GN_HOT void gn_record_face(const gn_patch_record *r, const gn_frame *frame, int3
 {
     int64_t out[3];
     const gn_tri *tri = r->tri;
-    const int32_t focal2 = (int32_t)(frame->cam.focal2_px_q16 >> 1); /* F, Q16 */
+    const int32_t focal = (int32_t)(frame->cam.focal2_px_q16 >> 1); /* F, Q16 */
     const int32_t x = 2 * r->x0 + 1 - frame->picture.width, y = 2 * r->y0 + 1 - frame->picture.height;
-    out[0] = -2 * (int64_t)tri->iz_dx * focal2;
-    out[1] = 2 * (int64_t)tri->iz_dy * focal2;
-    out[2] = -((int64_t)tri->iz_ref * 2 - (int64_t)tri->iz_dx * x - (int64_t)tri->iz_dy * y) * 65536;
+    out[0] = -((int64_t)tri->iz_dx * focal); /* 2^62 */
+    out[1] = (int64_t)tri->iz_dy * focal;
+    out[2] = ((int64_t)tri->iz_dx * x + (int64_t)tri->iz_dy * y - (int64_t)tri->iz_ref * 2) * 32768;
     const uint32_t any = (uint32_t)(out[0] >> 32 ^ out[0] >> 63) | (uint32_t)(out[1] >> 32 ^ out[1] >> 63) |
                          (uint32_t)(out[2] >> 32 ^ out[2] >> 63) | 1U;
     for (int i = 0; i < 3; i++) view_q14[i] = (int32_t)(out[i] >> (34 - gn_clz32(any))); /* 30 bits */

@@ -27,9 +27,9 @@ void gn_record_face(const gn_patch_record *r, const gn_frame *frame, int32_t vie
 /* A vector of any length to length 1, Q14; 0 stays 0. */
 void gn_patch_unit(int32_t v[3]);
 
-/* Where a ray plane sees the corners, whose depths are known: Q16, within +-2^30. */
-void gn_record_places(const gn_patch_record *r, const gn_frame *frame, const gn_ray_plane *plane, int32_t ray_shift,
-                      int32_t out_q16[3]);
+/* Where a ray plane sees the corners, whose depths are known: Q16, within +-2^30. Returns 0 if they are beyond. */
+int gn_record_places(const gn_patch_record *r, const gn_frame *frame, const gn_ray_plane *plane, int32_t ray_shift,
+                     int32_t out_q16[3]);
 
 /* The weights at the centre of pixel (x, y), which the triangle covers. */
 gn_patch_weights gn_record_weights(const gn_patch_record *r, const gn_frame *frame, int32_t x, int32_t y);
@@ -54,7 +54,7 @@ GN_HOT static inline void gn_patch_set(gn_patch_value *out, int32_t v0, int32_t 
 
 GN_HOT static inline int32_t gn_patch_at(const gn_patch_value *v, gn_patch_weights w)
 {
-    return v->at + (((w.of[0] * v->to[0] + w.of[1] * v->to[1]) >> 15) << v->shift); /* 2^15 * 2^15 */
+    return v->at + ((w.of[0] * v->to[0] + w.of[1] * v->to[1]) >> 15) * (1 << v->shift); /* 2^15 * 2^15 */
 }
 
 /* 2^32 / n, rounded down */

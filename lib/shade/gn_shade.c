@@ -27,7 +27,6 @@ typedef gn_shading shading;
 GN_HOT static uint32_t constant_pixel(gn_shading *s)
 {
     gn_sample *sample = &s->sample;
-    GN_ELEMENT(sample);
     uint32_t radiance_q20[3];
     sample->cascade = GN_CASCADE_NONE;
     for (uint32_t i = 0; i < s->surface.n_lights; i++)
@@ -109,7 +108,7 @@ GN_HOT static void shade_spans(gn_shading *s, gn_run_taker *taker)
 #endif
 
 /* The triangle's runs from the one on that is taken, of one colour or pixel by pixel. */
-GN_HOT static GN_SHARED void shade_runs(gn_shading *s, gn_run_taker *taker, int constant)
+GN_HOT static inline void shade_runs(gn_shading *s, gn_run_taker *taker, int constant)
 {
     const uint32_t stride = (uint32_t)GN_K(s->frame, tile_width);
     uint32_t packed = 0;
@@ -211,129 +210,10 @@ GN_HOT static GN_NOINLINE void shade_triangles(gn_shading *s, uint32_t tile_idx)
 
 /* ---- Runs -------------------------------------------------------------------------------------------------------- */
 
-enum { NOT_PLAIN, PLAIN, PLAIN_565 };
-
-/* Plain objects: unlit, of one colour. Their pixels are filled in as soon as their runs are found. */
-typedef struct {
-    uint32_t object_idx;
-    int plain;
-    uint32_t packed;
-} object_look;
-
-#define LOOKS 8 /* a power of two */
-
-GN_HOT static void find_look_of(gn_shading *s, object_look *look, uint32_t object_idx)
+/* Links the runs of the tile's cells, or of a layer's. Returns whether there are any. */
+GN_HOT static GN_NOINLINE int link_runs(gn_shading *s, int32_t n_rows)
 {
-    const gn_object *object = &s->frame->scene->objects[object_idx];
-    uint32_t q20[3];
-    look->object_idx = object_idx;
-    int plain = object->flags & GN_OBJECT_UNLIT && !(GN_VERTEX_COLOURS && object->mesh->rgb_uq16) &&
-                !(GN_TEXTURES && object->texture) && s->frame->picture.format != GN_FORMAT_RAW32;
-    look->plain = !plain ? NOT_PLAIN : s->frame->picture.format == GN_FORMAT_RGB565 ? PLAIN_565 : PLAIN;
-    for (int c = 0; c < 3; c++) q20[c] = object->albedo_uq16[c] << 4;
-    if (plain) look->packed = gn_exact_pack(s, q20);
-}
-
-/* Fills in a run of a plain object, and does not link it. */
-GN_HOT static void fill_run(gn_shading *s, uint32_t *first, uint32_t n_px, uint32_t packed)
-{
-    int32_t stride = GN_K(s->frame, tile_width), at = (int32_t)(first - GN_CELLS(s->scratch)), x = at % stride,
-            y = at / stride;
-    gn_pixel_fill(s->frame, &s->rows, s->rect.x0 + x, s->rect.y0 + y, (int32_t)n_px, packed);
-}
-
-/* The same of a short one, of 16 bits per pixel. */
-GN_HOT static inline void fill_short_run(uint16_t *out, uint32_t *first, uint32_t n_px, uint32_t packed)
-{
-    GN_COUNT(runs, 1);
-    GN_COUNT(filled, n_px);
-    gn_runs_drop(first);
-    do {
-        *out++ = (uint16_t)packed;
-        GN_KEEP(out);
-    } while (--n_px);
-}
-
-/* The state of sorting a tile's runs. */
-typedef struct {
-    gn_shading *s;
-    uint32_t plain_idx, packed; /* the plain object met last, of 16 bits per pixel */
-    uint32_t lit_idx[LOOKS];    /* objects met last that are not plain */
-    object_look look[LOOKS];
-} run_sorter;
-
-/* Empty state. */
-GN_HOT static void sorter_begin(run_sorter *sorter, gn_shading *s)
-{
-    sorter->s = s;
-    sorter->plain_idx = UINT32_MAX;
-    for (uint32_t i = 0; !GN_SIZE_FIRST && i < LOOKS; i++) sorter->look[i].object_idx = sorter->lit_idx[i] = UINT32_MAX;
-}
-
-/* A run of an object that is plain, and is filled in, or was not met yet. Returns 0 if it is to be linked. */
-GN_HOT static GN_NOINLINE int sort_run(run_sorter *sorter, uint32_t *first, uint32_t n_px, uint32_t object_idx)
-{
-    object_look *look = &sorter->look[object_idx & (LOOKS - 1)];
-    if (look->object_idx != object_idx) find_look_of(sorter->s, look, object_idx);
-    if (look->plain == NOT_PLAIN) {
-        sorter->lit_idx[object_idx & (LOOKS - 1)] = object_idx;
-        return 0;
-    }
-    GN_COUNT(runs, 1);
-    GN_COUNT(filled, n_px);
-    gn_runs_drop(first);
-    fill_run(sorter->s, first, n_px, look->packed);
-    if (look->plain == PLAIN_565) {
-        sorter->plain_idx = object_idx;
-        sorter->packed = look->packed;
-    }
-    return 1;
-}
-
-/* Links the tile's runs, except those of plain objects, which it fills in. Returns whether there are others. */
-GN_HOT static GN_NOINLINE int sort_runs(gn_shading *s, int32_t n_rows)
-{
-    const gn_frame *frame = s->frame;
-    const char *sources = gn_cell_sources(frame, s->scratch);
-    uint32_t id_mask = (1U << frame->id_bits) - 1, width = (uint32_t)s->rows.width, links = 0;
-    uint32_t *cells = GN_CELLS(s->scratch), *row = cells + n_rows * GN_K(frame, tile_width);
-    uint16_t *pixel = s->scratch->pixel.rgb565 + (uint32_t)n_rows * width;
-    run_sorter sorter;
-    GN_KEEP(sources); /* one pointer */
-    sorter_begin(&sorter, s);
-    gn_runs_clear(s->scratch);
-    while (row > cells) {
-        row -= GN_K(frame, tile_width);
-        pixel -= width;
-        uint32_t before = row[-1], *last = row + width;
-        row[-1] = UINT32_MAX;
-        while ((last = gn_runs_last(last, row)) >= row) {
-            uint32_t id = *last & id_mask, *first = gn_runs_first(last, id_mask), n_px = (uint32_t)(last - first) + 1;
-            last = first;
-            if (!GN_SIZE_FIRST) {
-                const uint32_t idx = gn_cell_source(frame, sources, id)->object_idx;
-                if (sorter.lit_idx[idx & (LOOKS - 1)] != idx) {
-                    if (n_px < 8 && idx == sorter.plain_idx) {
-                        fill_short_run(pixel + (first - row), first, n_px, sorter.packed);
-                        continue;
-                    }
-                    if (sort_run(&sorter, first, n_px, idx)) continue;
-                }
-            }
-            gn_runs_link(s->scratch, id, first, n_px);
-            links |= id;
-        }
-        row[-1] = before;
-    }
-    return links != 0;
-}
-
-/* ---- Layers ------------------------------------------------------------------------------------------------------ */
-
-/* Links the runs of a layer. */
-GN_HOT static inline void link_layer(gn_shading *s, int32_t n_rows)
-{
-    uint32_t id_mask = (1U << s->frame->id_bits) - 1, width = (uint32_t)s->rows.width;
+    uint32_t id_mask = (1U << s->frame->id_bits) - 1, width = (uint32_t)s->rows.width, links = 0;
     uint32_t *cells = GN_CELLS(s->scratch), *row = cells + n_rows * GN_K(s->frame, tile_width);
     gn_runs_clear(s->scratch);
     while (row > cells) {
@@ -343,11 +223,15 @@ GN_HOT static inline void link_layer(gn_shading *s, int32_t n_rows)
         while ((last = gn_runs_last(last, row)) >= row) {
             uint32_t id = *last & id_mask, *first = gn_runs_first(last, id_mask);
             gn_runs_link(s->scratch, id, first, (uint32_t)(last - first) + 1);
+            links |= id;
             last = first;
         }
         row[-1] = before;
     }
+    return links != 0;
 }
+
+/* ---- Layers ------------------------------------------------------------------------------------------------------ */
 
 /* Transparent surfaces over what is opaque, the farthest layer first. Raw views do not show them. [M8] */
 GN_HOT static inline void shade_layers(gn_shading *s, uint32_t tile_idx)
@@ -356,8 +240,7 @@ GN_HOT static inline void shade_layers(gn_shading *s, uint32_t tile_idx)
     gn_mix_begin(s);
     for (int32_t i = gn_layers_count(s->scratch) - 1; i >= 0; i--) {
         s->rows.pixels = gn_layers_take(s->frame, s->scratch, i, n_rows);
-        link_layer(s, n_rows);
-        shade_triangles(s, tile_idx);
+        if (link_runs(s, n_rows)) shade_triangles(s, tile_idx);
     }
 }
 
@@ -417,7 +300,6 @@ GN_HOT static void clear_background(gn_shading *s)
 GN_HOT void gn_shade_tile(const gn_frame *frame, gn_scratch *scratch, uint32_t tile_idx)
 {
     shading *s = &scratch->work.shading;
-    GN_ELEMENT(s);
     s->frame = frame;
     s->scratch = scratch;
     s->rect = gn_screen_rect(frame, tile_idx);
@@ -427,14 +309,13 @@ GN_HOT void gn_shade_tile(const gn_frame *frame, gn_scratch *scratch, uint32_t t
     s->rows.y0 = s->rect.y0;
     clear_background(s);
     const int coloured = !(GN_RAW_VIEWS && frame->picture.format == GN_FORMAT_RAW32);
-    const int links = sort_runs(s, s->rect.y1 - s->rect.y0);
+    const int links = link_runs(s, s->rect.y1 - s->rect.y0);
     if (!links && !(GN_LAYERS(frame) && coloured && gn_layers_count(scratch))) return;
     s->cache.object = NULL;
 #if GN_INTERPOLATES
     gn_patch_begin_tile(s);
     gn_lattice_begin_tile(s);
 #endif
-    s->cache.lights = GN_PUNCTUAL_LIGHTS && GN_TILE_LIGHTS ? gn_punctual_in_tile(frame, &s->rect) : UINT64_MAX;
     for (uint32_t i = 0; i < GN_VERTEX_CACHE; i++) gn_vertex_drop(&scratch->vertex[i]);
     if (links) shade_triangles(s, tile_idx);
     if (GN_LAYERS(frame) && coloured) shade_layers(s, tile_idx);

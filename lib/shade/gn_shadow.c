@@ -147,7 +147,6 @@ GN_HOT static GN_NOINLINE uint32_t persp_attenuation(const gn_frame *frame, cons
     GN_COUNT(lookups_persp, 1);
     if (at->face == GN_FACE_NONE) return GN_ONE_UQ16;
     const gn_light_view *view = &frame->view[surface->light[slot].state->view_idx + at->face];
-    GN_ELEMENT(view);
     gn_receiver r = {at->u_q16, at->v_q16, at->depth_q32, {0, 0}, sample->x, sample->y};
     const int32_t *from = &sample->value[GN_VALUE_LIGHT + GN_VALUES_PER_LIGHT * slot + GN_LIGHT_POINT_AT];
     gn_shadow_slopes(frame, surface, view, from, r.slope_q28);

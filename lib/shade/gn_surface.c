@@ -9,6 +9,7 @@
 #include "geometry/gn_vertex_cache.h"
 #include "geometry/gn_xform.h"
 #include "light/gn_bias.h"
+#include "scene/gn_sides.h"
 #include "shade/gn_sample.h"
 #include "shade/gn_surface.h"
 #include "visible/gn_setup.h"
@@ -104,7 +105,6 @@ static void vertex_normal(int32_t out_q30[3], const gn_surface_cache *cache, gn_
         return;
     }
     gn_vertex_entry *entry = &vertex[gn_vertex_slot(vertex_idx, GN_VERTEX_CACHE - 1)];
-    GN_ELEMENT(entry);
     uint32_t tag = gn_vertex_tag(object_idx, vertex_idx);
     if (!gn_vertex_hit(entry, tag)) {
         gn_surface_normal(entry->v_q16, cache->normal_matrix, nrm_q15);
@@ -128,10 +128,11 @@ static void normals(const gn_frame *frame, const gn_surface_cache *cache, gn_ver
     }
     int32_t n[3][3];
     uint32_t object_idx = (uint32_t)(s->object - frame->scene->objects);
+    const int mirrored = (frame->flags[object_idx] & GN_OBJECT_MIRRORED) != 0;
     GN_UNROLL
     for (int k = 0; k < 3; k++) {
         vertex_normal(n[k], cache, vertex, s->object, object_idx, idx[k]);
-        if (s->plane.back)
+        if (s->plane.back != mirrored)
             for (int i = 0; i < 3; i++) n[k][i] = -n[k][i];
     }
     uint32_t any = 0;
@@ -296,12 +297,11 @@ static void emitted_light(const gn_frame *frame, gn_surface *s)
 }
 
 /* Albedo times ambient and light colours, and everything that a constant normal lets precompute. */
-static void begin_lighting(const gn_frame *frame, const gn_surface_cache *cache, gn_surface *s)
+static void begin_lighting(const gn_frame *frame, gn_surface *s)
 {
     const gn_scene *scene = frame->scene;
     int unlit = without_light(frame, s);
     const uint32_t *albedo = s->albedo_uq16;
-    GN_ELEMENT(albedo);
     GN_UNROLL
     for (int c = 0; c < 3; c++) /* 2^17 * 2^24 */
         s->base_q20[c] =
@@ -311,7 +311,7 @@ static void begin_lighting(const gn_frame *frame, const gn_surface_cache *cache,
     s->n_lights = s->n_punctual = 0;
     s->n_values = GN_VALUE_LIGHT;
     if (unlit) return;
-    gn_surface_list_lights(frame, cache, s);
+    gn_surface_list_lights(frame, s);
     s->n_values = (int16_t)(GN_VALUE_LIGHT + GN_VALUES_PER_LIGHT * s->n_lights);
     for (uint32_t i = 0; i < s->n_lights; i++)
         for (int c = 0; c < 3; c++)
@@ -440,7 +440,7 @@ void gn_surface_begin(const gn_frame *frame, gn_scratch *scratch, const gn_surfa
 #if !GN_INTERPOLATES
     find_depth(frame, s, v);
 #endif
-    begin_lighting(frame, cache, s);
+    begin_lighting(frame, s);
 }
 
 #if GN_INTERPOLATES

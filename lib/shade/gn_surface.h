@@ -34,7 +34,7 @@ GN_HOT static inline void gn_surface_use_bary(const gn_frame *frame, gn_surface 
 void gn_surface_face(const gn_frame *frame, const gn_surface *surface, int32_t out_q30[3]);
 
 /* Lists the lights that can affect a surface: directional ones first. */
-void gn_surface_list_lights(const gn_frame *frame, const gn_surface_cache *cache, gn_surface *surface);
+void gn_surface_list_lights(const gn_frame *frame, gn_surface *surface);
 
 /* Which of their shadows its object receives, if any. [M2] */
 void gn_surface_shadows(const gn_frame *frame, gn_surface *surface);

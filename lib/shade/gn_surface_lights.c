@@ -38,29 +38,28 @@ static int reaches(const gn_surface *s, const gn_light_state *light)
     return d2 < light->range2_q32;
 }
 
-static void add_punctual(const gn_frame *frame, const gn_surface_cache *cache, gn_surface *s, uint32_t light_idx)
+static void add_punctual(const gn_frame *frame, gn_surface *s, uint32_t light_idx)
 {
-    if (GN_TILE_LIGHTS && !(cache->lights >> light_idx & 1U)) return;
     if (s->n_lights == GN_SURFACE_LIGHTS || !reaches(s, &frame->light[light_idx])) return;
     list_light(frame, s, light_idx);
     s->n_punctual++;
 }
 
 /* The object's light list, or all lights if it has none. [P9] */
-static void punctual_lights(const gn_frame *frame, const gn_surface_cache *cache, gn_surface *s)
+static void punctual_lights(const gn_frame *frame, gn_surface *s)
 {
     const gn_object_state *object = &frame->object[s->object - frame->scene->objects];
     if (object->n_lights != GN_OBJECT_LIGHTS_ALL) {
-        for (uint32_t i = 0; i < object->n_lights; i++) add_punctual(frame, cache, s, object->light[i]);
+        for (uint32_t i = 0; i < object->n_lights; i++) add_punctual(frame, s, object->light[i]);
         return;
     }
     for (uint32_t l = 0; l < frame->scene->n_lights; l++)
-        if (frame->light[l].kind != GN_LIGHT_DIRECTIONAL && !frame->light[l].off) add_punctual(frame, cache, s, l);
+        if (frame->light[l].kind != GN_LIGHT_DIRECTIONAL && !frame->light[l].off) add_punctual(frame, s, l);
 }
 #else
-static void punctual_lights(const gn_frame *frame, const gn_surface_cache *cache, gn_surface *s)
+static void punctual_lights(const gn_frame *frame, gn_surface *s)
 {
-    (void)frame, (void)cache, (void)s;
+    (void)frame, (void)s;
 }
 #endif
 
@@ -89,7 +88,6 @@ static void directional_lights(const gn_frame *frame, gn_surface *s)
 {
     for (uint32_t l = 0; l < frame->scene->n_lights; l++) {
         const gn_light_state *light = &frame->light[l];
-        GN_ELEMENT(light);
         if (light->kind != GN_LIGHT_DIRECTIONAL || light->off) continue;
         if (!GN_SMOOTH(s)) {
             int32_t cosine = (int32_t)gn_shr64(gn_dot64(s->normal_q30[0], light->to_light_q30), 36);
@@ -100,10 +98,10 @@ static void directional_lights(const gn_frame *frame, gn_surface *s)
     }
 }
 
-void gn_surface_list_lights(const gn_frame *frame, const gn_surface_cache *cache, gn_surface *s)
+void gn_surface_list_lights(const gn_frame *frame, gn_surface *s)
 {
     directional_lights(frame, s);
-    punctual_lights(frame, cache, s);
+    punctual_lights(frame, s);
 }
 
 /* ---- Shadows ----------------------------------------------------------------------------------------------------- */

@@ -119,7 +119,6 @@ typedef struct {
         gn_xform_fast fast;
     } by; /* of the current object */
     int32_t normal_matrix[3][3];
-    uint64_t lights; /* a bit per light that can affect the screen tile */
 } gn_surface_cache;
 
 /* Values sampled at a pixel. The first groups only where a surface has them. */

@@ -12,6 +12,7 @@
 #include "geometry/gn_vertex_cache.h"
 #include "geometry/gn_xform.h"
 #include "scene/gn_scene.h"
+#include "scene/gn_sides.h"
 #include "shadow/gn_blocks.h"
 #include "shadow/gn_caster.h"
 #include "shadow/gn_cull.h"
@@ -38,11 +39,12 @@ static void corner_normals(const caster_job *job, const uint16_t idx[3], int64_t
             gn_xform_normal(out_q30[i], job->by.normal_matrix, mesh->nrm_q15 + 3 * (size_t)idx[i]);
         return;
     }
+    const int mirrored = (job->frame->flags[job->object_idx] & GN_OBJECT_MIRRORED) != 0;
     int64_t e1[3], e2[3], n[3];
     int32_t e1n[3], e2n[3], face[3];
     for (int k = 0; k < 3; k++) {
-        e1[k] = corner[1][k] - corner[0][k];
-        e2[k] = corner[2][k] - corner[0][k];
+        e1[k] = corner[mirrored ? 2 : 1][k] - corner[0][k];
+        e2[k] = corner[mirrored ? 1 : 2][k] - corner[0][k];
     }
     gn_norm_vec(e1n, e1);
     gn_norm_vec(e2n, e2);
@@ -118,8 +120,10 @@ static inline int32_t draw_perspective(gn_casting *casting, gn_alpha_cut *alpha,
 /* Coordinates of a vertex in the view. Returns 0 if it may be beyond 2^29. */
 static inline int small_position(int32_t out[3], const caster_job *job, uint32_t vertex_idx)
 {
-    if (!GN_SIZE_FIRST && !GN_SKIN(job->object)) {
-        if (gn_xform_fast_vertex(out, &job->by.fast, job->object->mesh->pos + 3 * (size_t)vertex_idx)) return 1;
+    if (!GN_SIZE_FIRST) {
+        int32_t p[3];
+        gn_position_of(p, job->object, vertex_idx);
+        if (gn_xform_fast_inline(out, &job->by.fast, p)) return 1;
         if (GN_LARGE_CASTERS) return 0;
     }
     int64_t v[3];
@@ -243,7 +247,7 @@ static GN_NOINLINE gn_status draw_object(gn_frame *frame, gn_casting *casting, c
     job->view = view;
     job->object = &frame->scene->objects[object_idx];
     job->object_idx = object_idx;
-    job->two_sided = (job->object->flags & (GN_OBJECT_TWO_SIDED | GN_OBJECT_CASTS_TWO_SIDED)) != 0;
+    job->sides = gn_sides_of(frame->flags[object_idx], GN_OBJECT_TWO_SIDED | GN_OBJECT_CASTS_TWO_SIDED);
     if (GN_PUNCTUAL_LIGHTS && view->perspective)
         gn_xform_compose(&job->to_light, view->axis_q30, view->fit.persp.eye_q16, job->object);
     else gn_ortho_compose(&job->to_light, view, job->object);
@@ -312,7 +316,9 @@ static gn_status draw_view(gn_frame *frame, gn_casting *casting, gn_light_view *
         return draw_layer(frame, casting, view, GN_LAYER_MOVING);
     }
     clear(view);
-    if (GN_DEPTH_BLOCKS) gn_blocks_clear(view);
+#if GN_DISK_FILTER
+    if (GN_HAS_BLOCKS(view)) gn_blocks_clear(view);
+#endif
     return draw_layer(frame, casting, view, GN_LAYER_ALL);
 }
 
@@ -330,15 +336,19 @@ gn_status gn_atlas_render_tile(gn_frame *frame, gn_casting *casting, uint32_t vi
     if (view->empty || view->stale) return GN_OK;
     if (GN_UNSEEN(view)) { /* the first of those that share it would do */
         clear(view);
-        if (GN_DEPTH_BLOCKS) gn_blocks_clear(view);
+#if GN_DISK_FILTER
+        if (GN_HAS_BLOCKS(view)) gn_blocks_clear(view);
+#endif
         return GN_OK;
     }
     uint64_t signature = GN_INCREMENTAL ? gn_kept_signature(frame, view, GN_LAYER_ALL) : 0;
     if (GN_INCREMENTAL && gn_kept_is_same(frame, view_idx, GN_LAYER_ALL, signature)) return GN_OK;
     gn_status status = draw_view(frame, casting, view, view_idx);
     if (status) return status;
-    if (GN_DEPTH_BLOCKS && GN_STATIC_LAYER) gn_blocks_build(view); /* the layer's content was not redrawn */
-    else if (GN_DEPTH_BLOCKS) gn_blocks_build_touched(view);
+#if GN_DISK_FILTER
+    if (GN_HAS_BLOCKS(view) && GN_STATIC_LAYER) gn_blocks_build(view); /* the layer's content was not redrawn */
+    else if (GN_HAS_BLOCKS(view)) gn_blocks_build_touched(view);
+#endif
     if (GN_INCREMENTAL) gn_kept_set(frame, view_idx, GN_LAYER_ALL, signature);
     return GN_OK;
 }

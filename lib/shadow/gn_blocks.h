@@ -1,11 +1,11 @@
-/* Bounds of shadow depth over blocks of texels, so that most filter lookups are decided without a single compare of
- * texels.
+/* Bounds of shadow depth over blocks of texels, for views with the disk filter: they decide most of its lookups
+ * without a single compare of texels. Other filters read so few texels that bounds cost more than they save.
  *
  * For each block of 8x8 texels: the smallest and largest stored depth over that block and its neighbours to the right,
  * below and diagonally, i.e. over 16x16 texels. For any texel of a block, the block's bounds are valid for the 9x9
- * texels from that texel on. A tent reads at most 8 per axis; larger footprints read several blocks. If the receiver is
- * in front of the smallest depth, or behind the largest, the result is exactly 1 or 0: the picture is the same with and
- * without blocks (a test compares). 4 bytes per 64 texels.
+ * texels from that texel on; larger footprints read several blocks. If the receiver is in front of the smallest depth,
+ * or behind the largest, the result is exactly 1 or 0: the picture is the same with and without blocks (a test
+ * compares). 4 bytes per 64 texels.
  *
  * Bounds are the upper 16 bits of a depth of 32: lo << 16 .. hi << 16 | 0xFFFF contain every texel of 32 bits, and
  * those of 8 and 16 bits lie in lo << 16 .. hi << 16, see gn_block_highest().
@@ -16,8 +16,12 @@
 #include "shadow/gn_texel.h"
 #include "gnomon.h"
 
+/* Whether a view has bounds. */
+#define GN_HAS_BLOCKS(view) (GN_DISK_FILTER && (view)->filter == GN_FILTER_DISK)
+
 #define GN_BLOCK_REACH 9 /* texels per axis for which one block's bounds are valid */
 
+#if GN_DISK_FILTER
 /* Sets the view's pointer to its blocks; its tile in the atlas is known. */
 void gn_blocks_find(gn_frame *frame, gn_light_view *view);
 
@@ -64,5 +68,6 @@ GN_HOT static inline int gn_blocks_decide(const gn_light_view *view, int32_t u, 
     if (least <= gn_block_highest(&bounds, GN_VIEW_BITS(view))) return 0;
     return !gn_border_lit(view) || (u >= 0 && v >= 0 && u + n <= view->tile_texels && v + n <= GN_TILE_ROWS(view));
 }
+#endif
 
 #endif

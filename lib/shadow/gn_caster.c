@@ -148,7 +148,9 @@ GN_HOT int32_t gn_caster_rows(const gn_light_view *view, const gn_caster *caster
             int32_t u = gn_max32(at->x_begin, 0), n = gn_min32(at->x_end, size) - u;
             if (n <= 0) continue;
             n_texels += n;
-            if (GN_DEPTH_BLOCKS) gn_blocks_touch(view, u, v, n);
+#if GN_DISK_FILTER
+            if (GN_HAS_BLOCKS(view)) gn_blocks_touch(view, u, v, n);
+#endif
             GN_COUNT(caster_rows, 1);
             uint32_t z = depth.z_corner + (uint32_t)v * depth.dz_dv + (uint32_t)u * depth.dz_du;
             if (z < range && z + (uint32_t)(n - 1) * depth.dz_du < range) {

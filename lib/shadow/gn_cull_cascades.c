@@ -16,7 +16,7 @@ void gn_cull_begin(gn_frame *frame)
     }
     for (uint32_t i = 0; i < frame->scene->n_objects; i++) {
         const gn_object_state *object = &frame->object[i];
-        if (!(frame->scene->objects[i].flags & GN_OBJECT_RECEIVES)) continue;
+        if (!(frame->flags[i] & GN_OBJECT_RECEIVES)) continue;
         for (int k = 0; k < 3; k++) {
             box[0][k] = gn_min32(box[0][k], gn_sat32((int64_t)object->centre_q16[k] - object->half_q16[k]));
             box[1][k] = gn_max32(box[1][k], gn_sat32((int64_t)object->centre_q16[k] + object->half_q16[k]));

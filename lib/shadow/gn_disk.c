@@ -5,6 +5,7 @@
 #include "base/gn_math.h"
 #include "base/gn_q.h"
 #include "base/gn_tables.h"
+#include "shadow/gn_blocks.h"
 #include "shadow/gn_disk.h"
 
 #define DISK_RADIUS_MAX_Q16 (8 << 16)
@@ -37,6 +38,29 @@ GN_HOT static GN_NOINLINE uint32_t count_lit(const gn_lookup *l, uint32_t n_samp
     return n_lit;
 }
 
+/* The smallest and largest `least` over n x n texels from (u, v) on. */
+GN_HOT static void least_over(const gn_lookup *l, int32_t u, int32_t v, int32_t n, uint32_t *smallest,
+                              uint32_t *largest)
+{
+    *smallest = *largest = l->least;
+    if (!GN_PLANES || !l->sloped) return;
+    int32_t last = l->view->tile_texels - 1, last_row = GN_TILE_ROWS(l->view) - 1;
+    int32_t u0 = gn_max32(0, gn_min32(u, last)), v0 = gn_max32(0, gn_min32(v, last_row));
+    int64_t lo, hi;
+    gn_plane_range(l, u0, v0, gn_max32(0, gn_min32(u + n - 1, last)) - u0,
+                   gn_max32(0, gn_min32(v + n - 1, last_row)) - v0, &lo, &hi);
+    *smallest = gn_limited_depth(l->view, lo);
+    *largest = gn_limited_depth(l->view, hi);
+}
+
+/* Whether bounds decide the attenuation of all n x n <= 18 x 18 texels from (u, v) on, 0 or 65536. */
+GN_HOT static int bounds_decide(const gn_lookup *l, int32_t u, int32_t v, int32_t n, uint32_t *answer)
+{
+    uint32_t smallest, largest;
+    least_over(l, u, v, n, &smallest, &largest);
+    return gn_blocks_decide(l->view, u, v, n, smallest, largest, answer);
+}
+
 /* The footprint is widened by what samples err before its bounds are read. [F4] */
 GN_HOT uint32_t gn_disk_attenuation(const gn_frame *frame, const gn_lookup *l, const gn_receiver *receiver)
 {
@@ -44,8 +68,8 @@ GN_HOT uint32_t gn_disk_attenuation(const gn_frame *frame, const gn_lookup *l, c
     uint32_t answer;
     int32_t radius_q16 = gn_max32(0, gn_min32(l->view->disk_radius_q16, DISK_RADIUS_MAX_Q16)),
             reach_q16 = radius_q16 + 32;
-    if (GN_DEPTH_BLOCKS && gn_lookup_decided(l, (l->u_q16 - reach_q16) >> 16, (l->v_q16 - reach_q16) >> 16,
-                                             (2 * reach_q16 >> 16) + 2, &answer))
+    if (bounds_decide(l, (l->u_q16 - reach_q16) >> 16, (l->v_q16 - reach_q16) >> 16, (2 * reach_q16 >> 16) + 2,
+                      &answer))
         return answer;
     GN_COUNT(undecided, 1);
     return ((count_lit(l, n_samples, radius_q16, receiver) << 16) + n_samples / 2) / n_samples;

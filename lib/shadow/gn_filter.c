@@ -131,7 +131,7 @@ GN_HOT static uint32_t filtered(const gn_frame *frame, const gn_lookup *l, const
     if (GN_FILTER_MAX >= 1 && filter == GN_FILTER_2X2) return bilinear(l, GN_K(frame, weight_bits));
     if (GN_DISK_FILTER && filter == GN_FILTER_DISK) return gn_disk_attenuation(frame, l, receiver);
     if (GN_FILTER_MAX >= 2 && filter > GN_FILTER_2X2)
-        return gn_tent_attenuation(frame, l, filter - GN_FILTER_2X2, GN_K(frame, weight_bits));
+        return gn_tent_attenuation(l, filter - GN_FILTER_2X2, GN_K(frame, weight_bits));
     return gn_lookup_tap(l, l->u_q16 >> 16, l->v_q16 >> 16) << 16;
 }
 

@@ -1,4 +1,4 @@
-/* What bounds of depth, or the texels themselves, decide for all receivers of a cell. */
+/* What texels decide for all receivers of a cell. */
 #include "gn_internal.h"
 
 #include "base/gn_q.h"
@@ -19,6 +19,9 @@ GN_HOT static uint32_t min_passing_depth(const gn_frame *frame, const gn_light_v
     uint32_t depth_q32 = depth_q31 < 0 ? 0 : (uint32_t)depth_q31 << 1;
     return gn_rounded_depth(depth_q32, gn_dropped_bits(frame, view), gn_texel_far(GN_VIEW_BITS(view)));
 }
+
+/* Along an axis: more are dearer to compare than lookups. */
+enum { MOST_TEXELS = 18 };
 
 /* Whether texels first .. last along both axes are all lit or all dark for every depth from `least` to `most`. */
 GN_HOT static int texels_agree(const gn_light_view *view, const int32_t first[2], const int32_t last[2], uint32_t least,
@@ -50,9 +53,7 @@ GN_HOT int gn_filter_decides(const gn_frame *frame, const gn_light_view *view, c
     const int32_t end[2] = {view->tile_texels - 1, GN_TILE_ROWS(view) - 1};
     uint32_t least = min_passing_depth(frame, view, gn_min32(a->depth_q31, b->depth_q31));
     uint32_t most = min_passing_depth(frame, view, gn_max32(a->depth_q31, b->depth_q31));
-    if (n > 2 * GN_BLOCK_REACH) return 0;
-    /* bounds are cheaper than one lookup each; what they decide, the texels would, too */
-    if (GN_DEPTH_BLOCKS && gn_blocks_decide(view, first[0], first[1], n, least, most, attenuation)) return 1;
+    if (n > MOST_TEXELS) return 0;
     GN_UNROLL
     for (int i = 0; i < 2; i++) { /* beyond the border texels repeat it, or are lit */
         beyond |= first[i] < 0 || last[i] > end[i];

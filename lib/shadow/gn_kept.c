@@ -3,6 +3,7 @@
 
 #include "base/gn_signature.h"
 #include "geometry/gn_skin.h"
+#include "shadow/gn_blocks.h"
 #include "shadow/gn_kept.h"
 
 static uint64_t view_signature(const gn_frame *frame, const gn_light_view *view)
@@ -12,7 +13,8 @@ static uint64_t view_signature(const gn_frame *frame, const gn_light_view *view)
     const int32_t biases[4] = {view->bias_constant_q16, view->bias_slope_q16, light->bias_caster_q16,
                                GN_K(frame, shadow_subpixel_bits)};
     s = gn_signature_words(s, biases, 4);
-    s = gn_signature_add(s, (uint64_t)view->first_texel << 8 | (uint64_t)view->in_other << 1 | view->perspective);
+    s = gn_signature_add(s, (uint64_t)view->first_texel << 8 | (uint64_t)GN_HAS_BLOCKS(view) << 2 |
+                                (uint64_t)view->in_other << 1 | view->perspective);
     s = gn_signature_add(s, (uint64_t)view->tile_texels << 48 | (uint64_t)GN_TILE_ROWS(view) << 32 |
                                 (uint64_t)(uint8_t)view->depth_log2 << 8 | view->depth_bits);
     if (view->perspective) {

@@ -60,7 +60,9 @@ static void set_texels(gn_frame *frame, gn_light_view *view)
     }
 #endif
     view->depth = gn_texels_at(view->depth, view->depth_bits, view->first_texel);
-    if (GN_DEPTH_BLOCKS) gn_blocks_find(frame, view);
+#if GN_DISK_FILTER
+    gn_blocks_find(frame, view);
+#endif
 }
 
 /* The view of one cascade, or of the whole shadow distance. [D1] */
@@ -152,7 +154,6 @@ static void add_view(gn_frame *frame, uint32_t light_idx, const gn_tile_plan *pl
                      uint32_t *first_texel)
 {
     gn_light_view *view = &frame->view[frame->n_views];
-    GN_ELEMENT(view);
     view->stale = 0;
     if (GN_INCREMENTAL && plan->cascaded) view->stale = (uint8_t)stays(frame, frame->n_views, light_idx, cascade_idx);
     frame->n_views++;

@@ -67,13 +67,6 @@ GN_HOT int gn_lookup_on_plane(const gn_lookup *l, int32_t u, int32_t v, int32_t 
     const uint32_t across = (uint32_t)l->slope_q28[0] * 4, down = (uint32_t)l->slope_q28[1] * 16;
     int64_t lo, hi;
     if (!is_plain_plane(l, u, v, n, n, &lo, &hi)) return 0;
-#if GN_DEPTH_BLOCKS
-    uint32_t lit;
-    if (gn_blocks_decide(view, u, v, n, (uint32_t)lo, (uint32_t)hi, &lit)) {
-        *found = lit ? 0 : 0x00FF00FFU >> (8 - n);
-        return 1;
-    }
-#endif
     GN_COUNT(undecided, 1);
     GN_COUNT(taps_tent, n * n);
     uint32_t least = (uint32_t)gn_least_on_plane(l, u, v), any = 0, all = 255;

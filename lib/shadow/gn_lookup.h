@@ -4,7 +4,6 @@
 
 #include "base/gn_count.h"
 #include "base/gn_q.h"
-#include "shadow/gn_blocks.h"
 #include "shadow/gn_filter.h"
 #include "shadow/gn_texel.h"
 
@@ -34,7 +33,7 @@ GN_HOT static inline uint32_t gn_rounded_depth(uint32_t depth_q32, int32_t dropp
 }
 
 /* least_q32 at a texel of the tile, at most 64 + 1023 texels away in each axis: 2^50 and twice 2^44. */
-GN_HOT static GN_SHARED int64_t gn_least_on_plane(const gn_lookup *l, int32_t u, int32_t v)
+GN_HOT static inline int64_t gn_least_on_plane(const gn_lookup *l, int32_t u, int32_t v)
 {
     int32_t du = u - (l->u_q16 >> 16), dv = v - (l->v_q16 >> 16);
     return l->least_q32 + (int64_t)l->slope_q28[0] * (16 * du) + (int64_t)l->slope_q28[1] * (16 * dv);
@@ -91,9 +90,5 @@ GN_HOT static inline uint32_t gn_lookup_tap(const gn_lookup *l, int32_t u, int32
     if (!gn_lookup_is_plain(l, u, v, 1)) return !gn_lookup_dark(l, u, v, 1);
     return gn_texel_load(gn_view_texels(l->view, u, v), GN_VIEW_BITS(l->view), 0) >= l->least;
 }
-
-/* Whether blocks' bounds decide the attenuation of all n x n <= 18 x 18 texels from (u, v) on, 0 or 65536:
- * gn_lookup_bounds.c. */
-int gn_lookup_decided(const gn_lookup *l, int32_t u, int32_t v, int32_t n, uint32_t *answer);
 
 #endif

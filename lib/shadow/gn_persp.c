@@ -5,6 +5,7 @@
 #include "base/gn_q.h"
 #include "geometry/gn_clip.h"
 #include "light/gn_bias.h"
+#include "scene/gn_sides.h"
 #include "shadow/gn_persp.h"
 #include "shadow/gn_seen.h"
 
@@ -168,12 +169,12 @@ GN_HOT static void add_bias(const gn_light_view *view, gn_caster *caster)
 
 /* Plane and range of a triangle. Returns 0 if it faces away or is edge on. [P7] */
 GN_HOT static int persp_caster(gn_caster *caster, gn_plane *plane, const gn_light_view *view, int32_t v[3][3],
-                               int two_sided)
+                               uint32_t sides)
 {
     const gn_persp_fit *fit = &view->fit.persp;
     gn_plane_setup(plane, v[0], v[1], v[2]);
     /* u x v = w: the normal of a face towards the light points against the view, so gn_plane_setup has negated it */
-    if (plane->det == 0 || (!plane->back && !two_sided)) return 0;
+    if (plane->det == 0 || !(sides & (plane->back ? GN_SIDE_CCW : GN_SIDE_CW))) return 0;
     gn_bfloat scale = gn_bf_mul(gn_bf_from_u64((uint64_t)(uint32_t)fit->near_q16),
                                 fit->texel_per_z); /* n / (T / t), times 2^17, which is divided out below */
     scale = gn_bf_mul(scale, gn_bf_recip(gn_bf_from_u64((uint64_t)plane->det)));
@@ -262,18 +263,20 @@ GN_HOT static int32_t draw_inner(const gn_frame *frame, const gn_light_view *vie
 {
     int32_t(*corner)[3] = casting->with.clipping.polygon.v_q16;
     const int32_t x[3] = {c[0]->x, c[1]->x, c[2]->x}, y[3] = {c[0]->y, c[1]->y, c[2]->y};
-    const int two_sided = casting->job.two_sided;
+    const uint32_t sides = casting->job.sides;
     gn_caster caster;
     gn_plane plane;
     /* as roundings may move corners by 1 each, this much of the area says that the plane itself faces away */
     const int32_t dx1 = x[1] - x[0], dx2 = x[2] - x[0], dy1 = y[1] - y[0], dy2 = y[2] - y[0];
     const int64_t area = (int64_t)dx1 * dy2 - (int64_t)dy1 * dx2;
-    if (!two_sided && area > 8 + 2 * ((int64_t)gn_abs32(dx1) + gn_abs32(dx2) + gn_abs32(dy1) + gn_abs32(dy2)))
+    const int64_t away = sides == GN_SIDE_CW ? -area : area;
+    if (sides != GN_SIDES_BOTH &&
+        away > 8 + 2 * ((int64_t)gn_abs32(dx1) + gn_abs32(dx2) + gn_abs32(dy1) + gn_abs32(dy2)))
         return -1;
     const int32_t n_rows = gn_caster_begin(frame, view, &casting->walk, x, y);
-    if (!n_rows) return area == 0 || (area > 0 && !two_sided) ? -1 : 0; /* for the statistics */
+    if (!n_rows) return area == 0 || (away > 0 && sides != GN_SIDES_BOTH) ? -1 : 0; /* for the statistics */
     copy_corners(corner, c);
-    if (!persp_caster(&caster, &plane, view, corner, two_sided)) return -1;
+    if (!persp_caster(&caster, &plane, view, corner, sides)) return -1;
     return gn_caster_rows(view, &caster, &casting->walk, n_rows, NULL);
 }
 
@@ -302,7 +305,7 @@ GN_HOT int32_t gn_persp_triangle(const gn_frame *frame, const gn_light_view *vie
     if (all) return -1;
     gn_caster caster;
     gn_plane plane;
-    if (!persp_caster(&caster, &plane, view, corner, casting->job.two_sided)) return -1;
+    if (!persp_caster(&caster, &plane, view, corner, casting->job.sides)) return -1;
     if (GN_CASTER_ALPHA && GN_TEXTURES && alpha && alpha->textured)
         gn_alpha_plane(alpha, frame, corner, fit->focal2_q16, view->tile_texels, 2);
     if (any) gn_clip(polygon, &casting->with.clipping.uncut, GN_OUT_ALL, fit->clip_q16, fit->guard_q16, 0);

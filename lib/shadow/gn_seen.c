@@ -178,8 +178,8 @@ static void find_bounds(gn_seen_job *job, uint32_t sides)
 static int see_object(gn_seen_job *job, uint32_t object_idx)
 {
     const gn_frame *frame = job->frame;
-    const gn_object *object = &frame->scene->objects[object_idx];
-    if (!(object->flags & GN_OBJECT_RECEIVES) || (object->flags & (GN_OBJECT_HIDDEN | GN_OBJECT_UNLIT))) return 0;
+    const uint32_t flags = frame->flags[object_idx];
+    if (!(flags & GN_OBJECT_RECEIVES) || (flags & (GN_OBJECT_HIDDEN | GN_OBJECT_UNLIT))) return 0;
     gn_seen_from(job, object_idx);
     uint32_t sides;
     if (!against_part(job, &sides)) return 0;

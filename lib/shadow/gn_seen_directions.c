@@ -216,7 +216,7 @@ void gn_seen_crop(gn_seen_job *job)
     int32_t eye[GN_SEEN_DIRECTIONS], at[3];
     for (int d = 0; d < 2 * GN_TURNS; d++) job->cast_lo[d] = INT32_MAX, job->cast_hi[d] = INT32_MIN;
     for (uint32_t o = 0; o < frame->scene->n_objects; o++)
-        if (frame->scene->objects[o].flags & GN_OBJECT_CASTS) add_caster(job, o);
+        if (frame->flags[o] & GN_OBJECT_CASTS) add_caster(job, o);
     for (int k = 0; k < 3; k++) at[k] = (int32_t)gn_dot_q30(job->axis_q30[k], frame->cam.eye_q16); /* sqrt(3) * 2^30 */
     gn_seen_directions(at, eye);
     for (int d = 0; d < 2 * GN_TURNS; d++) {

@@ -143,7 +143,9 @@ typedef struct {
     uint8_t tight;  /* beyond the tile, and within a filter's reach of its border, nothing casts */
     uint8_t unseen; /* no visible receiver looks into it: an empty tile of 8 x 8 texels that all such views share */
 #endif
-    gn_depth_block *block;  /* (T / 8) * (T / 8) */
+#if GN_DISK_FILTER
+    gn_depth_block *block; /* (T / 8) * (T / 8), of the disk filter alone: gn_blocks.h */
+#endif
     int32_t axis_q30[3][3]; /* u, v, w in the world */
     union {
         gn_ortho_fit ortho;
@@ -212,7 +214,7 @@ typedef struct {
     const gn_light_view *view;
     const gn_object *object;
     uint32_t object_idx;
-    int two_sided;
+    uint32_t sides; /* GN_SIDE_... that cast */
     gn_caster_corner *cache;
     uint32_t cache_mask;
     int32_t shrink_q16; /* caster bias, texels */

@@ -1,6 +1,5 @@
-/* Filters that weigh texels: tents (F3), and the linear kernels of the same width (F6). Compares come first,
- * weights are exact integers, and one division, done as a multiplication, comes last. Inline, as each has one caller
- * per pixel. */
+/* Filters that weigh texels: tents (F3). Compares come first, weights are exact integers, and one division, done as a
+ * multiplication, comes last. Inline, as each has one caller per pixel. */
 #ifndef GN_TENT_H
 #define GN_TENT_H
 
@@ -10,15 +9,9 @@
 
 #define GN_TENT_TAPS_MAX 8
 
-/* Whether taps are compared with the receiver's plane, in a way of their own. */
-#define GN_TENT_ON_PLANE(l) (GN_PLANES && !GN_SIZE_FIRST && (l)->sloped)
-
 /* Weights of the 2 (k + 1) texels of a tent along one axis, k = 1, 2, 3: exact rationals over (2k + 1)^2 F^2, which
  * they sum to. u = F * frac(centre + 1/2), 0 <= u <= F, F = 2^weight_bits <= 4096: everything stays below 2^30. */
 void gn_tent_weights(uint32_t *w, int32_t k, uint32_t u, int32_t weight_bits);
-
-/* The same for the linear kernels (F6): over 4 F, 12 F, 52 F. */
-void gn_linear_weights(uint32_t *w, int32_t k, uint32_t u, int32_t weight_bits);
 
 /* round to weight_bits; F itself is allowed: the weights are continuous there */
 GN_HOT static inline uint32_t gn_filter_fraction(int32_t c_q16, int32_t weight_bits)
@@ -115,21 +108,6 @@ GN_HOT static inline uint32_t gn_tent_dark(const gn_lookup *l, int32_t u, int32_
     return any | all << 16;
 }
 
-GN_HOT static inline uint32_t gn_linear_attenuation(const uint8_t *dark, int32_t k, int32_t cu, int32_t cv,
-                                                    int32_t bits)
-{
-    uint32_t wu[GN_TENT_TAPS_MAX], wv[GN_TENT_TAPS_MAX];
-    gn_linear_weights(wu, k, gn_filter_fraction(cu, bits), bits);
-    gn_linear_weights(wv, k, gn_filter_fraction(cv, bits), bits);
-    /* products <= 52 F * 16 F, their sum <= 52^2 F^2 <= 2704 * 2^24 */
-    uint32_t whole = k == 1 ? 16 : k == 2 ? 144 : 2704;
-    uint64_t sum = ((uint64_t)whole << 2 * bits) - gn_weighted(dark, 2 * (k + 1), wu, wv, bits <= 11);
-    return gn_weighted_fraction(sum, 2 * bits,
-                                k == 1   ? 268435456U
-                                : k == 2 ? 29826162U
-                                         : 1588375U); /* round(2^32 / whole) */
-}
-
 GN_INLINE uint32_t gn_tent_of_dark_inline(const uint8_t *dark, int32_t k, int32_t cu, int32_t cv, int32_t bits)
 {
     uint32_t wu[GN_TENT_TAPS_MAX], wv[GN_TENT_TAPS_MAX];
@@ -150,13 +128,10 @@ GN_INLINE uint32_t gn_tent_of_dark_inline(const uint8_t *dark, int32_t k, int32_
                                          : 1788824U); /* round(2^32 / whole) */
 }
 
-/* Attenuation of a lookup with both dark and lit texels, a byte of `dark` per row, by the scene's kernel of index k.
+/* Attenuation of a lookup with both dark and lit texels, a byte of `dark` per row, by the tent of index k.
  * cu, cv: the receiver, half a texel down and right, Q16, of which the fraction counts. */
-GN_HOT static GN_SHARED uint32_t gn_tent_of_dark(const gn_frame *frame, const uint8_t *dark, int32_t k, int32_t cu,
-                                                 int32_t cv, int32_t bits)
+GN_HOT static inline uint32_t gn_tent_of_dark(const uint8_t *dark, int32_t k, int32_t cu, int32_t cv, int32_t bits)
 {
-    if (GN_LINEAR_KERNELS && frame->scene->shadow.kernel == GN_KERNEL_LINEAR)
-        return gn_linear_attenuation(dark, k, cu, cv, bits);
     if (k == 1 && !GN_SIZE_FIRST) return gn_tent_of_dark_inline(dark, 1, cu, cv, bits); /* without its loops */
     return gn_tent_of_dark_inline(dark, k, cu, cv, bits);
 }
@@ -172,32 +147,21 @@ GN_HOT static inline int gn_tent_on_plane(const gn_lookup *l, int32_t u, int32_t
     return 0;
 }
 
-/* Texel by texel. With GN_SIZE_FIRST its arrays are not on the stack while bounds decide. */
-GN_HOT static GN_SHARED uint32_t gn_tent_by_texels(const gn_frame *frame, const gn_lookup *l, int32_t k, int32_t bits)
+/* Attenuation by the tent of index k. [F3] */
+GN_HOT static inline uint32_t gn_tent_attenuation(const gn_lookup *l, int32_t k, int32_t bits)
 {
     int32_t cu = l->u_q16 + 32768, cv = l->v_q16 + 32768, n = 2 * (k + 1);
     int32_t u0 = (cu >> 16) - (k + 1), v0 = (cv >> 16) - (k + 1);
     uint8_t dark[GN_TENT_TAPS_MAX];
-    uint32_t found, answer;
+    uint32_t found;
     if (!gn_tent_on_plane(l, u0, v0, n, dark, &found)) {
-        if (GN_DEPTH_BLOCKS && GN_TENT_ON_PLANE(l) && gn_lookup_decided(l, u0, v0, n, &answer)) return answer;
         GN_COUNT(undecided, 1);
         GN_COUNT(taps_tent, n * n);
         found = gn_tent_dark(l, u0, v0, n, dark);
     }
     if (!(found & 0xFFFFU)) return 65536;
     if (found >> 16 == (1U << n) - 1) return 0;
-    return gn_tent_of_dark(frame, dark, k, cu, cv, bits);
-}
-
-/* Attenuation by the kernel of index k that the scene chooses. Both kinds are done as tents: their radius and their
- * number of texels are the same. [F3] [F6] */
-GN_HOT static inline uint32_t gn_tent_attenuation(const gn_frame *frame, const gn_lookup *l, int32_t k, int32_t bits)
-{
-    int32_t u0 = ((l->u_q16 + 32768) >> 16) - (k + 1), v0 = ((l->v_q16 + 32768) >> 16) - (k + 1);
-    uint32_t answer;
-    if (GN_DEPTH_BLOCKS && !GN_TENT_ON_PLANE(l) && gn_lookup_decided(l, u0, v0, 2 * (k + 1), &answer)) return answer;
-    return gn_tent_by_texels(frame, l, k, bits);
+    return gn_tent_of_dark(dark, k, cu, cv, bits);
 }
 
 #endif

@@ -27,7 +27,7 @@ static int shadow_possible(const gn_frame *frame, uint32_t light_idx)
 {
     uint32_t flags = 0;
     for (uint32_t i = 0; i < frame->scene->n_objects; i++) {
-        uint32_t wanted = frame->scene->objects[i].flags & (GN_OBJECT_CASTS | GN_OBJECT_RECEIVES);
+        uint32_t wanted = frame->flags[i] & (GN_OBJECT_CASTS | GN_OBJECT_RECEIVES);
         if ((wanted & ~flags) && gn_light_reaches(frame, light_idx, i)) flags |= wanted;
         if (flags == (GN_OBJECT_CASTS | GN_OBJECT_RECEIVES)) return 1;
     }
@@ -88,7 +88,6 @@ static void request_tiles(gn_frame *frame, gn_tile_plan *plan)
     uint32_t main = GN_MAIN_LIGHT && scene->shadow.main_light ? main_light(frame) : GN_MAX_LIGHTS;
     for (uint32_t l = 0; l < scene->n_lights; l++) {
         const gn_light_state *light = &frame->light[l];
-        GN_ELEMENT(light);
         gn_tile_plan none = {0, 0, 0, 0, 0, 0};
         plan[l] = none;
         if (light->shadow_state == GN_SHADOW_NOT_WANTED) continue;

@@ -383,7 +383,7 @@ GN_HOT static GN_NOINLINE uint32_t by_weights(const gn_frame *frame, const windo
     uint32_t found = dark_texels(frame, rows, u >> 16, v >> 16, n, depth_q30, dark);
     if (!(found & 0xFFFFU)) return 65536;
     if (found >> 16 == (1U << n) - 1) return 0;
-    return gn_tent_of_dark(frame, dark, k, u, v, GN_K(frame, weight_bits));
+    return gn_tent_of_dark(dark, k, u, v, GN_K(frame, weight_bits));
 }
 #endif
 
@@ -459,7 +459,7 @@ GN_HOT int gn_window_row(const gn_frame *frame, const gn_window *window, const g
     }
     GN_COUNT(window_lookups, n);
 #if GN_FILTER_MAX >= 2
-    if (view->filter == GN_FILTER_3X3 && !(GN_LINEAR_KERNELS && frame->scene->shadow.kernel == GN_KERNEL_LINEAR)) {
+    if (view->filter == GN_FILTER_3X3) {
         row_3x3(frame, &rows, u, v, depth_q30, &across, n, attenuation);
         return said;
     }

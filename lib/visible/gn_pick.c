@@ -13,7 +13,7 @@ gn_status gn_pick(gn_renderer *r, uint32_t x, uint32_t y, uint32_t *object_idx, 
     if (triangle_idx) *triangle_idx = GN_NOTHING;
     if (!r) return GN_ERR_NULL;
     const gn_frame *frame = &r->frame;
-    if (frame->stage != GN_STAGE_PREPARED) return gn_fail(&r->frame, GN_ERR_ORDER, 0);
+    if (frame->stage != GN_STAGE_PREPARED) return gn_fail(&r->frame, gn_wrong_stage(frame), 0);
     if (x >= frame->picture.width || y >= frame->picture.height) return gn_fail(&r->frame, GN_ERR_INDEX, 0);
     const uint32_t tile_idx =
         y / (uint32_t)GN_K(frame, tile_height) * frame->tiles_x + x / (uint32_t)GN_K(frame, tile_width);

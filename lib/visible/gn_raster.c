@@ -8,6 +8,7 @@
 #include "base/gn_hint.h"
 #include "base/gn_q.h"
 #include "geometry/gn_alpha.h"
+#include "geometry/gn_pixel_mask.h"
 #include "geometry/gn_plane.h"
 #include "geometry/gn_walk.h"
 #include "geometry/gn_xform.h"
@@ -174,8 +175,7 @@ GN_HOT static inline void cut_plane(const gn_frame *frame, gn_scratch *scratch, 
 /* Pixels that alpha cuts have no surface. [M8] */
 GN_HOT static inline void cut_begin(const gn_frame *frame, gn_scratch *scratch, gn_alpha_cut *cut, const gn_tri *tri)
 {
-    const gn_object *object = &frame->scene->objects[tri->source.object_idx];
-    GN_ELEMENT(object);
+    const gn_object *object = &frame->objects[tri->source.object_idx];
     const uint16_t *idx = object->mesh->idx + 3 * (size_t)tri->source.triangle_idx;
     const int dithers = GN_LAYERS_MAX && object->visible_alpha == GN_ALPHA_BLEND && !GN_LAYERS(frame);
     gn_alpha_begin(cut, object, dithers ? GN_ALPHA_DITHER : object->visible_alpha, idx);
@@ -329,6 +329,38 @@ GN_HOT static GN_NOINLINE void raster_narrow(const raster_tile *tile, const gn_t
     }
 }
 
+/* A triangle whose pixels are known. */
+GN_HOT static GN_NOINLINE void raster_mask(const raster_tile *tile, const gn_tri *tri, uint32_t id)
+{
+    const int32_t bits = GN_K(tile->frame, subpixel_bits), stride = GN_K(tile->frame, tile_width),
+                  walk = tri->iz.unbounded.walk, left = (walk >> 12 & 7) - 1;
+    const int32_t top = tri->y[0] + tile->y, column = (tri->x[0] + tile->x) >> bits, row = top >> bits;
+    const uint32_t dx = (uint32_t)tri->iz_dx, dy = (uint32_t)tri->iz_dy, id_mask = tile->id_mask, below = id_mask - id;
+    uint32_t mask = (uint32_t)walk & 0xFFFU;
+    int32_t x = column - left, y = gn_first_px(top, bits);
+    if (x < 0 || y < 0 || x > tile->width - GN_MASK_WIDTH || y > tile->height - GN_MASK_HEIGHT) {
+        mask = gn_mask_cut(mask, x, y, tile->width, tile->height);
+        mask >>= gn_max32(-x, 0) + GN_MASK_WIDTH * gn_max32(-y, 0); /* nothing is left before */
+        x = gn_max32(x, 0), y = gn_max32(y, 0);
+        if (!mask) return;
+    }
+    uint32_t iz = tri->iz_ref + (uint32_t)(x - column) * dx + (uint32_t)(y - row) * dy;
+    uint32_t *cell = GN_CELLS(tile->scratch) + y * stride + x;
+    for (;;) {
+        uint32_t at = iz, *next = cell;
+        GN_COUNT(rows, (mask & 15) != 0);
+        for (uint32_t pixels = mask & 15; pixels; pixels >>= 1, next++, at += dx) {
+            if (!(pixels & 1U)) continue;
+            const uint32_t nearest = (at | id_mask) - below;
+            GN_COUNT(covered, 1);
+            if (nearest > *next) *next = nearest;
+        }
+        mask >>= GN_MASK_WIDTH;
+        if (!mask) return;
+        cell += stride, iz += dy;
+    }
+}
+
 /* Row v of the tile. */
 GN_HOT static void cut_row(const raster_tile *tile, gn_alpha_cut *cut, int32_t v, const gn_span *span)
 {
@@ -395,11 +427,12 @@ GN_HOT static GN_NOINLINE void raster_cut_triangle(const raster_tile *tile, cons
 GN_HOT static inline void raster_one(const raster_tile *tile, const gn_tri *tri, uint32_t id)
 {
     if (!GN_SIZE_FIRST && !gn_tri_is_bounded(tri) && tri->iz.unbounded.walk != GN_TRI_EXACT) {
-        if (tri->iz.unbounded.walk == GN_TRI_NARROW) raster_narrow(tile, tri, id);
+        if (tri->iz.unbounded.walk & GN_TRI_MASK) raster_mask(tile, tri, id);
+        else if (tri->iz.unbounded.walk == GN_TRI_NARROW) raster_narrow(tile, tri, id);
         else raster_small(tile, tri, id);
         return;
     }
-    if (GN_VISIBLE_ALPHA && tile->frame->scene->objects[tri->source.object_idx].visible_alpha != GN_ALPHA_OPAQUE) {
+    if (GN_VISIBLE_ALPHA && tile->frame->objects[tri->source.object_idx].visible_alpha != GN_ALPHA_OPAQUE) {
         raster_cut_triangle(tile, tri, id);
         return;
     }

@@ -55,12 +55,6 @@ GN_HOT static inline void gn_runs_link(gn_scratch *scratch, uint32_t id, uint32_
     *list = (gn_run_idx)at;
 }
 
-/* Leaves a run out: nothing that is linked goes on in its cells. */
-GN_HOT static inline void gn_runs_drop(uint32_t *first)
-{
-    *first = 0;
-}
-
 /* Walks the runs of one triangle, top down and left to right, and takes them from their list: all of them. */
 typedef struct {
     uint32_t *cell;

@@ -5,7 +5,9 @@
 #include "base/gn_hint.h"
 #include "base/gn_math.h"
 #include "base/gn_q.h"
+#include "geometry/gn_pixel_mask.h"
 #include "geometry/gn_walk.h"
+#include "scene/gn_sides.h"
 #include "visible/gn_group.h"
 #include "visible/gn_screen_triangle.h"
 #include "visible/gn_setup.h"
@@ -166,7 +168,6 @@ static inline void count_tiles(const gn_screen_job *job, const gn_rect *px)
 {
     gn_tile_walk tiles = gn_setup_tiles(job->frame, px); /* of some tiles */
     gn_ref_offset *at = job->tile_first + tiles.first;
-    GN_ELEMENT(at);
     do {
         int32_t n = tiles.width;
         do ++*at++;
@@ -210,9 +211,33 @@ static inline grid_corner on_grid(const gn_projected *at, int32_t bits)
     return snapped;
 }
 
-/* Everything of a triangle that begins with its top; px: width and height on the subpixel grid. */
+/* How a triangle is drawn that begins with its top and has these bounds, px after they are cut to the picture: see
+ * gn_tri_depth. 0: it covers no pixel, which is known of those whose box is small. */
+static inline int32_t walk_of(const gn_screen_job *job, const gn_rect *px, const grid_corner *a, const grid_corner *b,
+                              const grid_corner *c, int32_t left, int32_t right, int32_t bottom)
+{
+    const gn_picture *picture = &job->frame->picture;
+    const int32_t bits = GN_K(job->frame, subpixel_bits), first = (1 << bits) - 1, width = right - left,
+                  height = bottom - a->y;
+    const int32_t x = (left + job->add_px[0]) >> bits, y = (a->y + job->add_px[1]) >> bits,
+                  columns = ((right + job->add_px[0]) >> bits) - x, rows = ((bottom + job->add_px[1]) >> bits) - y;
+    if (columns <= GN_MASK_WIDTH && rows <= GN_MASK_HEIGHT) {
+        uint32_t mask = gn_pixel_mask(x * (1 << bits) + first - job->add_px[0] - a->x,
+                                      y * (1 << bits) + first - job->add_px[1] - a->y, b->x - a->x, b->y - a->y,
+                                      c->x - a->x, c->y - a->y, columns, rows, bits);
+        if (x != px->x0 || y != px->y0 || x + columns != px->x1 || y + rows != px->y1)
+            mask = gn_mask_cut(mask, x, y, picture->width, picture->height);
+        if (!mask) return 0;
+        const int32_t top = (a->x + ((picture->width << bits) >> 1)) >> bits;
+        if (!GN_SIZE_FIRST && job->narrow) return GN_TRI_MASK | (1 + top - x) << 12 | (int32_t)mask;
+    }
+    if (!GN_SIZE_FIRST && width < job->narrow && height < job->narrow) return GN_TRI_NARROW;
+    return gn_max32(job->fixed_mask & gn_walk_lasts((uint32_t)width | (uint32_t)height), GN_TRI_EXACT);
+}
+
+/* Everything of a triangle that begins with its top. */
 static inline void fill_triangle(const gn_screen_job *job, gn_tri *tri, const grid_corner *a, const grid_corner *b,
-                                 const grid_corner *c, int32_t width, int32_t height, uint32_t triangle_idx)
+                                 const grid_corner *c, int32_t walk, uint32_t triangle_idx)
 {
     const gn_frame *frame = job->frame;
     int32_t bits = GN_K(frame, subpixel_bits);
@@ -227,9 +252,6 @@ static inline void fill_triangle(const gn_screen_job *job, gn_tri *tri, const gr
             y = a->y + ((frame->picture.height << bits) >> 1);
     int32_t to_x_q16 = ((a->x - (x & (one - 1))) * 2 + one) * (1 << (15 - bits)) - a->at->x_q16;
     int32_t to_y_q16 = ((a->y - (y & (one - 1))) * 2 + one) * (1 << (15 - bits)) - a->at->y_q16;
-    int32_t walk = GN_TRI_NARROW;
-    if (GN_SIZE_FIRST || width >= job->narrow || height >= job->narrow)
-        walk = gn_max32(job->fixed_mask & gn_walk_lasts((uint32_t)width | (uint32_t)height), GN_TRI_EXACT);
     if (!GN_SIZE_FIRST && quick_depth(tri, a->at, b->at, c->at, to_x_q16, to_y_q16, walk, bits)) return;
     general_depth(tri, a->at, b->at, c->at, to_x_q16, to_y_q16, walk, bits);
 }
@@ -250,10 +272,10 @@ static inline int order_corners(grid_triangle *t, const gn_screen_job *job, cons
     const int64_t area = (int64_t)(b.x - a.x) * (c.y - a.y) - (int64_t)(c.x - a.x) * (b.y - a.y);
     t->order = 1;
     if (area >= 0) {
-        if (area == 0 || !(job->object->flags & GN_OBJECT_TWO_SIDED)) return 0;
+        if (area == 0 || !(job->sides & GN_SIDE_CW)) return 0;
         swap = b, b = c, c = swap;
         t->order = 4;
-    }
+    } else if (!(job->sides & GN_SIDE_CCW)) return 0;
     if (c.y < a.y && c.y < b.y) swap = a, a = c, c = b, b = swap, t->order += 2; /* rotated, to begin with the top */
     else if (b.y < a.y) swap = a, a = b, b = c, c = swap, t->order++;
     t->a = a, t->b = b, t->c = c;
@@ -263,9 +285,10 @@ static inline int order_corners(grid_triangle *t, const gn_screen_job *job, cons
 }
 
 /* Everything of a record but its place among the frame's. triangle_idx: GN_TRI_PART is added for a part of one. */
-static inline void fill_record(const gn_screen_job *job, gn_tri *tri, const grid_triangle *t, uint32_t triangle_idx)
+static inline void fill_record(const gn_screen_job *job, gn_tri *tri, const grid_triangle *t, int32_t walk,
+                               uint32_t triangle_idx)
 {
-    fill_triangle(job, tri, &t->a, &t->b, &t->c, t->right - t->left, t->bottom - t->a.y, triangle_idx);
+    fill_triangle(job, tri, &t->a, &t->b, &t->c, walk, triangle_idx);
     uint32_t order = triangle_idx & GN_TRI_PART ? GN_TRI_CUT : t->order;
     if (!(tri->iz_dx | tri->iz_dy) && tri->iz_ref != t->a.at->iz_q32) order = GN_TRI_STEEP;
     tri->iz_ref = (tri->iz_ref & ~7U) | order;
@@ -275,11 +298,12 @@ GN_NOINLINE void gn_screen_triangle(const gn_screen_job *job, const gn_projected
                                     const gn_projected *p2, uint32_t triangle_idx)
 {
     const gn_frame *frame = job->frame;
-    GN_ELEMENT(frame);
     grid_triangle t;
     if (!order_corners(&t, job, p0, p1, p2)) return;
     const gn_rect bounds = gn_setup_bounds_of(frame, t.left, t.right, t.a.y, t.bottom, job->add_px[0], job->add_px[1]);
     if (bounds.x0 >= bounds.x1 || bounds.y0 >= bounds.y1) return;
+    const int32_t walk = walk_of(job, &bounds, &t.a, &t.b, &t.c, t.left, t.right, t.bottom);
+    if (!walk) return;
 #if GN_GROUPS
     if (GN_K(frame, triangle_groups)) {
         gn_screen_tile_job *tile = job->tile;
@@ -291,7 +315,7 @@ GN_NOINLINE void gn_screen_triangle(const gn_screen_job *job, const gn_projected
             bounds.y1 <= tile->rect.y0 || tile->n_drawn == tile->n_counted)
             return;
         gn_tri drawn;
-        fill_record(job, &drawn, &t, triangle_idx);
+        fill_record(job, &drawn, &t, walk, triangle_idx);
         tile->drawn[++tile->n_drawn] = drawn.source;
         GN_COUNT(tile_refs, 1);
         gn_raster_triangle(tile->target, &drawn, tile->n_drawn);
@@ -299,7 +323,7 @@ GN_NOINLINE void gn_screen_triangle(const gn_screen_job *job, const gn_projected
     }
 #endif
     gn_tri *tri = count_record(job, &bounds);
-    if (tri) fill_record(job, tri, &t, triangle_idx);
+    if (tri) fill_record(job, tri, &t, walk, triangle_idx);
 }
 
 #if GN_GROUPS
@@ -308,7 +332,7 @@ int gn_screen_record(const gn_screen_job *job, const gn_projected *p0, const gn_
 {
     grid_triangle t;
     if (!order_corners(&t, job, p0, p1, p2)) return 0;
-    fill_record(job, out, &t, triangle_idx);
+    fill_record(job, out, &t, GN_TRI_EXACT, triangle_idx);
     return 1;
 }
 #endif
@@ -335,6 +359,7 @@ void gn_screen_begin(gn_screen_job *job, const gn_frame *frame)
 
 void gn_screen_object(gn_screen_job *job)
 {
+    job->sides = gn_sides_of(job->frame->flags[job->object_idx], GN_OBJECT_TWO_SIDED);
     job->fixed_mask = GN_VISIBLE_ALPHA && job->object->visible_alpha != GN_ALPHA_OPAQUE ? 0 : -1;
     job->narrow = job->fixed_mask & gn_walk_narrow(GN_K(job->frame, subpixel_bits));
 }

@@ -26,6 +26,7 @@ typedef struct {
     const gn_frame *frame;
     const gn_object *object;
     uint32_t object_idx;
+    uint32_t sides;  /* GN_SIDE_... that are drawn */
     gn_stats *stats; /* this and the next are written in a frame's setup only */
     gn_ref_offset *tile_first;
     gn_tri *tri;
@@ -46,8 +47,8 @@ void gn_screen_object(gn_screen_job *job);
 /* Added to the index of a triangle of which a part is drawn: the near plane or the guard band cut it. */
 #define GN_TRI_PART 0x10000U
 
-/* A triangle in the guard band, counter-clockwise in the world if it faces the camera: nothing if it faces away or
- * covers no pixel centre. */
+/* A triangle in the guard band, counter-clockwise in the world if it faces the camera, or clockwise if a mirror turned
+ * it: nothing if it faces away or covers no pixel centre. */
 void gn_screen_triangle(const gn_screen_job *job, const gn_projected *p0, const gn_projected *p1,
                         const gn_projected *p2, uint32_t triangle_idx);
 

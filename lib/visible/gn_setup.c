@@ -36,7 +36,6 @@ int gn_setup_vertex(int32_t out_q16[3], gn_vertex_entry *cache, const gn_xform *
                     uint32_t object_idx, uint32_t vertex_idx)
 {
     gn_vertex_entry *entry = &cache[gn_vertex_slot(vertex_idx, GN_VERTEX_CACHE - 1)];
-    GN_ELEMENT(entry);
     uint32_t tag = gn_vertex_tag(object_idx, vertex_idx);
     if (!gn_vertex_hit(entry, tag)) {
         gn_vertex_drop(entry);
@@ -162,9 +161,9 @@ static GN_NOINLINE int fill_far_corner(const setup_job *job, setup_corner *c)
 /* The same, without testing planes for most vertices. */
 GN_INLINE int fill_corner_fast(const setup_job *job, setup_corner *c, uint32_t vertex_idx)
 {
-    const gn_mesh *mesh = job->screen.object->mesh;
-    int32_t v[3];
-    if (!gn_xform_fast_wide(v, &job->fast, mesh->pos + 3 * (size_t)vertex_idx)) {
+    int32_t v[3], p[3];
+    gn_position_of(p, job->screen.object, vertex_idx);
+    if (!gn_xform_fast_wide(v, &job->fast, p)) {
         if (!view_position(c->vertex.v_q16, &job->xform, job->screen.object, vertex_idx)) return 0;
         for (int k = 0; k < 3; k++) v[k] = c->vertex.v_q16[k];
     }
@@ -240,7 +239,6 @@ static void setup_begin_object(setup_job *job)
     const gn_cam *cam = &job->screen.frame->cam;
     gn_xform_compose(&job->xform, cam->axis_q30, cam->eye_q16, job->screen.object);
     if (!GN_SIZE_FIRST) gn_xform_fast_begin(&job->fast, &job->xform);
-    if (!GN_SIZE_FIRST && GN_SKIN(job->screen.object)) job->fast.reach = 0; /* its positions are not the mesh's */
     gn_screen_object(&job->screen);
 }
 
@@ -302,9 +300,9 @@ static void setup_begin_groups(gn_frame *frame)
 {
     const uint32_t n_groups = (uint32_t)GN_K(frame, triangle_groups);
     uint32_t n = 0;
-    for (uint32_t i = 0; i < frame->scene->n_objects; i++) {
-        const gn_object *object = &frame->scene->objects[i];
-        if (!(object->flags & GN_OBJECT_HIDDEN)) n += object->mesh->n_triangles;
+    for (uint32_t i = 0; i < frame->n_objects; i++) {
+        const gn_object *object = &frame->objects[i];
+        if (!(frame->flags[i] & GN_OBJECT_HIDDEN)) n += object->mesh->n_triangles;
     }
     frame->n_grouped = n;
     frame->group_shift = 0;
@@ -355,10 +353,10 @@ void gn_setup_tile(const gn_frame *frame, gn_scratch *scratch, uint32_t tile_idx
     job.screen.stats = NULL;
     setup_window(&job, &tile.rect);
     job.screen.tile = &tile;
-    for (uint32_t i = frame->scene->n_objects; i-- > 0;) {
+    for (uint32_t i = frame->n_objects; i-- > 0;) {
         job.screen.object_idx = i;
-        job.screen.object = &frame->scene->objects[i];
-        if (job.screen.object->flags & GN_OBJECT_HIDDEN) continue;
+        job.screen.object = &frame->objects[i];
+        if (frame->flags[i] & GN_OBJECT_HIDDEN) continue;
         first -= job.screen.object->mesh->n_triangles;
         setup_draw_groups(&job, gn_group_of(column, column, row, row), first);
     }
@@ -413,10 +411,10 @@ gn_status gn_setup_triangles(gn_frame *frame, gn_scratch *scratch)
     frame->stats.n_triangles = 0;
     frame->stats.n_clipped = 0;
     for (uint32_t i = 0; i <= (uint32_t)frame->tiles_x * frame->tiles_y; i++) frame->tile_first[i] = 0;
-    for (uint32_t i = 0; i < frame->scene->n_objects; i++) {
+    for (uint32_t i = 0; i < frame->n_objects; i++) {
         job.screen.object_idx = i;
-        job.screen.object = &frame->scene->objects[i];
-        if (job.screen.object->flags & GN_OBJECT_HIDDEN) continue;
+        job.screen.object = &frame->objects[i];
+        if (frame->flags[i] & GN_OBJECT_HIDDEN) continue;
         gn_status status = setup_object(&job, frame, first);
         if (status) return GN_FAIL_AT(frame, status, i, GN_MESH_FIELD(status));
         first += job.screen.object->mesh->n_triangles;

@@ -3,6 +3,7 @@
 #   sh tests/bench/bench_target.sh            fails if a total is more than 2 % above the baseline
 #   sh tests/bench/bench_target.sh --quick    the workload on the Cortex-M3 alone
 #   sh tests/bench/bench_target.sh --document writes the baseline's figures into docs/data/SPEED.md; --check: whether they are there
+#   sh tests/bench/bench_target.sh --lines CORE PRESET...    lines of the baseline: the own scenes on one core
 #   sh tests/bench/bench_target.sh --write    makes the new figures the baseline, and writes them into docs/data/SPEED.md
 # Environment: BUILD, GNOMON.
 set -eu
@@ -16,8 +17,9 @@ CASES="flat gouraud flat-shadow gouraud-shadow"
 SCENES="sundial avenue desk room fence mixed"
 STAGES=$(sh boards/tools/count.sh --stages)
 
-# core, board, and what it is configured by: light found at vertices alone, the longest steps, bands as wide as the picture
+# core, board, and what it is configured by: built with -O2, or as the core's name ends; light found at vertices alone, the longest steps, bands as wide as the picture
 CORES="M3 mps2-an385
+M3-Os mps2-an385
 M3-fast mps2-an385 -DGN_VERTEX_LIGHT=1 -DGN_PERSP_STEP=16 -DGN_TILE_WIDTH=320 -DGN_TILE_HEIGHT=16
 M0 nrf51-large
 M4 mps2-an386
@@ -27,14 +29,23 @@ mkdir -p "$DIR"
 
 board_of() { echo "$CORES" | sed -n "s/^$1 \\([^ ]*\\).*/\\1/p"; }
 flags_of() { echo "$CORES" | sed -n "s/^$1 [^ ]* *//p"; }
+opt_of() { case $1 in *-O?) echo "-${1##*-}" ;; *) echo -O2 ;; esac; }
+
+# Bytes of lib/ in an image: code and constants, from the linker's map
+flash_of() {
+    awk '/^Linker script and memory map/ { on = 1 } !on { next }
+        /^ \.[a-zA-Z]/ { section = $1 }
+        $NF ~ /lib\/gnomon\.o$/ && section !~ /^\.(bss|debug|comment|ARM\.attributes)/ { for (i = 1; i < NF; i++) if ($i ~ /^0x/ && $(i + 1) ~ /^0x/) print $(i + 1) }' "$1" |
+        while read -r hex; do echo $((hex)); done | awk '{ n += $1 } END { print n + 0 }'
+}
 
 # one "run CORE NAME" IMAGE CORE ARGS VARIABLE...: a line with the instructions of every stage, in the order of STAGES, then the
-# counts that the app prints
+# counts that the app prints, and of lib/ the bytes of flash
 one() {
     label=$1 image=$2 core=$3 args=$4
     shift 4
-    sh boards/tools/count.sh "$(board_of "$core")" "$image" "$args" FW_OPT=-O2 FW_FLAGS="$(flags_of "$core")" "$@" </dev/null >"$DIR/log"
-    echo "$label $(awk '$1 == "stage" { printf "%s ", $3 } /^[a-z_]+ [0-9]+$/ { printf "%s ", $2 }' "$DIR/log")" | sed 's, *$,,'
+    sh boards/tools/count.sh "$(board_of "$core")" "$image" "$args" FW_OPT="$(opt_of "$core")" FW_FLAGS="$(flags_of "$core")" LINK_FLAGS="-Wl,-Map=$DIR/$image.map" "$@" </dev/null >"$DIR/log"
+    echo "$label $(awk '$1 == "stage" { printf "%s ", $3 } /^[a-z_]+ [0-9]+$/ { printf "%s ", $2 }' "$DIR/log")$(flash_of "$DIR/$image.map")" | sed 's, *$,,'
 }
 
 workload() { # workload CORE
@@ -65,13 +76,14 @@ small() {
 }
 
 measure() { # measure QUICK
-    echo "# Written by tests/bench/bench_target.sh --write. Instructions of: $STAGES; then pixels, triangles, caster triangles, shadow texels drawn."
+    echo "# Written by tests/bench/bench_target.sh --write. Instructions of: $STAGES; then pixels, triangles, caster triangles, shadow texels drawn, bytes of lib/ in the image."
     echo "compiler $(arm-none-eabi-gcc --version | sed 1q); $(riscv64-unknown-elf-gcc --version | sed 1q)"
     "$BUILD/firmware/bench/workload" count
     workload M3
     [ "$1" = quick ] && return
     for core in M3-fast M0 M4 RV32; do workload "$core"; done
     scenes M3 tiny fast balanced accurate
+    scenes M3-Os balanced
     small
     for core in M0 M4 RV32; do scenes "$core" balanced; done
 }
@@ -148,6 +160,11 @@ case ${1:-} in
 esac
 for core in M3 RV32; do sh boards/tools/count.sh --ready "$(board_of $core)"; done
 make -s BOARD=mps2-an385 APP=bench BUILD="$BUILD" "$BUILD/firmware/bench/bench_meshes.h" >/dev/null # makes the workload
+if [ "${1:-}" = --lines ]; then
+    shift
+    scenes "$@"
+    exit
+fi
 if [ "${1:-}" = --write ]; then
     measure all >"$DIR/target.txt"
     cp "$DIR/target.txt" "$BASELINE"

@@ -91,8 +91,8 @@ none "a function of a hot file without GN_HOT" "$tmp/found"
 
 # ---- Who includes whom -----------------------------------------------------------------------------------------------------
 
-find lib -name '*.[ch]' | xargs grep -H -E '^[[:space:]]*#[[:space:]]*include' | grep -v -E '<(stdint|stddef|string)\.h>|"([a-z]+/)?(gnomon|gn_[a-z_]+)\.[ch]"|(GN_USER_CONFIG|GN_PORT)$' >"$tmp/found"
-none "lib/ includes more than itself, stdint.h, stddef.h and string.h" "$tmp/found"
+find lib -name '*.[ch]' | xargs grep -H -E '^[[:space:]]*#[[:space:]]*include' | grep -v -E '<(limits|stdint|stddef|string)\.h>|"([a-z]+/)?(gnomon|gn_[a-z_]+)\.[ch]"|(GN_USER_CONFIG|GN_PORT)$' >"$tmp/found"
+none "lib/ includes more than itself, limits.h, stdint.h, stddef.h and string.h" "$tmp/found"
 find lib -name '*.[ch]' | xargs grep -h -E '^ *#include "' | sed 's/.*"\(.*\)".*/\1/' | sort -u | while read -r header; do
     [ -f "lib/$header" ] || echo "$header"
 done >"$tmp/found"

@@ -15,7 +15,7 @@ agrees() { # agrees FILE NAME TABLE REMEDY
     part "$1" "$2" >"$tmp/part"
     [ -s "$3" ] && cmp -s "$tmp/part" "$3" && pass || fail "$1 has another table of $2 than its baseline: $4"
 }
-for name in sizes speed; do
+for name in sizes speed builds; do
     sh docs/cost.sh --table $name >"$tmp/$name"
     agrees README.md $name "$tmp/$name" "sh docs/cost.sh"
     agrees docs/COST.md $name "$tmp/$name" "sh docs/cost.sh"

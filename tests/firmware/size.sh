@@ -6,10 +6,11 @@
 #   sh tests/firmware/size.sh --write             makes the figures tests/firmware/size_baseline.txt, and writes docs/data/SIZES.md, COST and README
 #   sh tests/firmware/size.sh --files CORE CONFIGURATION        flash by file of lib/
 #   sh tests/firmware/size.sh --list FILE CORE...    figures of configurations of a file: lines NAME FLAGS...
+#   sh tests/firmware/size.sh --o2 CORE          figures of flash with -O2 alone, for the baseline
 #   sh tests/firmware/size.sh --flags CONFIGURATION   its compiler flags
 #   sh tests/firmware/size.sh --document          writes the documents alone
 #   sh tests/firmware/size.sh --functions CORE CONFIGURATION    the largest functions and tables of an image
-# Cores are those of boards/*/board.mk, but Xtensa. Everything is compiled as boards/boards.mk does it, -Os.
+# Cores are those of boards/*/board.mk, but Xtensa. Everything is compiled as boards/boards.mk does it, but with -Os; flash with -O2, the default of boards, too.
 set -eu
 cd "$(dirname "$0")/../.."
 BASELINE=tests/firmware/size_baseline.txt
@@ -45,7 +46,7 @@ flags_of() {
     full) # every feature of the specification, in one way each: without cells and windows, bounds of depth and boxes, which only save time
         for feature in $features; do
             case $feature in
-            DEPTH_BLOCKS | OBJECT_BOXES) echo "-DGN_$feature=0" ;;
+            OBJECT_BOXES) echo "-DGN_$feature=0" ;;
             VERTEX_JOINTS) echo "-DGN_$feature=4" ;;
             *) [ "$feature" = FILTER_MAX ] || echo "-DGN_$feature=1" ;;
             esac
@@ -57,13 +58,14 @@ flags_of() {
 
 # ---- Measuring --------------------------------------------------------------------------------------------------------------
 
+optimise=-Os
 # By lines, flash is found by file: slower to compile, and the same code.
 debug=
 case ${1:-} in --write | --document | --files) debug=-g ;; esac
 
 # object SOURCE FILE: compiled, or a copy of what the same lines came to before
 object() {
-    same=$work/same.$prefix$($compile -E -P "$1" | { echo "$core_flags"; cat; } | cksum | tr " " .)
+    same=$work/same.$prefix$($compile -E -P "$1" | { echo "$core_flags $optimise"; cat; } | cksum | tr " " .)
     if [ ! -e "$same.o" ]; then
         own=$dir/new
         $compile -fstack-usage -c "$1" -o "$own.o"
@@ -82,23 +84,27 @@ image() {
     prefix=$3
     compile="$prefix"
     core_flags=$(shift 3 && echo "$*")
-    compile="${prefix}gcc $core_flags -std=c99 -Os $debug -ffreestanding -isystem boards/common/include -ffunction-sections -fdata-sections -Ilib $(flags_of "$2")"
+    compile="${prefix}gcc $core_flags -std=c99 $optimise $debug -ffreestanding -isystem boards/common/include -ffunction-sections -fdata-sections -Ilib $(flags_of "$2")"
     (cd "$dir" && for source in ../../../../lib/*.c ../../../../tests/firmware/size_app.c; do echo "$source"; done) | sed 's|^\(../\)*||' >"$dir/sources"
     while read -r source; do
         object "$source" "$dir/$(basename "$source" .c)"
     done <"$dir/sources"
     $compile -fno-tree-loop-distribute-patterns -fno-builtin -c boards/common/memory.c -o "$dir/memory.o"
     $compile -c tests/firmware/size_parts.c -o "$dir/parts.obj"
-    ${prefix}gcc $core_flags -Os -nostdlib -nostartfiles -Wl,--gc-sections -Wl,-e,size_main -Wl,--no-warn-rwx-segments -o "$dir/image" "$dir"/*.o -lgcc
+    ${prefix}gcc $core_flags $optimise -nostdlib -nostartfiles -Wl,--gc-sections -Wl,-e,size_main -Wl,--no-warn-rwx-segments -o "$dir/image" "$dir"/*.o -lgcc
     ${prefix}objdump -d --no-show-raw-insn "$dir/image" | awk -f tests/firmware/call_graph.awk "$dir"/gnomon.su - >"$dir/graph"
     ${prefix}nm -S --radix=d "$dir/image" | awk '{ print $2 + 0, $3, $4 }' >"$dir/symbols"
+}
+
+# flash CORE CONFIGURATION NAME: of the image, all but the program and the four functions of string.h
+flash() {
+    ${prefix}size "$dir/image" | awk -v f="flash $1 $2 $3" -v app="$(awk '$3 ~ /^(size_.*|mem(set|cpy|move|cmp))$/ && $2 ~ /[tTrR]/ { n += $1 } END { print n + 0 }' "$dir/symbols")" 'NR == 2 { print f, $1 - app }'
 }
 
 ROOTS="gn_init gn_begin gn_shadow_tile gn_prepare gn_screen_tile gn_render"
 figures() { # figures CORE CONFIGURATION
     image "$1" "$2"
-    # of the image, all but the program and the four functions of string.h
-    ${prefix}size "$dir/image" | awk -v f="flash $1 $2 linked" -v app="$(awk '$3 ~ /^(size_.*|mem(set|cpy|move|cmp))$/ && $2 ~ /[tTrR]/ { n += $1 } END { print n + 0 }' "$dir/symbols")" 'NR == 2 { print f, $1 - app }'
+    flash "$1" "$2" linked
     ${prefix}size -A "$dir"/gnomon.o | awk -v f="whole $1 $2 all" '/^\.(text|rodata|srodata)/ { n += $2 } END { print f, n }'
     ${prefix}size "$dir"/gnomon.o | awk -v f="fault $1 $2 data+bss" 'NR > 1 { n += $2 + $3 } END { print f, n }'
     ${prefix}nm -S --radix=d "$dir/parts.obj" | sed -n 's/^[0-9]* 0*\([0-9][0-9]*\) . ram_/\1 /p' | awk -v f="ram $1 $2" '{ print f, $2, $1 }'
@@ -144,14 +150,22 @@ files() {
 two_at_a_time() { # the figures of $work/wanted
     for half in 0 1; do
         awk -v half=$half 'NR % 2 == half' "$work/wanted" | while read -r core configuration; do
-            figures "$core" "$configuration"
-            rm -r "$dir"
+            [ "$wanted" = o2 ] || figures "$core" "$configuration"
+            case $wanted in
+            all | o2)
+                optimise=-O2
+                image "$core" "$configuration"
+                flash "$core" "$configuration" linked-O2
+                optimise=-Os ;;
+            esac
+            rm -rf "$dir"
         done >"$work/figures$half" &
     done
     wait
     sort "$work/figures0" "$work/figures1"
 }
 
+wanted=all
 measure() { # measure [some]
     for core in $(cores | cut -d ' ' -f 1); do
         for configuration in $CONFIGURATIONS; do
@@ -162,7 +176,7 @@ measure() { # measure [some]
 }
 
 measure_list() { # measure_list FILE CORE...
-    list=$1
+    list=$1 wanted=list
     shift
     for core; do awk -v core="$core" '{ print core, $1 }' "$list"; done >"$work/wanted"
     two_at_a_time
@@ -188,16 +202,18 @@ tables() { # tables FILE
             head(names)
             for (i = 1; i <= n; i++) {
                 line = "| " name[i] " |"
-                for (c = 1; c <= n_cores; c++) line = line " " figure[kind, core[c], name[i], what] " |"
+                for (c = 1; c <= n_cores; c++) line = line " " ((kind, core[c], name[i], what) in figure ? figure[kind, core[c], name[i], what] : "·") " |"
                 print line
             }
         }
         END {
-            print "Flash in bytes, of a program that renders (code, constants and the compiler'"'"'s helpers; without the program and the functions of `string.h`):\n"
+            print "With -Os. Flash in bytes, of a program that renders (code, constants and the compiler'"'"'s helpers; without the program and the functions of `string.h`):\n"
             table("flash", "linked", "configuration")
-            print "\nThe same of everything in `lib/`, used or not:\n"
+            print "\nThe same with -O2, as boards are built by default:\n"
+            table("flash", "linked-O2", "configuration")
+            print "\nOf everything in `lib/`, used or not, with -Os:\n"
             table("whole", "all", "configuration")
-            print "\nWorst-case stack of `gn_render` in bytes, without that of the flush callback:\n"
+            print "\nWorst-case stack of `gn_render` in bytes with -Os, without that of the flush callback:\n"
             table("stack", "gn_render", "configuration")
             n = split("gn_init gn_begin gn_shadow_tile gn_prepare gn_screen_tile", root, " ")
             step = ("Cortex-M3" in known) ? "Cortex-M3" : core[1]
@@ -268,7 +284,13 @@ document() { # from the baseline, and the files as they are
 
 case ${1:-} in
 --flags) echo $(flags_of "$2") ;;
---figures) measure "${2:-all}" ;;
+--figures)
+    wanted=${2:-all}
+    measure "$wanted" ;;
+--o2)
+    wanted=o2
+    for configuration in $CONFIGURATIONS; do echo "$2 $configuration"; done >"$work/wanted"
+    two_at_a_time ;;
 --list) shift && measure_list "$@" ;;
 --tables) tables "$2" ;;
 --document) document ;;

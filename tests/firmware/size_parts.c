@@ -38,9 +38,9 @@ PART(other_atlas, 2 * OF(frame.other_atlas));
 PART(other_atlas, OF(frame.other_atlas));
 #endif
 #endif
-#if GN_DEPTH_BLOCKS && GN_OTHER_ATLAS
+#if GN_DISK_FILTER && GN_OTHER_ATLAS
 PART(blocks, OF(frame.block) + OF(frame.other_block));
-#elif GN_DEPTH_BLOCKS
+#elif GN_DISK_FILTER
 PART(blocks, OF(frame.block));
 #endif
 #endif

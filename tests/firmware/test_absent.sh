@@ -59,10 +59,8 @@ without() { whole "all-$1" "$1"; }
 under() {
     case $1 in
     CLIPPING | CLIPS | PICKING | SHADOWS | PUNCTUAL_LIGHTS | *VISIBLE* | TEXTURES | SPECULAR | EMISSIVE | ORTHOGRAPHIC | MASKS | BAKED* | VERTEX* | RAW* | VALID* | *FORMATS | TILE_DRAWING) ;;
-    TILE_LIGHTS) echo PUNCTUAL_LIGHTS ;;
     TEXTURE_LEVELS) echo TEXTURES ;;
     EMISSIVE_TEXTURES) echo TEXTURES EMISSIVE ;;
-    LINEAR_KERNELS | DEPTH_BLOCKS) echo SHADOWS FILTER_MAX ;;
     *) echo SHADOWS ;;
     esac
 }
@@ -116,13 +114,11 @@ while read -r feature pattern; do
 done <<'LIST'
 SHADOWS gn_(atlas|caster|cascade|ortho|persp|filter|blocks|cull|tiles|bias)_.*|gn_.*weights|gn_disk_.*
 PUNCTUAL_LIGHTS gn_(persp|punctual|object_list)_.*
-DEPTH_BLOCKS gn_blocks_.*
-FILTER_MAX gn_tent_weights|gn_linear_weights
-DISK_FILTER gn_disk_.*|disk.*
+FILTER_MAX gn_tent_weights
+DISK_FILTER gn_disk_.*|disk.*|gn_blocks_.*
 CASTER_CULLING gn_cull_shown_nearer
 CASTER_ALPHA alpha_plane
 VISIBLE_ALPHA cut_begin|cut_row
-TILE_LIGHTS gn_punctual_in_tile
 TEXTURE_FORMATS gn_linear_(31|63)_table|gn_texel_decode_.*
 TEXTURE_LEVELS gn_texture_(level_at|level_depth2|use_level)
 TEXTURES gn_texture_colour|gn_alpha_coords|gn_srgb_decode_table

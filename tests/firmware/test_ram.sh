@@ -80,11 +80,11 @@ if [ -n "$target" ]; then
         predicted $preset srgb=0 textures=0 specular=0 masks=0 baked_light=0 visible_alpha=0 caster_alpha=0 filter_max=0 disk_filter=0
         predicted $preset shadows=0
         predicted $preset raw_views=1
-        predicted $preset depth_blocks=0
+        predicted $preset disk_filter=0
         predicted $preset incremental=0
         predicted $preset vertex_joints=0 texture_levels=0 auto_bias=0
         predicted $preset static_layer=1
-        predicted $preset static_layer=1 depth_blocks=0 incremental=0
+        predicted $preset static_layer=1 disk_filter=0 incremental=0
         predicted $preset punctual_lights=0
         predicted $preset main_light=0
         predicted $preset punctual_lights=0 main_light=0

@@ -137,6 +137,7 @@ static void lenses(void)
     for (int n = 0; n < 100000; n++) {
         gn_camera *c = &scene.camera;
         *c = (gn_camera){.focal_q24 = (uint32_t)any(), .near_q16 = (int32_t)any_size(100, 1 << 28)};
+        c->to_world.m_q30[2][2] = 1 << 30;
         if (rnd() % 4) c->focal_q24 = (uint32_t)any_size(1 << 14, 1U << 31);
         if (rnd() % 4 == 0) c->near_q16 = (int32_t)(rnd() % 2 ? 255 + rnd() % 3 : (1 << 27) - 1 + rnd() % 3);
         frame->picture.height = (uint16_t)(1 + rnd() % 256), frame->picture.width = (uint16_t)(1 + rnd() % 256);

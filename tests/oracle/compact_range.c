@@ -109,12 +109,14 @@ static void check_named(const char *change)
 static void refusals(void)
 {
     gn_light two[2];
+    const int32_t here[3] = {0, GN_Q16(5), 0};
     ACCEPTED((void)0);
     ACCEPTED(scene.n_lights = 0);
     ACCEPTED(scene.n_objects = 0);
     ACCEPTED(sun.shadow_strength_uq16 = 0);
     ACCEPTED(sun.auto_bias = GN_AUTO_BIAS_OFF; sun.bias_normal_q16 = 0);
     REFUSED(scene.camera.to_world.exp = 1, GN_ERR_CAMERA_TRANSFORM);
+    REFUSED(gn_camera_look_at(&scene.camera.to_world, here, here), GN_ERR_CAMERA_TRANSFORM);
     REFUSED(scene.camera.to_world.t_q16[1] = GN_Q16(4097), GN_ERR_CAMERA_TRANSFORM);
     REFUSED(scene.camera.focal_q24 = GN_Q24(0.9), GN_ERR_CAMERA_FOCAL);
     REFUSED(scene.camera.focal_q24 = GN_Q24(100), GN_ERR_CAMERA_FOCAL);

@@ -209,8 +209,8 @@ static void random_lights(char *words, size_t n, bool lane)
 
 static void random_shadow(char *words, size_t n)
 {
-    add_words(words, n, "filter=%s other_filter=%s kernel=%s ", CHOOSE("hard", "2x2", "3x3", "5x5", "7x7", "disk"),
-              CHOOSE("hard", "2x2", "3x3", "5x5", "7x7", "disk"), CHOOSE("tent", "linear"));
+    add_words(words, n, "filter=%s other_filter=%s ", CHOOSE("hard", "2x2", "3x3", "5x5", "7x7", "disk"),
+              CHOOSE("hard", "2x2", "3x3", "5x5", "7x7", "disk"));
     add_words(words, n, "penumbra=%g disk_samples=%u ", roll(0, 40), 1 + rng_below(&dice, 32));
     add_words(words, n, "atlas_size=%s other_atlas_size=%s ", CHOOSE("64", "128", "256", "512"),
               CHOOSE("64", "128", "256", "512"));

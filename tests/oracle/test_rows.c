@@ -270,10 +270,6 @@ static void check_row(const row *r, int preset, bool list)
     {                                                                                                                  \
         id, "yard", ".light=" light, "filter=" name, "filter=2x2", 0.25                                                \
     }
-#define LINEAR(light, name)                                                                                            \
-    {                                                                                                                  \
-        "F6", "yard", ".light=" light " filter=" name, "kernel=linear", "kernel=tent", 0.25                            \
-    }
 #define FINER(light, name)                                                                                             \
     {                                                                                                                  \
         "F7", "yard", ".light=" light " filter=" name, "edge=4", "edge=0", 0.25                                        \
@@ -433,15 +429,6 @@ static const row rows[] = {
     FILTERED("F3", "sun", "7x7"),
     FILTERED("F3", "spot", "7x7"),
     FILTERED("F3", "point", "7x7"),
-    LINEAR("sun", "3x3"),
-    LINEAR("spot", "3x3"),
-    LINEAR("point", "3x3"),
-    LINEAR("sun", "5x5"),
-    LINEAR("spot", "5x5"),
-    LINEAR("point", "5x5"),
-    LINEAR("sun", "7x7"),
-    LINEAR("spot", "7x7"),
-    LINEAR("point", "7x7"),
     DISK("sun", "12", "1"),
     DISK("spot", "4", "1"),
     DISK("point", "8", "1"),
@@ -784,21 +771,6 @@ static void print_depth_bits(void)
             }
 }
 
-/* F6 against F3. */
-static void print_kernels(void)
-{
-    static const char *const filters[] = {"3x3", "5x5", "7x7"};
-    printf("\n| light | filter | linear kernel against tent: RMS | off by more than 1/16 |\n|---|---|---|---|\n");
-    for (int spot = 0; spot < 2; spot++)
-        for (size_t i = 0; i < sizeof filters / sizeof *filters; i++) {
-            char tent[64], linear[96];
-            snprintf(tent, sizeof tent, ".light=%s filter=%s", spot ? "spot" : "sun", filters[i]);
-            snprintf(linear, sizeof linear, "%s kernel=linear", tent);
-            const attenuation_error e = error_of(linear, tent, false, NULL);
-            printf("| %s | %s | %.5f | %.3f %% |\n", spot ? "spot" : "sun", filters[i], e.rms, 100 * e.mismatch);
-        }
-}
-
 /* F4 against as many samples as make an integral. */
 static void print_disk_samples(void)
 {
@@ -820,7 +792,6 @@ static void print_disk_samples(void)
 static int print_tables(void)
 {
     print_depth_bits();
-    print_kernels();
     print_disk_samples();
     return 0;
 }

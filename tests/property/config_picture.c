@@ -193,7 +193,6 @@ static void use_shadow_settings(int variant)
     gn_shadow_settings *s = &demo.scene.shadow;
     s->filter = filter_of(variant);
     s->other_filter = filter_of(variant + 3);
-    s->kernel = use.linear_kernels && variant % 2 ? GN_KERNEL_LINEAR : GN_KERNEL_TENT;
     s->penumbra_uq16 = GN_UQ16(6);
     s->disk_samples = 12;
     s->mixing = use.masks ? (gn_mixing)(variant % 3) : GN_MIXING_NONE;
@@ -296,10 +295,6 @@ static void ask_filter(void)
 static void ask_disk(void)
 {
     demo.scene.shadow.filter = GN_FILTER_DISK;
-}
-static void ask_linear(void)
-{
-    demo.scene.shadow.kernel = GN_KERNEL_LINEAR;
 }
 static void ask_spot(void)
 {
@@ -436,7 +431,6 @@ static const struct {
     {"blend", GN_BLENDED_CASCADES || !GN_SHADOWS, GN_ERR_SHADOW_CASCADES, ask_blend},
     {"larger filter", GN_FILTER_MAX == 4 || !GN_SHADOWS, GN_ERR_SHADOW_FILTER, ask_filter},
     {"disk", GN_DISK_FILTER || !GN_SHADOWS, GN_ERR_SHADOW_FILTER, ask_disk},
-    {"linear", GN_LINEAR_KERNELS || !GN_SHADOWS, GN_ERR_SHADOW_FILTER, ask_linear},
     {"spot", GN_PUNCTUAL_LIGHTS, GN_ERR_LIGHT_KIND, ask_spot},
     {"point", GN_PUNCTUAL_LIGHTS, GN_ERR_LIGHT_KIND, ask_point},
     {"main light", GN_MAIN_LIGHT || !GN_SHADOWS, GN_ERR_SHADOW_MODE, ask_main},

@@ -33,11 +33,18 @@ typedef struct {
 } random_scene;
 
 static uint64_t random_state = 1;
+#ifdef LIBFUZZER
+static const uint8_t *fuzz_bytes; /* changes of the numbers to come, four bytes each */
+static size_t n_fuzz_bytes;
+#endif
 
 static uint32_t rnd(void)
 {
     random_state = random_state * 6364136223846793005U + 1442695040888963407U;
     uint32_t x = (uint32_t)(random_state >> 32);
+#ifdef LIBFUZZER
+    for (int i = 0; i < 4 && n_fuzz_bytes; i++, n_fuzz_bytes--) x ^= (uint32_t)*fuzz_bytes++ << (8 * i);
+#endif
     return x ^ (x >> 15) ^ (uint32_t)random_state;
 }
 
@@ -125,7 +132,6 @@ static void built_shadows(gn_shadow_settings *s, int32_t near_q16)
     }
     if (absent(GN_DISK_FILTER && GN_FILTER_MAX >= 4))
         s->filter = s->other_filter = (gn_filter)(rnd() % (GN_FILTER_MAX + 1));
-    if (absent(GN_LINEAR_KERNELS)) s->kernel = GN_KERNEL_TENT;
     if (absent(GN_MASKS)) s->mixing = GN_MIXING_NONE;
     if (absent(GN_TILE_IMPORTANCE)) s->tile_sizes = GN_TILES_EQUAL;
     if (absent(GN_MAIN_LIGHT)) s->main_light = 0;
@@ -325,20 +331,26 @@ static void random_object(random_scene *g, gn_object *o)
     if (one_in(150)) spoil_words(o, offsetof(gn_object, to_world), offsetof(gn_object, texture));
 }
 
-/* A vertex in the world, roughly. */
-static void vertex_place(const random_scene *g, int32_t out_q16[3])
+/* A vertex of the object in the world, Q16, roughly: skins do not move it. */
+static void place_of(const gn_object *o, const gn_position *p, double out_q16[3])
 {
-    const gn_object *o = &g->object[rnd() % RANDOM_OBJECTS];
-    const gn_position *p = g->pos + 3 * (rnd() % RANDOM_VERTICES);
     double unit = 65536.0 / (double)((uint64_t)1 << (o->mesh->pos_frac_bits % 31)), scale = unit / 1073741824.0;
     for (int r = 0; r < 3; r++) {
         double sum = 0;
         for (int c = 0; c < 3; c++) sum += (double)o->to_world.m_q30[r][c] * (double)p[c];
-        sum = sum * scale * (double)(1 << (o->to_world.exp & 15)) + (double)o->to_world.t_q16[r];
-        out_q16[r] = sum > RANDOM_LIMIT_Q16    ? RANDOM_LIMIT_Q16
-                     : sum < -RANDOM_LIMIT_Q16 ? -RANDOM_LIMIT_Q16
-                                               : (int32_t)sum;
+        out_q16[r] = sum * scale * (double)(1 << (o->to_world.exp & 15)) + (double)o->to_world.t_q16[r];
     }
+}
+
+static void vertex_place(const random_scene *g, int32_t out_q16[3])
+{
+    const gn_object *o = &g->object[rnd() % RANDOM_OBJECTS];
+    double at[3];
+    place_of(o, g->pos + 3 * (rnd() % RANDOM_VERTICES), at);
+    for (int r = 0; r < 3; r++)
+        out_q16[r] = at[r] > RANDOM_LIMIT_Q16    ? RANDOM_LIMIT_Q16
+                     : at[r] < -RANDOM_LIMIT_Q16 ? -RANDOM_LIMIT_Q16
+                                                 : (int32_t)at[r];
 }
 
 static void random_light_place(const random_scene *g, gn_light *l)
@@ -435,7 +447,7 @@ static void random_shadows(gn_shadow_settings *s, int32_t near_q16)
     s->cascade_fade_uq16 = (uint32_t)pick(66, 65536);
     s->filter = (gn_filter)(rnd() % 6);
     s->other_filter = (gn_filter)(rnd() % 6);
-    s->kernel = (gn_kernel)(rnd() % 2);
+    (void)rnd(); /* scenes that had a fault keep their seeds */
     s->penumbra_uq16 = (uint32_t)pick(0, 64 << 16);
     s->disk_samples = (uint32_t)pick(1, one_in(4) ? 64 : 8);
     if (s->filter != GN_FILTER_DISK && s->other_filter != GN_FILTER_DISK && one_in(2))
@@ -567,7 +579,7 @@ static void random_knobs(gn_frame *k)
     }
 }
 
-static void random_scene_end(random_scene *g)
+static inline void random_scene_end(random_scene *g)
 {
     for (int i = 0; i < RANDOM_TEXTURES; i++) free(g->texels[i]), free(g->palette[i]);
 }

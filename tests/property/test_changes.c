@@ -189,7 +189,7 @@ static void test_failures(void)
                  GN_ERR_CAMERA_DEPTH);
     CHECK_EQ_INT(n_flushed, 0);
     CHECK_EQ_INT(gn_screen_tile_if_changed(&renderer.frame, &renderer.scratch, 0, &panel, flush_nothing, &calls, NULL),
-                 GN_ERR_ORDER);
+                 GN_ERR_NO_BEGIN);
     CHECK_EQ_INT(calls, 0);
 }
 

@@ -59,15 +59,14 @@ pairs() {
     for feature in $features; do
         value=$(most "$feature")
         case $feature in
-        *FILTER* | *CASC* | *BIAS | *PLANE | MAIN* | INCREM* | STATIC* | *BLOCKS | CASTER* | LINEAR* | TILE_IMP* | OBJECT_B*)
+        *FILTER* | *CASC* | *BIAS | *PLANE | MAIN* | INCREM* | STATIC* | CASTER* | TILE_IMP* | OBJECT_B*)
             idle="$idle $feature=$value"
             more "none SHADOWS=1 $feature=$value" ;;
-        TILE_LIGHTS) more "none PUNCTUAL_LIGHTS=1 TILE_LIGHTS=1" ;;
         *) more "none $feature=$value" ;;
         esac
         more "all $feature=0" # tests/firmware/test_absent.sh builds these: nothing undefined is left
     done
-    echo "none TILE_LIGHTS=1 $idle"
+    echo "none $idle"
     echo "all VALIDATION=0"
     more "none SHADOWS=1 VALIDATION=0 tiny SRGB=0"
     for cut in VISIBLE_ALPHA CASTER_ALPHA MASKS; do
@@ -82,18 +81,18 @@ pairs() {
     echo "none SHADOWS=1 STATIC_LAYER=1 INCREMENTAL=1"
     for max in 0 1 2 3; do # with what builds upon kernels
         $([ $max = 0 ] && echo more || echo echo) "all FILTER_MAX=$max DISK_FILTER=0 RECEIVER_PLANE=$((max % 2))"
-        more "all FILTER_MAX=$max LINEAR_KERNELS=0 DEPTH_BLOCKS=$((max % 2)) RECEIVER_PLANE=0"
+        more "all FILTER_MAX=$max RECEIVER_PLANE=0"
     done
-    more "all FILTER_MAX=0 DISK_FILTER=0 LINEAR_KERNELS=0 DEPTH_BLOCKS=0"
-    more "all DISK_FILTER=0 LINEAR_KERNELS=0 RECEIVER_PLANE=0"
+    more "all FILTER_MAX=0 DISK_FILTER=0"
+    more "all DISK_FILTER=0 RECEIVER_PLANE=0"
     for bits in "8 32" "16 8" "32 16"; do
-        echo "DEPTH_BITS=${bits% *} OTHER_DEPTH_BITS=${bits#* } DEPTH_BLOCKS=$((${bits% *} / 16 % 2))"
+        echo "DEPTH_BITS=${bits% *} OTHER_DEPTH_BITS=${bits#* } DISK_FILTER=$((${bits% *} / 16 % 2))"
     done
     more "PUNCTUAL_LIGHTS=0 MAIN_LIGHT=0 DEPTH_BITS=8"
     echo "EDGE=4"
     more "tiny all EDGE=8 DEPTH_BITS=32"
-    echo "fast EDGE=1 PUNCTUAL_LIGHTS=0 DEPTH_BLOCKS=0 RECEIVER_PLANE=0"
-    more "accurate EDGE=3 FILTER_MAX=0 DISK_FILTER=0 LINEAR_KERNELS=0"
+    echo "fast EDGE=1 PUNCTUAL_LIGHTS=0 RECEIVER_PLANE=0"
+    more "accurate EDGE=3 FILTER_MAX=0 DISK_FILTER=0"
     echo "PUNCTUAL_LIGHTS=0 MAIN_LIGHT=0 DEPTH_BITS=32 STATIC_LAYER=1"
     echo "OTHER_ATLAS_SIZE=32 ATLAS_SIZE=64 TILE_WIDTH=32 TILE_HEIGHT=5"
     echo "TRIANGLE_GROUPS=64 MAX_TRIANGLES=400 MAX_TILE_REFS=1"
@@ -217,6 +216,7 @@ refused vertex_cache -DGN_VERTEX_CACHE=33
 refused tile_width -DGN_TILE_WIDTH=68
 refused triangle_groups_have_tiles "-DGN_TRIANGLE_GROUPS=1 -DGN_TILE_WIDTH=8 -DGN_TILE_HEIGHT=1 -DGN_MAX_HEIGHT=100"
 refused triangle_groups_have_up_to_128 "-DGN_TRIANGLE_GROUPS=1 -DGN_TILE_HEIGHT=1"
+for gone in TILE_LIGHTS LINEAR_KERNELS DEPTH_BLOCKS; do refused "knob that is gone" "-DGN_$gone=0"; done
 refused transparent_layers_need_visible_alpha "-DGN_TRANSPARENT_LAYERS=1 -DGN_VISIBLE_ALPHA=0"
 
 # ---- The user's own header; C++ --------------------------------------------------------------------------------------------
@@ -259,7 +259,7 @@ gn_status draw()
     gn_picture picture = {32, 32, GN_FORMAT_RGB565, GN_VIEW_COLOUR, 0};
     gn_status status = gn_init(&renderer, &picture);
     if (status == GN_OK) status = gn_render(&renderer, &scene, flush, nullptr);
-    return gn_get_detail(&renderer)->needed ? GN_ERR_ORDER : gn_status_text(status)[0] ? status : GN_OK;
+    return gn_get_detail(&renderer)->needed ? GN_ERR_NO_BEGIN : gn_status_text(status)[0] ? status : GN_OK;
 }
 EOF_C
 for words in "" none all "SHADOWS=0 RAW_VIEWS=1" RUNTIME_KNOBS=1 accurate; do
@@ -417,6 +417,14 @@ message=$(small MAX_SHADOW_TILES=1)
 if [ "$message" = "without room: 1" ]; then pass; else fail "GN_MAX_SHADOW_TILES=1: $message"; fi
 message=$(small MAX_OTHER_TILES=1)
 if [ "$message" = "without room: 2" ]; then pass; else fail "GN_MAX_OTHER_TILES=1: $message"; fi
+
+# A core whose int has 16 bits is refused in words, first of all, in a program and in the library.
+printf '#include "gnomon.h"\n' >"$tmp/avr.c"
+for core in avr msp430; do
+    for file in "$tmp/avr.c" lib/gnomon.c; do
+        clang --target=$core -w -ffreestanding -fsyntax-only -Ilib "$file" 2>&1 | grep -m 1 'error' | grep -q 'Gnomon needs a core of 32 bits' && pass || fail "$core, $file: no word on its int of 16 bits"
+    done
+done
 
 echo "$passed passed, $failed failed"
 [ "$failed" = 0 ]

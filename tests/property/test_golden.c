@@ -17,7 +17,7 @@ static const struct {
     {"sundial", 24, {NULL}},  {"sundial", 72, {NULL}},
     {"sundial", 132, {NULL}}, {"avenue", 0, {NULL}},
     {"desk", 0, {NULL}},      {"desk", 12, {"other_filter=disk", "disk_samples=9", "penumbra=2"}},
-    {"room", 0, {NULL}},      {"room", 0, {"other_depth_bits=32", "other_filter=7x7", "kernel=linear"}},
+    {"room", 0, {NULL}},      {"room", 0, {"other_depth_bits=32", "other_filter=7x7"}},
     {"fence", 0, {NULL}},     {"fence", 0, {"depth_bits=8", "cascade_blend=dither", "softness=hard"}},
     {"mixed", 0, {NULL}},     {"mixed", 24, {"mixing=always", "tiles=importance", "main_light=1", "receiver_plane=1"}},
 };

@@ -184,10 +184,6 @@ static const char *change_filters(uint32_t n, int *free_of_charge)
     case 2:
         ls.scene.shadow.penumbra_uq16 = 4 << 16;
         return "its radius";
-    case 3:
-        ls.scene.shadow.kernel = GN_KERNEL_LINEAR;
-        *free_of_charge = 1;
-        return "kernel: not of the tile";
     default:
         return NULL;
     }

@@ -78,10 +78,10 @@ static void camera_down(gn_scene *s)
     const int32_t up[3] = {0, GN_Q16(9), 0}, at[3] = {0, 0, 0};
     gn_camera_look_at(&s->camera.to_world, up, at);
 }
-static void camera_nowhere(gn_scene *s)
+static void camera_beside(gn_scene *s)
 {
-    const int32_t at[3] = {1, 2, 3};
-    gn_camera_look_at(&s->camera.to_world, at, at);
+    const int32_t eye[3] = {1, 2, 3}, at[3] = {1, 3, 3};
+    gn_camera_look_at(&s->camera.to_world, eye, at);
 }
 
 static void everything_far_out(gn_scene *s)
@@ -268,7 +268,7 @@ static const struct {
     EXTREME(fades_full),         EXTREME(camera_in_ball),
     EXTREME(camera_in_box),      EXTREME(camera_on_ground),
     EXTREME(camera_up),          EXTREME(camera_down),
-    EXTREME(camera_nowhere),     EXTREME(everything_far_out),
+    EXTREME(camera_beside),      EXTREME(everything_far_out),
     EXTREME(opposite_corners),   EXTREME(exp_14),
     EXTREME(scale_tiny),         EXTREME(scale_huge),
     EXTREME(scale_one_axis),     EXTREME(scale_mirrored),

@@ -1,12 +1,12 @@
 /* Random scenes from random words: a seed is a scene. Run under sanitizers this is the search for undefined behaviour.
- * SEED=n SCENES=n FIRST=n: other scenes, and where to look again. */
+ * SEED=n SCENES=n FIRST=n: other scenes, and where to look again. With LIBFUZZER, by coverage: see tests/soak.sh. */
 #include <stdlib.h>
 #include <string.h>
 
 #include "campaign.h"
 #include "canvas.h"
 #include "check.h"
-#include "random_scene.h"
+#include "random_places.h"
 
 static gn_renderer one, two;
 
@@ -121,6 +121,23 @@ static void random_frame(campaign *r, long frame)
     if (one_in(4) || after_refused) compare_with_fresh(r, frame), r->after_refused += after_refused;
 }
 
+/* Every second series draws each value by itself; in the others values fall together. */
+static void next_scene(campaign *r, long i)
+{
+    const int made = i % 4 == 0 || one_in(8);
+    if (made) {
+        random_knobs(&one.frame);
+        random_scene_make(&r->scene);
+        gn_forget_shadows(&one); /* arrays have changed in place */
+        memset(&r->panel, 0, sizeof r->panel);
+    } else {
+        random_scene_change(&r->scene);
+    }
+    if (i / 256 % 2 == 0) random_scene_arrange(&r->scene, made);
+}
+
+#ifndef LIBFUZZER
+
 static void test_random_scenes(long n_scenes)
 {
     static campaign r;
@@ -131,14 +148,7 @@ static void test_random_scenes(long n_scenes)
             random_state = ((uint64_t)seed << 40) + (uint64_t)i;
             next_picture(&r, (uint32_t)(i / 256 % 11));
         }
-        if (i % 4 == 0 || one_in(8)) {
-            random_knobs(&one.frame);
-            random_scene_make(&r.scene);
-            gn_forget_shadows(&one); /* arrays have changed in place */
-            memset(&r.panel, 0, sizeof r.panel);
-        } else {
-            random_scene_change(&r.scene);
-        }
+        next_scene(&r, i);
         random_frame(&r, i);
         show_progress("random scenes", seed, i + 1 - first, n_scenes);
     }
@@ -166,3 +176,30 @@ int main(void)
     test_random_scenes(option("SCENES", 20000));
     return check_report();
 }
+
+#else
+
+int LLVMFuzzerTestOneInput(const uint8_t *bytes, size_t n);
+
+/* A seed, and what is changed of the numbers that follow from it: a frame and three more. */
+int LLVMFuzzerTestOneInput(const uint8_t *bytes, size_t n)
+{
+    enum { SEED_BYTES = 4 };
+    static campaign r;
+    if (n < SEED_BYTES) return 0;
+    random_state = 0;
+    for (int i = 0; i < SEED_BYTES; i++) random_state = random_state << 8 | bytes[i];
+    random_state <<= 20;
+    fuzz_bytes = bytes + SEED_BYTES;
+    n_fuzz_bytes = n - SEED_BYTES;
+    next_picture(&r, bytes[0] % 11U);
+    r.refused = 0;
+    for (long i = bytes[1] % 2 * 256, end = i + 4; i < end; i++) {
+        next_scene(&r, i);
+        random_frame(&r, i);
+    }
+    if (r.wrong || check_n_failed) abort();
+    return 0;
+}
+
+#endif

@@ -51,9 +51,9 @@ static gn_status call_renderer(caller *c)
     case INIT:
         return gn_init(&one, &p);
     case INIT_AND_RENDER:
-        return gn_init(&one, &p) == GN_OK ? gn_render(&one, &demo.scene, flush, &c->inner) : GN_ERR_ORDER;
+        return gn_init(&one, &p) == GN_OK ? gn_render(&one, &demo.scene, flush, &c->inner) : GN_ERR_NO_BEGIN;
     case OTHER_RENDERER:
-        return gn_init(&two, &p) == GN_OK ? gn_render(&two, &demo.scene, flush, &c->inner) : GN_ERR_ORDER;
+        return gn_init(&two, &p) == GN_OK ? gn_render(&two, &demo.scene, flush, &c->inner) : GN_ERR_NO_BEGIN;
     default:
         return GN_OK;
     }
@@ -154,7 +154,8 @@ static void test_in_steps(void)
         CHECK_EQ_INT(status, GN_ERR_REENTERED);
         CHECK_EQ_INT(c.status, GN_OK);
         CHECK_EQ_INT(flushed, i % 2 ? 0 : 1);
-        CHECK_EQ_INT(gn_screen_tile(&one.frame, &one.scratch, 2, flush, &c.inner), GN_ERR_ORDER);
+        const gn_status next = gn_screen_tile(&one.frame, &one.scratch, 2, flush, &c.inner);
+        CHECK(next == GN_ERR_NO_BEGIN || next == GN_ERR_NO_PREPARE); /* by how far the callback went */
         end(&c);
     }
 }

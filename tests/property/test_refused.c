@@ -74,6 +74,11 @@ static void camera_scaled(gn_scene *s)
 {
     s->camera.to_world.exp = 1;
 }
+static void camera_nowhere(gn_scene *s)
+{
+    const int32_t at[3] = {1, 2, 3};
+    gn_camera_look_at(&s->camera.to_world, at, at);
+}
 static void camera_skewed(gn_scene *s)
 {
     s->camera.to_world.m_q30[0][0] /= 2;
@@ -101,10 +106,6 @@ static void object_entry(gn_scene *s)
 static void object_far_out(gn_scene *s)
 {
     (void)s, demo.object[1].to_world.t_q16[0] = INT32_MIN;
-}
-static void object_flat(gn_scene *s)
-{
-    (void)s, memset(demo.object[1].to_world.m_q30[2], 0, sizeof demo.object[1].to_world.m_q30[2]);
 }
 static void mesh_no_pos(gn_scene *s)
 {
@@ -373,13 +374,13 @@ static const struct {
     REFUSED(far_is_near, GN_ERR_CAMERA_DEPTH, "camera.far_q16", 0, 0, 0),
     REFUSED(camera_scaled, GN_ERR_CAMERA_TRANSFORM, "camera.to_world", 0, 0, 0),
     REFUSED(camera_skewed, GN_ERR_CAMERA_TRANSFORM, "camera.to_world", 0, 0, 0),
+    REFUSED(camera_nowhere, GN_ERR_CAMERA_TRANSFORM, "camera.to_world", 0, 0, 0),
     REFUSED(camera_wild, GN_ERR_CAMERA_TRANSFORM, "camera.to_world", 0, 0, 0),
     REFUSED(camera_far_out, GN_ERR_CAMERA_TRANSFORM, "camera.to_world", 0, 0, 0),
     REFUSED(object_exp_high, GN_ERR_OBJECT_TRANSFORM, "object.to_world", 1, 0, 0),
     REFUSED(object_exp_low, GN_ERR_OBJECT_TRANSFORM, "object.to_world", 1, 0, 0),
     REFUSED(object_entry, GN_ERR_OBJECT_TRANSFORM, "object.to_world", 1, 0, 0),
     REFUSED(object_far_out, GN_ERR_OBJECT_TRANSFORM, "object.to_world", 1, 0, 0),
-    REFUSED(object_flat, GN_ERR_OBJECT_TRANSFORM, "object.to_world", 1, 0, 0),
     REFUSED(mesh_no_pos, GN_ERR_MESH, "object.mesh->pos", 1, 0, 0),
     REFUSED(mesh_no_idx, GN_ERR_MESH, "object.mesh->idx", 1, 0, 0),
     REFUSED(mesh_no_vertices, GN_ERR_MESH, "object.mesh->n_vertices", 1, 0, 0),
@@ -567,7 +568,6 @@ static const bounded bounds[] = {
     UNSIGNED(demo.scene.shadow.main_light, 0, 1, GN_ERR_SHADOW_MODE, 0),
     SIGNED(demo.scene.shadow.filter, 0, GN_FILTER_DISK, GN_ERR_SHADOW_FILTER, 0),
     SIGNED(demo.scene.shadow.other_filter, 0, GN_FILTER_DISK, GN_ERR_SHADOW_FILTER, 0),
-    SIGNED(demo.scene.shadow.kernel, 0, 1, GN_ERR_SHADOW_FILTER, 0),
     UNSIGNED(demo.scene.shadow.penumbra_uq16, 0, 64 * UNIT, GN_ERR_SHADOW_FILTER, 0),
     UNSIGNED(demo.scene.shadow.disk_samples, 1, 64, GN_ERR_SHADOW_FILTER, 0),
     SIGNED(demo.scene.shadow.blend, 0, 2, GN_ERR_SHADOW_CASCADES, 0),
@@ -857,7 +857,7 @@ static void test_refused_pictures(void)
         gn_picture p = picture_of(cases[i].w, cases[i].h, (gn_format)cases[i].format);
         p.view = (gn_view)cases[i].view;
         fails_on(gn_init(&one, &p), (gn_status)cases[i].status, cases[i].field, 0, 0, 0, "gn_init");
-        fails(gn_begin(&one, &demo.scene), GN_ERR_ORDER, 0, 0, 0, "gn_begin after a failed gn_init");
+        fails(gn_begin(&one, &demo.scene), GN_ERR_NO_INIT, 0, 0, 0, "gn_begin after a failed gn_init");
     }
     gn_picture p = picture_of(8, 8, GN_FORMAT_RGB565);
     for (int format = GN_FORMAT_RGB565; format <= GN_FORMAT_RAW32; format++) {
@@ -968,6 +968,9 @@ static void test_status_texts(void)
         CHECK(text && text[0]);
         for (int k = 0; k < i; k++) CHECK(strcmp(text, gn_status_text((gn_status)k)) != 0);
     }
+    CHECK(strstr(gn_status_text(GN_ERR_NO_INIT), "gn_init") && strstr(gn_status_text(GN_ERR_NO_BEGIN), "gn_begin"));
+    CHECK(strstr(gn_status_text(GN_ERR_NO_SHADOW_TILE), "gn_shadow_tile"));
+    CHECK(strstr(gn_status_text(GN_ERR_NO_PREPARE), "gn_prepare"));
     CHECK(strcmp(gn_status_text(GN_STATUS_COUNT), "unknown status") == 0);
     CHECK(strcmp(gn_status_text((gn_status)-1), "unknown status") == 0);
     /* Need a smaller capacity than this build has: test_config.sh provokes them; test_reentry.c the last. */
@@ -1087,36 +1090,36 @@ static void test_order(void)
     demo.scene.lights = lights;
     demo.scene.n_lights = 2;
     memset(&one, 0, sizeof one);
-    fails(gn_begin(&one, &demo.scene), GN_ERR_ORDER, 0, 0, 0, "begin before init");
+    fails(gn_begin(&one, &demo.scene), GN_ERR_NO_INIT, 0, 0, 0, "begin before init");
     gn_init(&one, &p);
-    fails(gn_shadow_tile(&one, 0), GN_ERR_ORDER, 0, 0, 0, "shadow tile before begin");
-    fails(gn_prepare(&one), GN_ERR_ORDER, 0, 0, 0, "prepare before begin");
-    CHECK(gn_screen_tile(&one.frame, &one.scratch, 0, flush, &c) == GN_ERR_ORDER);
+    fails(gn_shadow_tile(&one, 0), GN_ERR_NO_BEGIN, 0, 0, 0, "shadow tile before begin");
+    fails(gn_prepare(&one), GN_ERR_NO_BEGIN, 0, 0, 0, "prepare before begin");
+    CHECK(gn_screen_tile(&one.frame, &one.scratch, 0, flush, &c) == GN_ERR_NO_BEGIN);
     CHECK(gn_begin(&one, &demo.scene) == GN_OK);
     CHECK_EQ_INT(gn_shadow_tile_count(&one), 2);
     CHECK_EQ_INT(gn_screen_tile_count(&one), 2);
     fails(gn_shadow_tile(&one, 2), GN_ERR_INDEX, 2, 0, 0, "no such shadow tile");
     CHECK(gn_shadow_tile(&one, 0) == GN_OK);
-    fails(gn_prepare(&one), GN_ERR_ORDER, 1, 0, 0, "prepare before the second shadow tile");
-    CHECK(gn_screen_tile(&one.frame, &one.scratch, 0, flush, &c) == GN_ERR_ORDER);
+    fails(gn_prepare(&one), GN_ERR_NO_SHADOW_TILE, 1, 0, 0, "prepare before the second shadow tile");
+    provoked[GN_ERR_NO_PREPARE] = CHECK(gn_screen_tile(&one.frame, &one.scratch, 0, flush, &c) == GN_ERR_NO_PREPARE);
     CHECK(gn_shadow_tile(&one, 1) == GN_OK && gn_prepare(&one) == GN_OK);
-    fails(gn_shadow_tile(&one, 0), GN_ERR_ORDER, 0, 0, 0, "shadow tile after prepare");
-    fails(gn_prepare(&one), GN_ERR_ORDER, 0, 0, 0, "prepare twice");
+    fails(gn_shadow_tile(&one, 0), GN_ERR_NO_BEGIN, 0, 0, 0, "shadow tile after prepare");
+    fails(gn_prepare(&one), GN_ERR_NO_BEGIN, 0, 0, 0, "prepare twice");
     CHECK(gn_screen_tile(&one.frame, &one.scratch, 2, flush, &c) == GN_ERR_INDEX);
     CHECK(gn_screen_tile(&one.frame, &one.scratch, UINT32_MAX, flush, &c) == GN_ERR_INDEX);
     CHECK_EQ_INT(c.n_calls, 0);
     CHECK(gn_begin(&one, &demo.scene) == GN_OK); /* a frame may be abandoned */
-    fails(gn_prepare(&one), GN_ERR_ORDER, 0, 0, 0, "the abandoned frame's shadow tiles do not count");
+    fails(gn_prepare(&one), GN_ERR_NO_SHADOW_TILE, 0, 0, 0, "the abandoned frame's shadow tiles do not count");
     CHECK(gn_begin(&one, NULL) == GN_ERR_NULL); /* a failed begin ends the frame */
-    fails(gn_shadow_tile(&one, 0), GN_ERR_ORDER, 0, 0, 0, "shadow tile after a failed begin");
-    CHECK(gn_screen_tile(&one.frame, &one.scratch, 0, flush, &c) == GN_ERR_ORDER);
+    fails(gn_shadow_tile(&one, 0), GN_ERR_NO_BEGIN, 0, 0, 0, "shadow tile after a failed begin");
+    CHECK(gn_screen_tile(&one.frame, &one.scratch, 0, flush, &c) == GN_ERR_NO_BEGIN);
     demo.scene.n_lights = 1;
     CHECK(gn_begin(&one, &demo.scene) == GN_OK);
     demo.ball_idx[5] += 1000; /* and a tile that failed is not done, whatever is mended afterwards */
     gn_forget_shadows(&one);
     fails_on(gn_shadow_tile(&one, 0), GN_ERR_MESH_INDEX, "object.mesh->idx", 1, 0, 0, "shadow tile with a bad index");
     demo.ball_idx[5] -= 1000;
-    fails(gn_prepare(&one), GN_ERR_ORDER, 0, 0, 0, "prepare after a failed shadow tile");
+    fails(gn_prepare(&one), GN_ERR_NO_SHADOW_TILE, 0, 0, 0, "prepare after a failed shadow tile");
     CHECK(gn_shadow_tile(&one, 0) == GN_OK && gn_prepare(&one) == GN_OK);
     CHECK(gn_render(&one, &demo.scene, flush, &c) == GN_OK);
     canvas_end(&c);
@@ -1165,7 +1168,7 @@ static void test_counts_after_failure(void)
         CHECK_EQ_INT(gn_shadow_tile_count(&one), 0);
         CHECK(gn_get_light_shadow(&one, 0, &n_tiles, &texels) == GN_SHADOW_NOT_WANTED && !n_tiles && !texels);
         CHECK_EQ_INT(gn_get_shadow_tile(&one, 0, 0, &info), 0);
-        CHECK(gn_shadow_tile(&one, 0) == GN_ERR_ORDER && gn_prepare(&one) == GN_ERR_ORDER);
+        CHECK(gn_shadow_tile(&one, 0) == GN_ERR_NO_BEGIN && gn_prepare(&one) == GN_ERR_NO_BEGIN);
         if (way) CHECK(memcmp(gn_get_stats(&one), &none, sizeof none) == 0);
     }
     canvas_end(&c);

@@ -31,7 +31,7 @@ faults="20261123:59136 20261124:26880"
 random tiny lib -DGN_PRESET=GN_PRESET_TINY
 faults=
 random fast lib -DGN_PRESET=GN_PRESET_FAST -DGN_ATLAS_SIZE=32 -DGN_OTHER_ATLAS_SIZE=128
-random accurate lib -DGN_PRESET=GN_PRESET_ACCURATE -DGN_ATLAS_SIZE=128 -DGN_OTHER_ATLAS_SIZE=64 -DGN_STATIC_LAYER=1
+random accurate lib -DGN_PRESET=GN_PRESET_ACCURATE -DGN_ATLAS_SIZE=128 -DGN_OTHER_ATLAS_SIZE=64 -DGN_STATIC_LAYER=1 -DGN_CASTER_CULLING=1
 random size-first lib -DGN_SIZE_FIRST=1 -DGN_PRESET=GN_PRESET_TINY -DGN_POSITION_BITS=16 -DGN_NORMAL_BITS=8 -DGN_OTHER_ATLAS_SIZE=32
 random capacities lib -DGN_PRESET=GN_PRESET_FAST -DGN_MAX_TRIANGLES=12 -DGN_MAX_TILE_REFS=24 -DGN_MAX_OBJECTS=3 -DGN_MAX_LIGHTS=3 -DGN_SURFACE_LIGHTS=2 \
     -DGN_MAX_SHADOW_TILES=2 -DGN_MAX_OTHER_TILES=3 -DGN_ATLAS_SIZE=32 -DGN_OTHER_ATLAS_SIZE=32 -DGN_VERTEX_CACHE=4
@@ -39,6 +39,16 @@ random least lib -DGN_PRESET=GN_PRESET_TINY -DGN_PUNCTUAL_LIGHTS=0 -DGN_CASTER_C
     -DGN_INCREMENTAL=0 -DGN_ORTHOGRAPHIC=0 -DGN_OTHER_FORMATS=0 -DGN_MASKS=0 -DGN_TEXTURE_LEVELS=0
 random compact lib -DGN_COMPACT=1
 random compact-short lib -DGN_COMPACT=1 -DGN_SIZE_FIRST=1 -DGN_POSITION_BITS=16
+
+# By coverage, shortly: that the target works. make soak lets it run.
+if ! clang -fsanitize=fuzzer -std=c11 -w -g1 -O0 -fsanitize=address,undefined -fno-sanitize-recover=all -DLIBFUZZER -D_POSIX_C_SOURCE=200809L -Ilib -Itests/support \
+    -DGN_PRESET=GN_PRESET_FAST -DGN_ATLAS_SIZE=32 -DGN_OTHER_ATLAS_SIZE=32 -o "$tmp/fuzz" lib/gnomon.c tests/property/test_random.c -lm 2>"$tmp/log"; then
+    if grep -q 'clang_rt.fuzzer' "$tmp/log"; then echo "left out: fuzzing by coverage, as this clang has no libFuzzer"
+    else fail "fuzz does not build: $(grep -m 1 -E 'error|undefined' "$tmp/log")"; fi
+elif mkdir "$tmp/corpus" && "$tmp/fuzz" -runs=$((scenes / 2)) -seed=1 -max_len=4096 -len_control=0 -artifact_prefix="$tmp/" "$tmp/corpus" >"$tmp/out" 2>&1; then
+    [ "$(ls "$tmp/corpus" | wc -l)" -gt 20 ] && pass || fail "fuzz: only $(ls "$tmp/corpus" | wc -l) inputs reach other code"
+else fail "fuzz: $(grep -a -m 3 -E 'failed|ERROR|error|other pixels' "$tmp/out" | tr '\n' ';')"; fi
+rm -f "$tmp/fuzz"
 
 # An overrun from one array of the state into the next is one into a gap.
 cp -r lib "$tmp/lib"

@@ -71,7 +71,7 @@ void prove_xform_fast(void)
 {
     for (int s = 3; s <= 62; s++) {
         gn_xform_fast fast;
-        gn_position position[3];
+        int32_t position[3];
         int32_t out[3] = {0, 0, 0};
         int up = s < 32 ? 32 - s : 0, down = s > 32 ? s - 32 : 0;
         fast.up = (uint8_t)up, fast.down = (uint8_t)down, fast.reach = 1U << (31 - (up > 1 ? up : 1));
@@ -81,7 +81,7 @@ void prove_xform_fast(void)
             fast.row[r].sum = ((int64_t)1 << (31 + down)) + (down ? 0 : t * ((int64_t)1 << 32));
             for (int c = 0; c < 3; c++) fast.row[r].m[c] = any_i32(-(1 << 29), 1 << 29);
         }
-        for (int i = 0; i < 3; i++) position[i] = (gn_position)any_i32(INT32_MIN, INT32_MAX);
+        for (int i = 0; i < 3; i++) position[i] = any_i32(INT32_MIN, INT32_MAX);
         sink = gn_xform_fast_inline(out, &fast, position);
     }
 }

@@ -4,58 +4,6 @@
 
 static const double straight_up[3] = {0, 1, 0};
 
-/* ---- linear kernels ---- */
-
-static void test_linear_by_hand(void)
-{
-    const double third[4] = {0.75 / 4, 1.75 / 4, 1.25 / 4, 0.25 / 4};
-    const double fifth[6] = {0.75 / 12, 2.5 / 12, 3.75 / 12, 3.25 / 12, 1.5 / 12, 0.25 / 12};
-    const double seventh[8] = {0.75 / 52, 4 / 52.0, 10.25 / 52, 15 / 52.0, 13 / 52.0, 6.75 / 52, 2 / 52.0, 0.25 / 52};
-    for (int i = -8; i < 12; i++) { /* f = 1/4: the first texel is 5 - (k + 1) */
-        CHECK_NEAR(ref_linear_weight(3, 4.75, i), i >= 3 && i < 7 ? third[i - 3] : 0, 1e-15);
-        CHECK_NEAR(ref_linear_weight(5, 4.75, i), i >= 2 && i < 8 ? fifth[i - 2] : 0, 1e-15);
-        CHECK_NEAR(ref_linear_weight(7, 4.75, i), i >= 1 && i < 9 ? seventh[i - 1] : 0, 1e-15);
-    }
-}
-
-/* Weights sum to 1, mirror, and run on without a jump where the first texel changes. */
-static void test_linear_weights(void)
-{
-    for (int size = 3; size <= 7; size += 2)
-        for (int step = -64; step <= 64; step++) {
-            const double centre = step / 16.0 + 1.0 / 64;
-            double sum = 0, moment = 0;
-            for (int i = -12; i < 12; i++) {
-                const double w = ref_linear_weight(size, centre, i);
-                CHECK(w >= 0);
-                CHECK_NEAR(w, ref_linear_weight(size, -centre, -1 - i), 1e-14);
-                CHECK_NEAR(w, ref_linear_weight(size, centre + 1, i + 1), 1e-14);
-                CHECK_NEAR(ref_linear_weight(size, floor(centre) + 0.5 - 1e-12, i),
-                           ref_linear_weight(size, floor(centre) + 0.5, i), 1e-11);
-                sum += w;
-                moment += w * (i + 0.5);
-            }
-            CHECK_NEAR(sum, 1, 1e-14);
-            CHECK(fabs(moment - centre) < 0.1); /* about the centre */
-        }
-}
-
-/* Knob `kernel` changes the filters 3x3, 5x5 and 7x7, and no other. */
-static void test_kernel_choice(void)
-{
-    double depth[64];
-    for (int i = 0; i < 64; i++) depth[i] = i % 8 < 4 ? 1 : 8;
-    const ref_light_view view = {.tile_texels = 8, .tile_rows = 8, .texel = 1, .depth_range = 8, .depth = depth};
-    for (int k = 0; k < 5; k++) {
-        const ref_lookup how = {.filter = (scene_filter)k, .kernel = SCENE_KERNEL_LINEAR};
-        const double got = ref_filtered(&view, &how, 4.2, 3, 2);
-        double open = k == 0 ? 1 : 0.7;
-        for (int i = 4; k >= 2 && i < 12; i++) open = (i == 4 ? 0 : open) + ref_linear_weight(2 * k - 1, 4.2, i);
-        CHECK_NEAR(got, open, 1e-14);
-        if (k >= 2) CHECK(fabs(got - ref_attenuation(&view, how.filter, 4.2, 3, 2)) > 1e-4);
-    }
-}
-
 /* ---- disk ---- */
 
 static double turns(const double at[2])
@@ -512,11 +460,7 @@ static double looked_up(const fixture *f, const ref_picture *p, int pixel, const
     for (int k = 0; k < 3; k++)
         moved[k] = w[k] + texel * ((b[0] + b[1] * tangent) * to_light[k] +
                                    (sqrt(2) * light->bias_normal + b[2] + b[3] * sine) * n[k]);
-    const ref_lookup how = {.filter = view->filter,
-                            .kernel = f->s.shadow.kernel,
-                            .disk_samples = 16,
-                            .x = pixel % p->width,
-                            .y = pixel / p->width};
+    const ref_lookup how = {.filter = view->filter, .disk_samples = 16, .x = pixel % p->width, .y = pixel / p->width};
     if (!view->perspective) {
         for (int k = 0; k < 3; k++) q[k] = dot(moved, view->axis[k]) / view->texel - view->origin[k];
         return ref_filtered(view, &how, q[0], q[1], q[2]);
@@ -540,7 +484,6 @@ static void test_lookup_again(void)
         f.meshes[0].nrm = copy(normals, 12);
         add_box(&f, low, high);
         f.s.shadow.filter = f.s.shadow.other_filter = (scene_filter)(round / 3 % 6);
-        f.s.shadow.kernel = (scene_kernel)(round / 18 % 2);
         f.s.shadow.penumbra = 3;
         f.s.shadow.distance_mode = SCENE_DISTANCE_RADIUS;
         f.s.shadow.max_distance = 1000;
@@ -602,9 +545,6 @@ static void test_unsnapped(void)
 
 int main(void)
 {
-    test_linear_by_hand();
-    test_linear_weights();
-    test_kernel_choice();
     test_disk_samples();
     test_disk_step();
     test_finer_edge();

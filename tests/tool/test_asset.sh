@@ -65,12 +65,15 @@ grep -q " meshes of 199 triangles, " "$tmp/fewer.log" && pass || fail "asset --t
 grep -q "bad value '0', not a number of triangles from 1" "$tmp/log" && pass || fail "--triangles 0: $(cat "$tmp/log")"
 # [R12] skins: joints as they are in the file, and by a clip
 same snake docs/scenes/snake.gltf
+# mirrors, scales that begin and end at 0, and that change their sign
+same scales tests/data/scales.gltf
 # [R8] clips: rotation, of a light, and of a hierarchy with splines, steps, scales, a fixed matrix, a lamp and a camera
 poses cube host/scenes/cube.gltf 300 0 1 30 60 96
 poses sundial host/scenes/sundial.gltf 300 1 77 144
 poses desk host/scenes/desk.gltf 300 7 30
 poses robot tests/data/robot.gltf 300 0 10 20 30 47 72
 poses snake docs/scenes/snake.gltf 300 0 11 30 66 96
+poses scales tests/data/scales.gltf 300 0 1 11 13 24 35 37 48
 # up=z: clips of a file that is turned
 how="--set up=z"
 same turned tests/data/robot.gltf $how
@@ -78,6 +81,28 @@ poses turned tests/data/robot.gltf 300 0 20 47 72
 same coiled docs/scenes/snake.gltf $how
 poses coiled docs/scenes/snake.gltf 300 11 66
 how=
+
+# a lamp of the program's own is as bright as the file's: the robot's torch is of 40 candela
+cat >"$tmp/lamp.c" <<'E_C'
+#include <math.h>
+#include "robot.h"
+static robot_state robot;
+int main(void)
+{
+    robot_init(&robot);
+    const gn_light *file = &robot.lights[ROBOT_LIGHT_TORCH];
+    gn_light own = gn_light_point(file->position_q16);
+    own.colour_uq16[0] = ROBOT_INTENSITY(CANDELA / 3.14159265358979);
+    own.colour_exp = ROBOT_INTENSITY_EXP;
+    return !(fabs(ldexp(own.colour_uq16[0], own.colour_exp) / ldexp(file->colour_uq16[0], file->colour_exp) - 1) < 1e-3);
+}
+E_C
+ok gcc -std=c99 -w -Ilib -I"$tmp" $roomy -DCANDELA=40.0 -o "$tmp/lamp" lib/gnomon.c "$tmp/robot.c" "$tmp/lamp.c" -lm
+ok "$tmp/lamp"
+# what the file lacks and the tool adds is said
+printf 'v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n' >"$tmp/bare.obj"
+"$tool" asset "$tmp/bare.obj" -o "$tmp/bare" >"$tmp/log" 2>&1
+grep -q ' bytes of flash; added: ground, camera, light$' "$tmp/log" && pass || fail "asset does not name what it adds: $(cat "$tmp/log")"
 
 # names: of the file, in letters of C, each once; all cameras
 for word in ROBOT_OBJECT_ROBOT_BASE ROBOT_LIGHT_TORCH ROBOT_CAMERA_ABOVE ROBOT_MESH_RED_BOX ROBOT_CLIP_WAVE ROBOT_CLIP_WALK; do

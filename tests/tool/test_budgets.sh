@@ -279,7 +279,7 @@ for uri in in.bin ./in.bin deeper/../in.bin; do
 done
 pictures one 1 ../out.png
 mv "$tmp/one.gltf" "$tmp/in"
-refused "/images/0/uri: ../out.png is outside the folder" "$tmp/in/one.gltf"
+drawn "texture '../out.png': ../out.png is outside the folder of the scene.*: it is drawn without" "$tmp/in/one.gltf"
 drawn '' "$tmp/in/one.gltf" --outside
 # OBJ files often name files of the machine that they were made on: they are not read, and that is said
 cp "$tmp/p.obj" "$tmp/in/p.obj"

@@ -2,7 +2,8 @@
  * which the sanitizers see. The files of tests/data/corpus are where the damage begins.
  *
  * SCENES=n: damaged files of each kind; KINDS="png glb": of these alone; SEED=n: others; FIRST=n leaves out those
- * before. A file is its kind, seed and number. Run from the project's folder. */
+ * before. A file is its kind, seed and number. Run from the project's folder. With LIBFUZZER, by coverage: see
+ * tests/soak.sh. */
 #define _POSIX_C_SOURCE 200809L
 
 #include <dirent.h>
@@ -211,6 +212,17 @@ static void put_beside(const kind *k)
     if (k == mtl) write_file(FOLDER "/scene.obj", obj->bytes[obj->n_files - 1], obj->n_bytes[obj->n_files - 1]);
 }
 
+static void read_corpus(void)
+{
+    mkdir("build", 0777);
+    mkdir("build/tmp", 0777);
+    mkdir(FOLDER, 0777);
+    for (kind *k = kinds; k < kinds + N_KINDS; k++) read_folder(k);
+    make_jpegs(&kinds[JPEG]);
+}
+
+#ifndef LIBFUZZER
+
 /* ---- The campaign -------------------------------------------------------------------------------------------------
  */
 
@@ -251,12 +263,64 @@ int main(void)
 {
     const char *asked = getenv("KINDS");
     const long seed = option("SEED", 1), n = option("SCENES", 0);
-    mkdir("build", 0777);
-    mkdir("build/tmp", 0777);
-    mkdir(FOLDER, 0777);
-    for (kind *k = kinds; k < kinds + N_KINDS; k++) read_folder(k);
-    make_jpegs(&kinds[JPEG]);
+    read_corpus();
     for (kind *k = kinds; k < kinds + N_KINDS; k++)
         if (!asked || strstr(asked, k->name)) try_kind(k, seed, n ? n : k < &kinds[PNG] ? 6000 : 40000);
     return check_report();
 }
+
+#else
+
+/* ---- By coverage -------------------------------------------------------------------------------------------------
+ * A file is a byte for its kind, one for the options of loading, and its bytes. */
+
+int LLVMFuzzerInitialize(int *argc, char ***argv);
+int LLVMFuzzerTestOneInput(const uint8_t *bytes, size_t n);
+size_t LLVMFuzzerCustomMutator(uint8_t *bytes, size_t n, size_t most, unsigned seed);
+size_t LLVMFuzzerMutate(uint8_t *bytes, size_t n, size_t most);
+
+/* The whole files are where it begins: in a folder that is among the program's arguments. */
+int LLVMFuzzerInitialize(int *argc, char ***argv)
+{
+    (void)argc, (void)argv;
+    read_corpus();
+    mkdir(FOLDER "/seeds", 0777);
+    for (int k = 0; k < N_KINDS; k++)
+        for (size_t i = 0; i < kinds[k].n_files; i++) {
+            char path[100];
+            uint8_t bytes[MAX_FILE + 2] = {(uint8_t)k, 0};
+            memcpy(bytes + 2, kinds[k].bytes[i], kinds[k].n_bytes[i]);
+            snprintf(path, sizeof path, FOLDER "/seeds/%s-%zu", kinds[k].name, i);
+            write_file(path, bytes, kinds[k].n_bytes[i] + 2);
+        }
+    return 0;
+}
+
+int LLVMFuzzerTestOneInput(const uint8_t *bytes, size_t n)
+{
+    if (n < 2) return 0;
+    kind *k = &kinds[bytes[0] % N_KINDS];
+    static const kind *beside;
+    if (beside != k) put_beside(k); /* files: only when they are others */
+    beside = k;
+    read_damaged(k, bytes + 2, n - 2, bytes[1]);
+    if (check_n_failed) abort();
+    return 0;
+}
+
+/* Damage that knows the format, as above, or any. */
+size_t LLVMFuzzerCustomMutator(uint8_t *bytes, size_t n, size_t most, unsigned seed)
+{
+    static uint8_t file[MAX_FILE + DAMAGE_ADDS + 4];
+    rng r = {seed};
+    const kind *k = n ? &kinds[bytes[0] % N_KINDS] : NULL;
+    if (n < 4 || n > MAX_FILE || rng_below(&r, 3) == 0) return LLVMFuzzerMutate(bytes, n, most);
+    memcpy(file, bytes + 2, n - 2);
+    size_t changed = damage(k, &r, file, n - 2);
+    if (k == &kinds[PNG] && rng_below(&r, 8)) mend_png(file, changed);
+    if (changed > most - 2) changed = most - 2;
+    memcpy(bytes + 2, file, changed);
+    return changed + 2;
+}
+
+#endif

@@ -19,8 +19,8 @@ package=$(echo "$tmp"/unpacked/gnomon-*)
 for file in $(awk '!/^#/ { print $3 }' boards/packages/list); do
     [ -e "$package/$file" ] && pass || fail "$file is not in the archive"
 done
-for example in boards/packages/*/*.ino boards/packages/*/*.c boards/packages/*/*/*.c; do
-    [ "$(wc -l <"$example")" -le 60 ] && pass || fail "$example has more than 60 lines"
+for example in boards/packages/[a-l]*/*.ino boards/packages/[a-l]*/*.c boards/packages/*/*/*.c; do
+    [ "$(wc -l <"$example")" -le 70 ] && pass || fail "$example has more than 70 lines"
 done
 
 # ---- One header, one source: the same picture as from lib/ -------------------------------------------------------------------
@@ -73,6 +73,7 @@ ok gcc -std=c99 -Wall -Wextra -Werror -I"$package/single" "-DTWO_BUFFERS=\"$pack
 ok "$tmp/two"
 cat >"$tmp/two_cores.cpp" <<'C'
 #include <string.h>
+#include <Arduino.h>
 #include <thread>
 #include TWO_CORES
 static void reference(void *to, int x, int y, int w, int h, const void *pixels)
@@ -95,8 +96,22 @@ int main()
     return gn_render(&renderer, &scene, reference, wanted) ? 2 : memcmp(picture, wanted, sizeof wanted) != 0;
 }
 C
-ok g++ -std=c++11 -Wall -Wextra -Werror -pthread -I"$package/arduino/Gnomon/src" "-DTWO_CORES=\"$package/arduino/Gnomon/examples/TwoCores/TwoCores.ino\"" -o "$tmp/cores" "$tmp/two_cores.cpp" "$tmp/single.o"
+host=tests/property/arduino
+ok g++ -std=c++11 -Wall -Wextra -Werror -pthread -I$host/cores/host -I"$package/arduino/Gnomon/src" "-DTWO_CORES=\"$package/arduino/Gnomon/examples/TwoCores/TwoCores.ino\"" -o "$tmp/cores" "$tmp/two_cores.cpp" $host/cores/host/main.cpp "$tmp/single.o"
 ok "$tmp/cores"
+
+# ---- The sketch that drives a panel by itself, on models of both controllers, from power-on -------------------------------------
+
+for file in tests/tool/packages/glass tests/firmware/panel_model tests/firmware/panel_model_st7789 tests/firmware/panel_model_ssd1306 tests/firmware/panel_model_ssd1327; do
+    ok gcc -std=c11 -Wall -Wextra -Werror -O1 -Itests/support -c -o "$tmp/$(basename $file).o" $file.c
+done
+sketch=$package/arduino/Gnomon/examples/Panel/Panel.ino
+sed 's/IS_ST7789 = 0/IS_ST7789 = 1/' "$sketch" >"$tmp/st7789.ino"
+for panel in "$sketch" "$tmp/st7789.ino"; do
+    ok g++ -std=c++11 -Wall -Wextra -Werror -I$host/cores/host -I$host/libraries/SPI -I"$package/arduino/Gnomon/src" "-DPANEL=\"$panel\"" -o "$tmp/panel" \
+        tests/tool/packages/panel_sketch.cpp $host/cores/host/main.cpp $host/libraries/SPI/SPI.cpp "$tmp/glass.o" "$tmp"/panel_model*.o "$tmp/single.o"
+    ok "$tmp/panel"
+done
 
 # ---- CMake: as a folder, installed and found, by pkg-config -------------------------------------------------------------------
 
@@ -105,14 +120,37 @@ if command -v cmake >/dev/null 2>&1; then
     ok cmake -S "$example" -B "$tmp/sub"
     ok cmake --build "$tmp/sub"
     same "$tmp/sub/spin"
-    ok cmake -S "$package/lib" -B "$tmp/lib" -DCMAKE_INSTALL_PREFIX="$tmp/prefix" "-DGNOMON_DEFINITIONS=GN_MAX_TRIANGLES=77;GN_CLIPS=0"
+    ok cmake -S "$package" -B "$tmp/lib" -DCMAKE_INSTALL_PREFIX="$tmp/elsewhere" "-DGNOMON_DEFINITIONS=GN_MAX_TRIANGLES=77;GN_CLIPS=0"
     ok cmake --build "$tmp/lib"
-    ok cmake --install "$tmp/lib"
+    ok cmake --install "$tmp/lib" --prefix "$tmp/prefix" # another than was configured
     mkdir -p "$tmp/alone" # without the source beside it
     cp "$example"/* "$tmp/alone"
     ok cmake -S "$tmp/alone" -B "$tmp/found" -DCMAKE_PREFIX_PATH="$tmp/prefix"
     ok cmake --build "$tmp/found"
     same "$tmp/found/spin"
+    # a program asks for the version that it was written for; a patch is no reason to refuse, another minor version is
+    for wanted in "${version%.*}" "$version" 0.1 0.99; do
+        printf 'cmake_minimum_required(VERSION 3.13)\nproject(any C)\nfind_package(gnomon %s QUIET)\nmessage("found ${gnomon_FOUND}")\n' $wanted >"$tmp/any.cmake"
+        rm -rf "$tmp/any" && mkdir "$tmp/any" && mv "$tmp/any.cmake" "$tmp/any/CMakeLists.txt"
+        case $wanted in "${version%.*}" | "$version") is=1 ;; *) is=0 ;; esac
+        cmake -S "$tmp/any" -B "$tmp/any/build" -DCMAKE_PREFIX_PATH="$tmp/prefix" 2>&1 | grep -q "^found $is" && pass || fail "find_package(gnomon $wanted) of $version: not $is"
+    done
+    # the archive as it is, with a knob that the project sets; the library refuses a program with another
+    mkdir -p "$tmp/fetch" && cp "$spin" "$tmp/fetch"
+    cat >"$tmp/fetch/CMakeLists.txt" <<CMAKE
+cmake_minimum_required(VERSION 3.14)
+project(fetch C)
+include(FetchContent)
+set(GNOMON_DEFINITIONS GN_MAX_TRIANGLES=77)
+FetchContent_Declare(gnomon URL $archive)
+FetchContent_MakeAvailable(gnomon)
+add_executable(spin spin.c)
+target_link_libraries(spin gnomon::gnomon)
+CMAKE
+    ok cmake -S "$tmp/fetch" -B "$tmp/fetch/build" -DCMAKE_EXPORT_COMPILE_COMMANDS=ON
+    ok cmake --build "$tmp/fetch/build"
+    same "$tmp/fetch/build/spin"
+    [ "$(grep -c 'DGN_MAX_TRIANGLES=77 ' "$tmp/fetch/build/compile_commands.json")" = 2 ] && pass || fail "FetchContent: a knob that the project sets is lost"
     if command -v pkg-config >/dev/null 2>&1; then
         flags=$(PKG_CONFIG_PATH=$(dirname "$(find "$tmp/prefix" -name gnomon.pc)") pkg-config --cflags --libs gnomon)
         case $flags in *GN_MAX_TRIANGLES=77*) pass ;; *) fail "pkg-config says '$flags'" ;; esac
@@ -180,10 +218,10 @@ kconfig="-DGN_USER_CONFIG=\"gnomon_kconfig.h\" -I$package/zephyr/gnomon/src"
 ok gcc -std=c99 -w -include "$tmp/sdk/other.h" $kconfig -c -o "$tmp/other.o" "$package/zephyr/gnomon/src/gnomon.c"
 ok gcc -std=c99 -w -include "$tmp/sdk/sdkconfig.h" $kconfig -o "$tmp/mixed" "$spin" "$tmp/other.o"
 "$tmp/mixed" 2>&1 | grep -q "different configurations" && pass || fail "an option of Kconfig does not reach the library"
-for key in version description license dependencies; do
+for key in version description url repository license dependencies; do
     grep -q "^$key: *" "$package/esp-idf/gnomon/idf_component.yml" && pass || fail "idf_component.yml has no $key"
 done
-for file in $(sed -n 's/^  \(cmake\|kconfig\): //p' "$package/zephyr/gnomon/zephyr/module.yml") samples/spin/prj.conf samples/spin/src/main.c; do
+for file in $(sed -n 's/^  \(cmake\|kconfig\): //p' "$package/zephyr/gnomon/zephyr/module.yml") samples/spin/sample.yaml samples/spin/prj.conf samples/spin/src/main.c; do
     [ -e "$package/zephyr/gnomon/$file" ] && pass || fail "zephyr: there is no $file"
 done
 
@@ -256,8 +294,12 @@ ok gcc -std=c99 -D_POSIX_C_SOURCE=200809L -Wall -Wextra -Werror -I"$idf" -I"$pac
 for at in 36600 79800 36660; do TZ=UTC "$idf/clock" $at >"$idf/$at" && [ "$(wc -c <"$idf/$at")" = 115200 ] && pass || fail "the clock shows nothing $at seconds after midnight"; done
 cmp -s "$idf/36600" "$idf/79800" && pass || fail "the clock at 10:10 and at 22:10 differs"
 cmp -s "$idf/36600" "$idf/36660" && fail "the clock at 10:10 and at 10:11 is the same" || pass
-grep -q 'SRCS "clock.c" "st7789.c" REQUIRES gnomon' "$clock/main/CMakeLists.txt" && [ -e "$clock/$(sed -n 's/^set(EXTRA_COMPONENT_DIRS \(.*\))/\1/p' "$clock/CMakeLists.txt")/idf_component.yml" ] && pass ||
-    fail "the project of the clock does not name its sources and the component"
+# The registry puts the component elsewhere, and the example anywhere: its manifest names the component, and finds it while it lies in it.
+manifest=$clock/main/idf_component.yml
+grep -q 'SRCS "clock.c" "st7789.c"' "$clock/main/CMakeLists.txt" && grep -q "^  gnomon/gnomon:" "$manifest" && grep -q "version: \"~$version\"" "$manifest" &&
+    [ -e "$clock/main/$(sed -n 's/^ *override_path: "\([^"]*\)".*/\1/p' "$manifest")/idf_component.yml" ] && pass || fail "the project of the clock does not name its sources and the component"
+grep -r -n -F '..' "$clock" --include=CMakeLists.txt >"$tmp/matches" && fail "the project of the clock needs what is not in its folder: $(head -n 1 "$tmp/matches")" || pass
+[ -s "$package/esp-idf/gnomon/README.md" ] && pass || fail 'the component has no README'
 
 # ---- Pico SDK: its example by CMake on a stand-in of the SDK, whose second core is a thread; it ends after three pictures ---------------
 
@@ -359,7 +401,7 @@ elements() {
         END { exit n != 0 }' "$1"
 }
 elements "$pdsc" >"$tmp/pdsc" && pass || fail "Gnomon.Gnomon.pdsc is not well-formed"
-for element in 'package schemaVersion="[0-9.]*"' vendor name description url releases "release version=\"$version\"" \
+for element in 'package schemaVersion="[0-9.]*"' vendor name description url releases "release version=\"$version\" date=\"[0-9-]*\"" examples 'example name="Lamp" folder="examples/lamp"' 'environment name="csolution"' \
     "component Cclass=\"Graphics\" Cgroup=\"Gnomon\" Cversion=\"$version\"" files; do
     grep -q "^$element" "$tmp/pdsc" && pass || fail "Gnomon.Gnomon.pdsc has no $element"
 done
@@ -408,130 +450,32 @@ void panel_write(int x, int y, int w, int h, const void *pixels)
 }
 int button_is_down(int left_or_right) { return n_pictures == 1 + 2 * (unsigned long)left_or_right; }
 C
-ok gcc $cmsis "$pre_include" -o "$tmp/lamp" "$package/cmsis/examples/lamp.c" "$tmp/lamp_board.c" "$package/cmsis/src/gnomon.c"
+for file in $(sed -n 's/^ *- file: //p; s/^ *- project: //p' "$package"/cmsis/examples/lamp/*.yml); do [ -e "$package/cmsis/examples/lamp/$file" ] && pass || fail "cmsis: there is no $file"; done
+ok gcc $cmsis "$pre_include" -o "$tmp/lamp-example" "$package"/cmsis/examples/lamp/*.c "$package/cmsis/src/gnomon.c"
+ok gcc $cmsis "$pre_include" -o "$tmp/lamp" "$package/cmsis/examples/lamp/lamp.c" "$tmp/lamp_board.c" "$package/cmsis/src/gnomon.c"
 "$tmp/lamp" | awk '{ sum[NR] = $1 } END { exit !(NR == 10 && sum[1] != sum[2] && sum[2] == sum[3] && sum[4] == sum[1] && sum[10] == sum[1]) }' && pass ||
     fail "the lamp does not go there and back"
 
 # ---- LVGL and MicroPython: on stand-ins of their headers; both draw the same scene ---------------------------------------------------
 
-mkdir -p "$tmp/lvgl" "$tmp/micropython/py"
-cat >"$tmp/lvgl/lvgl.h" <<'C'
-#include <stdint.h>
-#include <stdio.h>
-typedef struct { int unused; } lv_obj_t;
-typedef struct { void *user_data; } lv_timer_t;
-typedef struct { uint32_t w, h, stride; uint8_t *data; } lv_draw_buf_t;
-enum { LV_COLOR_FORMAT_RGB565 = 0x12, STRIDE = 320 };
-#define LV_DRAW_BUF_DEFINE_STATIC(name, w, h, format) static uint8_t buf_##name[STRIDE * (h)]; static lv_draw_buf_t name = {w, h, 0, 0}
-#define LV_DRAW_BUF_INIT_STATIC(name) (name.data = buf_##name, name.stride = STRIDE)
-#define LV_LOG_ERROR(...) printf(__VA_ARGS__)
-void *lv_draw_buf_goto_xy(const lv_draw_buf_t *buf, uint32_t x, uint32_t y);
-lv_obj_t *lv_canvas_create(lv_obj_t *parent);
-void lv_canvas_set_draw_buf(lv_obj_t *canvas, lv_draw_buf_t *buf);
-lv_timer_t *lv_timer_create(void (*draw)(lv_timer_t *), uint32_t ms, void *user_data);
-void *lv_timer_get_user_data(lv_timer_t *timer);
-void lv_obj_invalidate(const lv_obj_t *obj);
-C
-# Writes the picture without what is between the rows, which stays as it was.
-cat >"$tmp/lvgl/main.c" <<'C'
-#include "lvgl.h"
-static lv_obj_t screen, canvas;
-static lv_timer_t timer;
-static const lv_draw_buf_t *shown;
-static void (*run)(lv_timer_t *);
-static int n_drawn;
-void *lv_draw_buf_goto_xy(const lv_draw_buf_t *buf, uint32_t x, uint32_t y) { return buf->data + y * buf->stride + 2 * x; }
-lv_obj_t *lv_canvas_create(lv_obj_t *parent) { return parent == &screen ? &canvas : 0; }
-void lv_canvas_set_draw_buf(lv_obj_t *obj, lv_draw_buf_t *buf) { shown = obj == &canvas ? buf : 0; }
-lv_timer_t *lv_timer_create(void (*draw)(lv_timer_t *), uint32_t ms, void *user_data) { run = ms ? draw : 0; timer.user_data = user_data; return &timer; }
-void *lv_timer_get_user_data(lv_timer_t *t) { return t->user_data; }
-void lv_obj_invalidate(const lv_obj_t *obj) { n_drawn += obj == &canvas; }
-lv_obj_t *gnomon_view_create(lv_obj_t *parent);
-int main(void)
-{
-    if (gnomon_view_create(&screen) != &canvas || !shown || !run) return 1;
-    for (uint32_t i = 0; i < shown->h * shown->stride; i++) shown->data[i] = 0xA5;
-    run(&timer);
-    for (uint32_t y = 0; y < shown->h; y++) {
-        const uint8_t *row = shown->data + y * shown->stride;
-        fwrite(row, 2, shown->w, stdout);
-        for (uint32_t i = 2 * shown->w; i < shown->stride; i++)
-            if (row[i] != 0xA5) return 2;
-    }
-    return n_drawn != 1;
-}
-C
+mkdir -p "$tmp/micropython"
+standins=$root/tests/tool/packages
 view=$package/examples/lvgl/gnomon_view.c
-ok gcc -std=c99 -Wall -Wextra -Werror -I"$package/single" -I"$tmp/lvgl" -o "$tmp/view" "$view" "$tmp/lvgl/main.c" "$package/single/gnomon.c"
-"$tmp/view" >"$tmp/view.rgb565" && pass || fail "lvgl: the view draws beside its rows, or not at all"
+ok gcc -std=c99 -g -fsanitize=address,undefined -fno-sanitize-recover=all -Wall -Wextra -Werror -I"$package/single" -I"$standins/lvgl" -o "$tmp/view" "$view" "$standins/lvgl/main.c" "$package/single/gnomon.c"
+"$tmp/view" >"$tmp/view.rgb565" && pass || fail "lvgl: a view draws beside its rows, or not at all, or stays when it is deleted: status $?"
 if [ -n "$LVGL" ]; then ok gcc -std=c99 -Wall -Wextra -Werror -DLV_CONF_SKIP -isystem "$LVGL" -isystem "$LVGL/include" -I"$package/single" -fsyntax-only "$view"; fi
 
-cat >"$tmp/micropython/py/runtime.h" <<'C'
-#include <setjmp.h>
-#include <stddef.h>
-#include <stdint.h>
-typedef intptr_t mp_obj_t;
-typedef struct { void *buf; size_t len; } mp_buffer_info_t;
-typedef struct { mp_obj_t (*fun)(size_t, const mp_obj_t *); int min, max; } mp_obj_fun_t;
-typedef struct { const char *key; const void *value; } mp_rom_map_elem_t;
-typedef struct { const mp_rom_map_elem_t *table; size_t n; } mp_obj_dict_t;
-typedef struct { const void *type; } mp_obj_base_t;
-typedef struct { mp_obj_base_t base; mp_obj_dict_t *globals; } mp_obj_module_t;
-enum { MP_BUFFER_WRITE = 2, mp_const_none = 0 };
-extern const int mp_type_module, mp_type_ValueError;
-#define MP_ERROR_TEXT(text) text
-#define MP_QSTR___name__ "__name__"
-#define MP_QSTR_gnomon "gnomon"
-#define MP_QSTR_draw "draw"
-#define MP_ROM_QSTR(text) text
-#define MP_ROM_PTR(pointer) pointer
-#define MP_DEFINE_CONST_FUN_OBJ_VAR_BETWEEN(name, min, max, fun) const mp_obj_fun_t name = {fun, min, max}
-#define MP_DEFINE_CONST_DICT(name, table) const mp_obj_dict_t name = {table, sizeof table / sizeof *table}
-#define MP_REGISTER_MODULE(name, module) extern const mp_obj_module_t *const registered
-int mp_obj_get_int(mp_obj_t o);
-void mp_get_buffer_raise(mp_obj_t o, mp_buffer_info_t *out, int flags);
-_Noreturn void mp_raise_ValueError(const char *text);
-_Noreturn void mp_raise_msg_varg(const int *type, const char *format, ...);
-C
-# Calls draw(buffer, width, height, turn), and with a buffer of a byte too few, and with a width of 0.
-cat >"$tmp/micropython/main.c" <<'C'
-#include <stdio.h>
-#include "py/runtime.h"
-extern const mp_obj_module_t gnomon_module;
-const int mp_type_module = 1, mp_type_ValueError = 2;
-static uint8_t picture[2 * 150 * 100];
-static jmp_buf raised;
-static size_t length = sizeof picture;
-int mp_obj_get_int(mp_obj_t o) { return (int)o; }
-void mp_get_buffer_raise(mp_obj_t o, mp_buffer_info_t *out, int flags) { out->buf = flags == MP_BUFFER_WRITE ? (void *)o : 0; out->len = length; }
-void mp_raise_ValueError(const char *text) { (void)text; longjmp(raised, 1); }
-void mp_raise_msg_varg(const int *type, const char *format, ...) { (void)format; longjmp(raised, type == &mp_type_ValueError ? 1 : 2); }
-static int try(int width)
-{
-    const mp_obj_fun_t *draw = gnomon_module.globals->table[1].value;
-    const mp_obj_t arguments[] = {(mp_obj_t)picture, width, 100, 0};
-    int error = setjmp(raised);
-    return error ? error : (int)draw->fun(4, arguments);
-}
-int main(void)
-{
-    if (try(150) || try(0) != 1) return 1;
-    fwrite(picture, 1, sizeof picture, stdout);
-    length--;
-    return try(150) != 1;
-}
-C
 module=$package/micropython/gnomon
 printf 'USERMOD_DIR := %s\ninclude $(USERMOD_DIR)/micropython.mk\nall:\n\tgcc -std=c11 -Wall -Wextra -Werror $(CFLAGS_USERMOD) -I%s -o %s $(SRC_USERMOD_C) $(SRC_USERMOD_LIB_C) %s\n' \
-    "$module" "$tmp/micropython" "$tmp/upy" "$tmp/micropython/main.c" >"$tmp/micropython/Makefile"
+    "$module" "$standins/micropython" "$tmp/upy" "$standins/micropython/main.c" >"$tmp/micropython/Makefile"
 ok make -s -f "$tmp/micropython/Makefile" all
 "$tmp/upy" >"$tmp/upy.rgb565" && pass || fail "micropython: the module raises no error, or none of its kind"
 cmp -s "$tmp/view.rgb565" "$tmp/upy.rgb565" && pass || fail "LVGL and MicroPython show other pictures"
 [ "$(od -An -v -tx2 -w2 "$tmp/upy.rgb565" | sort -u | wc -l)" -gt 5 ] && pass || fail "LVGL and MicroPython show nothing"
 if command -v cmake >/dev/null 2>&1; then
-    printf 'cmake_minimum_required(VERSION 3.13)\nproject(upy C)\nadd_library(usermod INTERFACE)\ninclude(%s)\nadd_executable(upy main.c)\ntarget_include_directories(upy PRIVATE .)\ntarget_link_libraries(upy usermod)\n' \
+    printf 'cmake_minimum_required(VERSION 3.13)\nproject(upy C)\nadd_library(usermod INTERFACE)\ninclude(%s)\nadd_executable(upy ${STANDINS}/main.c)\ntarget_include_directories(upy PRIVATE ${STANDINS})\ntarget_link_libraries(upy usermod)\n' \
         "$module/micropython.cmake" >"$tmp/micropython/CMakeLists.txt"
-    ok cmake -S "$tmp/micropython" -B "$tmp/micropython/build"
+    ok cmake -S "$tmp/micropython" -B "$tmp/micropython/build" -DSTANDINS="$standins/micropython"
     ok cmake --build "$tmp/micropython/build"
     "$tmp/micropython/build/upy" | cmp -s - "$tmp/upy.rgb565" && pass || fail "micropython.cmake: another picture"
 fi
@@ -540,7 +484,7 @@ fi
 
 if command -v arduino-builder >/dev/null 2>&1; then
     mkdir -p "$tmp/hardware/gnomon/host"
-    cp -r tests/property/arduino/platform.txt tests/property/arduino/boards.txt tests/property/arduino/cores "$tmp/hardware/gnomon/host"
+    cp -r tests/property/arduino/platform.txt tests/property/arduino/boards.txt tests/property/arduino/cores tests/property/arduino/libraries "$tmp/hardware/gnomon/host"
     for sketch in "$package"/arduino/Gnomon/examples/*/*.ino; do
         out=$tmp/out-$(basename "$sketch" .ino)
         mkdir -p "$out"
@@ -551,7 +495,21 @@ if command -v arduino-builder >/dev/null 2>&1; then
 else fail "arduino-builder is missing: apt-get install arduino-builder"
 fi
 
+# TFT_eSPI sends bytes as they lie in memory; a status is looked at; each tells its speed.
+for sketch in boards/packages/arduino/*.ino; do
+    ! grep -q pushImage "$sketch" || grep -q 'picture = .*RGB565_SWAPPED\|size = .*RGB565_SWAPPED' "$sketch" && pass || fail "$sketch: pushImage with bytes in the wrong order"
+    grep -n -E '^ *gn_(init|render|begin|shadow_tile|prepare|screen_tile|pick)\(' "$sketch" >"$tmp/matches" && fail "$sketch: a status is not looked at: $(head -n 1 "$tmp/matches")" || pass
+    grep -q 'Serial.println(1000.0 / (millis() - start))' "$sketch" && pass || fail "$sketch does not print its frames per second"
+done
+
 # ---- Manifests: library.properties of Arduino, keywords.txt, library.json of PlatformIO ------------------------------------------
+
+# Addresses are filled in everywhere, and can be others.
+URL=https://example.com/other sh boards/packages/dist.sh "$tmp/c" >/dev/null
+grep -r -l '@[A-Z]*@' "$package" --include=*.json --include=*.yml --include=*.pdsc --include=*.properties >"$tmp/matches" && fail "not filled in: $(head -n 1 "$tmp/matches")" || pass
+for file in arduino/Gnomon/library.properties arduino/Gnomon/library.json esp-idf/gnomon/idf_component.yml cmsis/Gnomon.Gnomon.pdsc; do
+    grep -q 'https://example.org/gnomon' "$package/$file" && grep -q 'https://example.com/other' "$tmp/c/${package##*/}/$file" && pass || fail "$file does not name URL"
+done
 
 properties=$package/arduino/Gnomon/library.properties
 for key in name version author maintainer sentence paragraph category url architectures; do
@@ -565,7 +523,7 @@ for word in gn_render gn_scene GN_FORMAT_RGB565 gn_pick; do
     awk -v word="$word" '$1 == word { found = 1 } END { exit !found }' "$package/arduino/Gnomon/keywords.txt" && pass || fail "keywords.txt has no $word"
 done
 json=$package/arduino/Gnomon/library.json
-for key in name version description keywords authors license headers frameworks platforms; do
+for key in name version description keywords authors repository homepage license examples headers frameworks platforms; do
     grep -q "^  \"$key\": " "$json" && pass || fail "library.json has no $key"
 done
 grep -q "\"version\": \"$version\"" "$json" && pass || fail "library.json has another version than $version"

@@ -64,6 +64,21 @@ static void test_json_values(void)
     json_free(&doc);
 }
 
+/* Of members with one key the last counts. Strings may hold raw tabs and line breaks. */
+static void test_json_loose(void)
+{
+    static const char text[] = "{\"a\": 1, \"b\": 2, \"a\": {\"c\": 3, \"c\": 4, \"c\": \"x\ty\r\n\"}, \"d\": 5}";
+    json_doc doc;
+    char path[64];
+    if (!CHECK_EQ_INT(json_parse(&doc, text, sizeof text - 1, error, sizeof error), 0)) return;
+    const json_value *a = json_get(doc.root, "a"), *d = json_get(doc.root, "d");
+    CHECK(doc.root->n_children == 3 && a && a->n_children == 1 && d->child_idx == 2 && doc.n_duplicates == 3);
+    CHECK(strcmp(json_get(a, "c")->string, "x\ty\r\n") == 0);
+    json_path(doc.duplicate, path, sizeof path);
+    CHECK(strcmp(path, "/a/c") == 0);
+    json_free(&doc);
+}
+
 /* --- glTF ------------------------------------------------------------------------------------------------------------
  */
 
@@ -264,7 +279,6 @@ static const char *const view_28 = "{\"buffer\":0,\"byteLength\":28}";
 static void test_sparse(void)
 {
     static const change cases[] = {{"\"count\":2", "\"count\":7", "exceeds"},
-                                   {"\"count\":2", "\"count\":0", "are needed"},
                                    {"5121", "5120", "5121, 5123 or 5125"},
                                    {"5121", "5123", "accessor has 6"},
                                    {"\"byteOffset\":4", "\"byteOffset\":5", "reach beyond"},
@@ -287,11 +301,13 @@ static void test_sparse(void)
                   "does not increase"));
     bytes[1] = 4;
     memcpy(bytes + 4, &(float){NAN}, sizeof(float));
-    CHECK(refused(load_bytes("\"attributes\":{\"POSITION\":0}", six_points, view_28, bytes, sizeof bytes),
-                  "element 0 is not finite"));
-    memcpy(bytes + 4, &(float){2e18f}, sizeof(float));
-    CHECK(refused(load_bytes("\"attributes\":{\"POSITION\":0}", six_points, view_28, bytes, sizeof bytes),
-                  "vertex 1: coordinate 2e+18"));
+    for (int i = 0; i < 2; i++) { /* the other triangle is drawn */
+        if (!CHECK_EQ_INT(load_bytes("\"attributes\":{\"POSITION\":0}", six_points, view_28, bytes, sizeof bytes), 0))
+            continue;
+        CHECK(s.meshes[0].n_triangles == 1 && has_remark("1 faces of 'mesh 0' are left out"));
+        scene_free(&s);
+        memcpy(bytes + 4, &(float){2e18f}, sizeof(float));
+    }
 }
 
 static void check_mode(int mode, int index_type, const void *idx, size_t index_bytes, const uint32_t *expected,
@@ -333,17 +349,16 @@ static void test_modes(void)
                   "indices: index 1 is 6, there are 6"));
 }
 
-/* Two plain instances share a mesh; the mirroring one has a copy that winds the other way. */
+/* All instances share a mesh; the mirroring one, too: the engines turn its winding. */
 static void test_instances(void)
 {
     const char *text = replaced(without_animation(base_json), "\"nodes\":[0,2,3]", "\"nodes\":[0,2,3,4,5]");
     text =
         replaced(text, "{\"strength\":0.5,\"near_offset\":3}}}]", "{}}},{\"mesh\":0},{\"mesh\":0,\"scale\":[-1,1,1]}]");
     if (!CHECK_EQ_INT(load_text(TMP ".gltf", text), 0)) return (void)puts(error);
-    if (CHECK(s.n_objects == 3 && s.n_meshes == 2)) {
-        const uint32_t *a = s.meshes[0].idx, *b = s.meshes[1].idx;
-        CHECK(s.objects[0].mesh_idx == 0 && s.objects[1].mesh_idx == 0 && s.objects[2].mesh_idx == 1);
-        CHECK(b[0] == a[0] && b[1] == a[2] && b[2] == a[1]);
+    if (CHECK(s.n_objects == 3 && s.n_meshes == 1)) {
+        for (size_t i = 0; i < 3; i++) CHECK(s.objects[i].mesh_idx == 0);
+        CHECK(scene_object_sign(&s.objects[1]) == 1 && scene_object_sign(&s.objects[2]) == -1);
         CHECK(strcmp(s.objects[2].name, "node 5") == 0);
     }
     scene_free(&s);
@@ -472,7 +487,7 @@ static void test_glb(void)
     CHECK(refused(load_patched(12, 13), TMP ".glb:"));
     CHECK(refused(load_patched(12, 0xFFFFFFFC), "reaches beyond"));
     CHECK(refused(load_patched(16, 0), "first chunk is not JSON"));
-    CHECK(refused(load_patched(n_glb - sizeof base_bin - 4, 0), "buffer 0 has no data"));
+    CHECK(refused(load_patched(n_glb - sizeof base_bin - 4, 0), "/buffers/0: it has no data"));
     CHECK(refused(load_patched(n_glb - sizeof base_bin - 8, 8), "byte"));
     make_glb();
     for (size_t n = 0; n < n_glb; n++) CHECK(refused(load_glb(n), TMP ".glb"));
@@ -923,6 +938,41 @@ static void test_cuts(void)
     }
 }
 
+/* One clip plays: the first, or the one that is named. A name goes before a number. */
+static void test_clips(void)
+{
+    static const struct {
+        const char *clip;
+        size_t plays;
+    } cases[] = {{NULL, 0}, {"still", 0}, {"0", 2}, {"1", 1}, {"swing", 1}, {"2", 2}};
+    const char *text = replaced(base_json, "\"animations\":[",
+                                "\"animations\":[{\"name\":\"still\",\"channels\":[],\"samplers\":[]},");
+    text =
+        replaced(text, "\"STEP\"}]}],", "\"STEP\"}]},{\"name\":\"0\",\"channels\":[{\"broken\":0}],\"samplers\":[]}],");
+    write_file(TMP ".gltf", text, strlen(text));
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        scene_options options = plain;
+        options.frame = 1;
+        options.clip = cases[i].clip;
+        if (cases[i].plays == 2) {
+            CHECK(refused(load(TMP ".gltf", &options), "/animations/2/channels/0: sampler and target are needed"));
+            continue;
+        }
+        if (!CHECK_EQ_INT(load(TMP ".gltf", &options), 0)) return (void)puts(error);
+        CHECK(s.n_clips == 3 && s.clip_idx == cases[i].plays && strcmp(s.clips[1].name, "swing") == 0);
+        CHECK_EQ_INT(s.duration > 0, cases[i].plays);
+        CHECK_EQ_INT(s.objects[0].moving, cases[i].plays);
+        CHECK_EQ_INT(fabs(s.objects[0].to_world.m[0][3] - 10) > 0, cases[i].plays);
+        CHECK_EQ_INT(has_remark("of 3 clips the first plays, 'still': --clip"), !cases[i].clip);
+        scene_free(&s);
+    }
+    scene_options options = plain;
+    options.clip = "walk";
+    CHECK(refused(load(TMP ".gltf", &options), "there is no clip 'walk': it has 0 'still', 1 'swing', 2 '0'"));
+    write_file(TMP ".obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n", 32);
+    CHECK(refused(load(TMP ".obj", &options), "no clip 'walk': it has none"));
+}
+
 int main(void)
 {
     mkdir("build", 0777);
@@ -932,6 +982,8 @@ int main(void)
     test_json_errors();
     test_json_depth();
     test_json_values();
+    test_json_loose();
+    test_clips();
     test_gltf_base();
     test_orthographic();
     test_gltf_errors();

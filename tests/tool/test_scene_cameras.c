@@ -111,6 +111,52 @@ static void test_too_near(void)
     scene_free(&s);
 }
 
+/* A parallel camera in the middle of what it shows, with a near plane behind it, goes back along its axis. */
+static void test_behind(void)
+{
+    scene_options rigged = plain;
+    rigged.rig = true;
+    if (!CHECK_EQ_INT(load_room(1, 10, 4, "\"znear\":1"), 0)) return (void)puts(error);
+    const scene_affine eye = s.camera.to_world;
+    scene_free(&s);
+    char text[2000];
+    snprintf(text, sizeof text, text_of_room, 1.0, 1.0, 1.0, 1.2, 4.0, -0.13, sqrt(1 - 0.13 * 0.13), "\"znear\":-20",
+             "test_scene_cameras.bin");
+    snprintf(text, sizeof text, "%s",
+             replaced(replaced(text, "\"perspective\",\"perspective\"", "\"orthographic\",\"orthographic\""),
+                      "\"yfov\":0.8", "\"ymag\":3,\"zfar\":30"));
+    for (int rig = 0; rig < 2; rig++) {
+        write_file(TMP ".gltf", text, strlen(text));
+        if (!CHECK_EQ_INT(load(TMP ".gltf", rig ? &rigged : &plain), 0)) return (void)puts(error);
+        const double back = 20 + 0.003;
+        for (int k = 0; k < 3; k++)
+            CHECK_NEAR(s.camera.to_world.m[k][3], eye.m[k][3] + back * s.camera.to_world.m[k][2], 1e-9);
+        CHECK_NEAR(s.camera.half_height, 3, 0);
+        CHECK(s.camera.near > 0 && s.camera.far > 50 && has_note("the camera is moved back by 20.003"));
+        if (rig) {
+            const scene_node *node = &s.rig->nodes[s.rig->cameras[0].node];
+            CHECK(node->has_matrix && node->parent == 1 && s.rig->n_nodes == 3);
+            CHECK_NEAR(node->matrix.m[2][3], back, 1e-9);
+        }
+        scene_free(&s);
+    }
+}
+
+/* What no camera of the library sees is limited, and said: of a file, and of a large zoom. */
+static void test_lenses(void)
+{
+    scene_options zoomed = plain;
+    zoomed.orbit = true;
+    zoomed.zoom = 100;
+    if (!CHECK_EQ_INT(load_room(1, 10, 4, "\"znear\":1"), 0)) return (void)puts(error);
+    CHECK(s.n_remarks == 0);
+    scene_free(&s);
+    if (!CHECK_EQ_INT(load(TMP ".gltf", &zoomed), 0)) return (void)puts(error);
+    CHECK_NEAR(s.camera.focal, 255.99, 0);
+    CHECK(has_remark("the camera sees 0.417 degrees from top to bottom: drawn are 0.448"));
+    scene_free(&s);
+}
+
 /* Areas by depth: a wall that fills the view, and half of one twice as far away. */
 static void test_view_range(void)
 {
@@ -148,6 +194,8 @@ int main(void)
     test_wide();
     test_too_near();
     test_ground();
+    test_behind();
+    test_lenses();
     test_view_range();
     return check_report();
 }

@@ -331,9 +331,8 @@ static void test_shadow_defaults(void)
 {
     load_cube(1, 0, 0, 0);
     const scene_shadow *w = &s.shadow;
-    CHECK(w->other_filter == w->filter && w->kernel == SCENE_KERNEL_TENT && w->disk_samples == 16 &&
-          w->mixing == SCENE_MIX_NONE);
-    CHECK(!w->main_light && w->caster_culling && w->tiles == SCENE_TILES_WORTH && w->object_lights == 8);
+    CHECK(w->other_filter == w->filter && w->disk_samples == 16 && w->mixing == SCENE_MIX_NONE);
+    CHECK(!w->main_light && !w->caster_culling && w->tiles == SCENE_TILES_WORTH && w->object_lights == 8);
     for (int i = 0; i < 4; i++) CHECK_EQ_INT(w->refresh[i], 1);
     CHECK_NEAR(w->penumbra, 1, 0);
     for (size_t i = 0; i < s.n_objects; i++) {

@@ -104,8 +104,18 @@ for bias in bias_constant=64 bias_slope=9 bias_caster=4 auto_bias=off bias_norma
     cmp -s "$tmp/a.png" "$tmp/without.png" && pass || fail "$bias is not mended by: $mend"
 done
 good info "$cube" --size 64x48 --ram 100000
-grep -q 'of flash (Cortex-M0), no --flash given$' "$tmp/out" && pass || fail "info without --flash: $(tail -n 1 "$tmp/out")"
+grep -q 'of flash (Cortex-M0, -O2), no --flash given$' "$tmp/out" && pass || fail "info without --flash: $(tail -n 1 "$tmp/out")"
 # who set what: a preset sets what belongs to it anew, and a later one of the same name wins
+# its tables of RAM have what was set with every preset, before or behind one that is set
+for sets in "--set tile_width=16" "--set preset=fast --set tile_width=16"; do
+    good info "$cube" --size 64x48 $sets
+    for preset in tiny fast balanced accurate; do # 16x16 pixels, or with tiny 16x16, too: cells and pixels, 7 bytes each
+        grep -q "^    $preset .*, screen tile 1796, " "$tmp/out" && pass || fail "info $sets: $(grep -m 1 "^    $preset " "$tmp/out")"
+    done
+    grep "^    .* renderer" "$tmp/out" >"$tmp/set"
+    good info "$cube" --size 64x48
+    grep "^    .* renderer" "$tmp/out" | cmp -s - "$tmp/set" && fail "info $sets: compiled as without" || pass
+done
 settings() { # WANTED ARGS: the row of info
     wanted=$1
     shift
@@ -142,6 +152,16 @@ good render "$cube" -o "$tmp/b.png" --size 32x24 --orbit 30,25,1
 cmp -s "$tmp/a.png" "$tmp/b.png" && pass || fail "--orbit 30,25,1 is not what is drawn without"
 good render host/scenes/cube.gltf -o "$tmp/b.png" --size 32x24 --orbit 0,10,1 # whose own shadows end before that camera begins
 grep -q "; added: camera" "$tmp/out" && pass || fail "--orbit leaves the camera of the file: $(head -n 1 "$tmp/out")"
+# --turn and --hour: the camera and the sun from where they are; a camera that the file lacks as another's
+good render "$cube" -o "$tmp/b.png" --size 32x24 --turn 0,0,1
+cmp -s "$tmp/a.png" "$tmp/b.png" && pass || fail "--turn 0,0,1 changes something"
+for turn in "--turn 40,0,1" "--turn 0,20,1" "--turn 0,0,1.5" "--hour 8" "--hour 16.5"; do
+    good render host/scenes/cube.gltf -o "$tmp/c.png" --size 32x24
+    good render host/scenes/cube.gltf -o "$tmp/b.png" --size 32x24 $turn
+    cmp -s "$tmp/c.png" "$tmp/b.png" && fail "$turn changes nothing" || pass
+done
+for hour in "" 5 18.5 nan 9,5 1e1; do bad 2 "^gnomon: --hour: bad value '$hour'" info "$cube" --hour "$hour"; done
+bad 2 "^gnomon: --turn: bad value '0,0,0'" info "$cube" --turn 0,0,0
 # up=z: what the file's z axis points to is above, and what faces its -y is in front; of OBJ with normals, glTF, and clips
 cat >"$tmp/up-y.obj" <<'OBJ'
 v -1 0 1
@@ -170,8 +190,8 @@ awk 'NR == 8 { print "   \"nodes\": [11]"; skip = 1; next } # a root that turns 
     inside && /^ \]/ { print "  ,{\"matrix\": [1,0,0,0, 0,0,-1,0, 0,1,0,0, 0,0,0,1], \"children\": [0,6,7,8,10]}"; inside = 0 }
     { print }' tests/data/robot.gltf >"$tmp/turned.gltf"
 for frame in 0 20; do
-    good render "$tmp/turned.gltf" -o "$tmp/a.png" --size 48x32 --frame $frame
-    good render tests/data/robot.gltf -o "$tmp/b.png" --size 48x32 --frame $frame --set up=z
+    good render "$tmp/turned.gltf" -o "$tmp/a.png" --size 48x32 --frame $frame --clip 0
+    good render tests/data/robot.gltf -o "$tmp/b.png" --size 48x32 --frame $frame --set up=z --clip 0
     cmp -s "$tmp/a.png" "$tmp/b.png" && pass || fail "up=z: frame $frame of a glTF file is not the file below a node that turns it"
 done
 bad 1 'y or z' info "$cube" --set up=x
@@ -401,8 +421,11 @@ printf 'v 0 0 0\nv 1 0 0\nv 0 1 x\nf 1 2 3\n' >"$tmp/broken.obj"
 bad 1 'broken.obj:3' info "$tmp/broken.obj"
 printf 'v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 4\n' >"$tmp/broken.obj"
 bad 1 'broken.obj:4' info "$tmp/broken.obj"
-cp "$cube" "$tmp/noise.glb"
+printf 'noise\n' >"$tmp/noise.glb"
 bad 1 noise.glb info "$tmp/noise.glb"
+cp "$cube" "$tmp/noise.glb" # the first bytes tell the format
+good info "$tmp/noise.glb" --size 8x8
+grep -q ": the file is OBJ, whatever its name ends in" "$tmp/out" && pass || fail "an OBJ file named .glb: $(cat "$tmp/out")"
 bad 1 'no/such' render "$cube" -o "$tmp/no/such/a.png" --size 8x8
 bad 1 "$tmp/new" render "$cube" -o "$tmp/new" --size 8x8
 bad 2 "cube.obj" compare "$cube" -o "$cube" --size 8x8
@@ -509,7 +532,7 @@ for command in info compare; do
     bad 1 "filter_max.*3x3" $command "$cube" --size 8x8 --set filter=3x3 --set filter_max=1
     bad 1 "blended_cascades.*soft" $command "$cube" --size 8x8 --set cascades=2 --set cascade_blend=soft --set blended_cascades=0
     bad 1 "disk_filter.*other_filter" $command "$cube" --size 8x8 --set other_filter=disk --set disk_filter=0
-    bad 1 "linear_kernels.*linear" $command "$cube" --size 8x8 --set kernel=linear --set linear_kernels=0
+    bad 1 "setting 'kernel' is gone: .*tents" $command "$cube" --size 8x8 --set kernel=linear
     bad 1 "punctual_lights.*spot light" $command "$cube" --size 8x8 --set lights=spot --set punctual_lights=0
     bad 1 "punctual_lights.*point light" $command "$cube" --size 8x8 --set add_light=point --set punctual_lights=0
     bad 1 "filter_max.*soft light.*3" $command "$cube" --size 8x8 --set softness=soft --set filter_max=2
@@ -529,7 +552,7 @@ bad 1 'max_lights is 2' compare "$cube" --size 8x8 --set lights=spot,point,spot 
 bad 1 'surface_lights is 1' compare "$cube" --size 8x8 --set lights=directional,directional --set surface_lights=1
 good compare "$cube" --size 8x8 --set lights=directional,directional --set surface_lights=2 --set max_lights=2 --set max_objects=2
 good info "$cube" --size 8x8 --set receiver_plane=0 --set receiver_plane@0=1 # what one light uses is built
-for knob in raw_views runtime_knobs depth_blocks tile_lights incremental static_layer caster_culling; do
+for knob in raw_views runtime_knobs incremental static_layer caster_culling; do
     for on in 0 1; do
         good render "$cube" -o "$tmp/b.png" --size 64x48 --set $knob=$on --set shadows=1
         [ $on = 0 ] && mv "$tmp/b.png" "$tmp/a.png"
@@ -537,6 +560,7 @@ for knob in raw_views runtime_knobs depth_blocks tile_lights incremental static_
     cmp -s "$tmp/a.png" "$tmp/b.png" && pass || fail "$knob changes the picture"
 done
 rm -f "$tmp/a.png" "$tmp/b.png"
+bad 1 "setting 'tile_lights' is gone: " info "$cube" --size 8x8 --set tile_lights=1
 sed 's/{"attributes"/{"material":0,"attributes"/; s/"accessors"/"materials":[{"pbrMetallicRoughness":{"baseColorFactor":[0,0,0,1]}}],"accessors"/; s/{"byteLength":36}\]/{"byteLength":36,"uri":"black.bin"}]/' >"$tmp/black.gltf" <<EOF_JSON
 $json
 EOF_JSON
@@ -583,7 +607,7 @@ alike 'lights=spot other_filter=hard filter=7x7' 'lights=spot filter=7x7'    # f
 alike 'filter=7x7 other_filter=hard' 'filter=7x7'                            # a directional light is in the directional one
 alike 'softness=soft filter=hard' 'filter=5x5'
 alike 'softness=hard filter=5x5' 'filter=2x2'
-unlike 'filter=5x5 kernel=linear' 'filter=5x5'
+alike 'filter=5x5 kernel=tent' 'filter=5x5'
 unlike 'filter=disk penumbra=64' 'filter=disk penumbra=0.5'
 unlike 'filter=disk penumbra=64 disk_samples=1' 'filter=disk penumbra=64 disk_samples=64'
 alike 'bias_receiver=0,0,1,0' 'bias_receiver@0=0,0,1,0'
@@ -640,7 +664,6 @@ while read -r key says values; do
     for value in $values; do bad 1 "setting '$key': '$value' is not .*$says" info "$cube" --size 8x8 --set "$key=$value"; done
 done <<'LIST'
 other_filter disk 9x9 soft 1
-kernel linear box 0
 mixing always sometimes 1
 tiles importance 4 big
 softness soft firm 1
@@ -944,6 +967,38 @@ wanted=$(sed -n 's/^#define GN_VERSION_STRING "\(.*\)"/gnomon \1/p' lib/gnomon.h
 [ "$(cat "$tmp/out")" = "$wanted" ] && pass || fail "--version prints '$(cat "$tmp/out")', not '$wanted'"
 numbers=$(sed -n 's/^#define GN_VERSION_M[A-Z]* *\([0-9]*\)$/\1/p; s/^#define GN_VERSION_PATCH *\([0-9]*\)$/\1/p' lib/gnomon.h | tr '\n' . | sed 's/\.$//')
 [ "gnomon $numbers" = "$wanted" ] && pass || fail "GN_VERSION_STRING is '$wanted', the numbers are $numbers"
+
+# ---- Clips, and what surfaces have that the engines have otherwise -----------------------------------------------------------
+
+good info tests/data/robot.gltf --size 16x12 --clip walk
+grep -q -x "    0 'Wave!', 3 s" "$tmp/out" && grep -q -x "    1 'walk', 1.5 s, plays" "$tmp/out" && pass || fail "info --clip walk: $(grep -A 2 clips "$tmp/out")"
+good info tests/data/robot.gltf --size 16x12 --json --clip 1
+valid_json clips
+for command in "render -o $tmp/clip" "compare -o $tmp/clip" "compile -o $tmp/clip" "asset -o $tmp/clip" "bake -o $tmp/clip.gltf" sweep; do
+    bad 1 "there is no clip 'run': it has 0 'Wave!', 1 'walk'" $command tests/data/robot.gltf --size 16x12 --clip run
+done
+said render tests/data/robot.gltf -o "$tmp/a.png" --size 48x32 --frame 9
+grep -q -x "gnomon: of 2 clips the first plays, 'Wave!': --clip takes another, by name or number" "$tmp/err" && pass || fail "two clips: $(cat "$tmp/err")"
+good render tests/data/robot.gltf -o "$tmp/b.png" --size 48x32 --frame 9 --clip 'Wave!'
+cmp -s "$tmp/a.png" "$tmp/b.png" && pass || fail "the first clip is not what plays without --clip"
+good render tests/data/robot.gltf -o "$tmp/b.png" --size 48x32 --frame 9 --clip walk
+cmp -s "$tmp/a.png" "$tmp/b.png" && fail "--clip walk changes nothing" || pass
+# alpha of COLOR_0 from 0 at the left to 1 at the right: cut in the middle, mixed with what is behind, and all the same
+sed 's/MASK/BLEND/' tests/data/vertex_alpha.gltf >"$tmp/blend.gltf"
+for scene in tests/data/vertex_alpha.gltf "$tmp/blend.gltf"; do
+    for with in reference truth; do
+        good compare "$scene" --set transparent_layers=1 --set background=0 --set shadows=0 --with $with --json
+        psnr=$(sed -n 's/.*"psnr_db": *\([0-9.]*\).*/\1/p' "$tmp/out")
+        [ "${psnr%.*}" -ge 55 ] && pass || fail "$scene is $psnr dB from $with"
+    done
+done
+# colours that are meant to be of 255 levels
+printf 'newmtl a\nKd 0.001 0.002 0.003\n' >"$tmp/dark.mtl"
+{ echo 'mtllib dark.mtl'; echo 'usemtl a'; cat "$cube"; } >"$tmp/dark.obj"
+good info "$tmp/dark.obj" --size 16x12
+grep -q "note: all colours are below 1/256, so that all is black" "$tmp/out" && pass || fail "black colours: $(cat "$tmp/out")"
+good info "$cube" --size 16x12
+grep -q "all colours are" "$tmp/out" && fail "colours that are not black are said to be" || pass
 
 echo "$passed passed, $failed failed"
 [ "$failed" = 0 ]

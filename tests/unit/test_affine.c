@@ -250,7 +250,10 @@ static void test_look_at(void)
             length += back[k] * back[k];
             HOLDS(&forward, a.t_q16[k] == eye[k] && a.exp == 0, "case %u: position", (unsigned)i);
         }
-        if (length == 0) back[2] = length = 1;
+        if (length == 0) { /* no rotation */
+            for (int k = 0; k < 9; k++) HOLDS(&forward, a.m_q30[k / 3][k % 3] == 0, "case %u: a rotation", (unsigned)i);
+            continue;
+        }
         length = sqrtl(length);
         for (int k = 0; k < 3; k++) {
             long double e = fabsl((long double)a.m_q30[k][2] - ONE * back[k] / length);

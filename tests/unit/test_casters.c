@@ -236,9 +236,11 @@ static double sun_depth_bound(const gn_light_view *view, const caster *q, const 
     const double n[3] = {(double)q->normal[0], (double)q->normal[1], (double)q->normal[2]};
     const double size = sqrt(dot(n, n)) / fabs(n[2]), slopes = 1 + (fabs(n[0]) + fabs(n[1])) / fabs(n[2]);
     const double away = q->longest + TEXELS, range = ldexp(1, view->tile_log2 + view->depth_log2);
+    const int in_box = !renderer.scratch.work.casting.walk.subpixel_bits; /* nothing was walked */
+    const double moved = in_box ? ldexp(0.5, -renderer.frame.knobs.shadow_subpixel_bits) * (slopes - 1) / range : 0;
     (void)at, (void)depth;
     if (slopes > 2 * range) return 1; /* gradients are limited there */
-    return 0.5 * ldexp(1, -GN_VIEW_BITS(view)) + (q->corner[2] + away * size * ldexp(1, -29)) * slopes / range +
+    return moved + 0.5 * ldexp(1, -GN_VIEW_BITS(view)) + (q->corner[2] + away * size * ldexp(1, -29)) * slopes / range +
            (TEXELS + 2) * ldexp(1, -32);
 }
 

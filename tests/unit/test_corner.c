@@ -633,7 +633,8 @@ static double least_depth(const gn_light_view *view, const double m[3], double h
 static tally lit_by_bias, bias_of_need;
 
 /* Automatic bias by forms: with what stored depths are off to spare, every tap finds the plane lit; and a point is
- * nearer than that by no more than what taps, a texel's 64th farther away, and a 2^-18 of the range ask for. [B6] */
+ * nearer than that by no more than what taps, a texel's 64th farther away, the least slope and a 2^-18 of the range ask
+ * for. [B6] */
 static void check_auto(gn_lattice *l, const gn_surface *s, const gn_corner *c, uint32_t slot)
 {
     const gn_frame *frame = &renderer.frame;
@@ -660,7 +661,9 @@ static void check_auto(gn_lattice *l, const gn_surface *s, const gn_corner *c, u
     const double least = least_depth(view, m, h, u, v, reach);
     const double least_needed = least_depth(view, m, h, u, v, (reach + 1.0 / 64) * larger);
     HOLDS(&lit_by_bias, depth + step <= least, "depth %g, step %g, of %g", depth, step, least);
-    HOLDS(&bias_of_need, depth + step * larger + ldexp(1, -18) + near * place / (z * fabs(h)) >= least_needed,
+    const double slopes = from->auto_bias == GN_AUTO_BIAS_DEPTH ? fmax(0, 0.5 - fabs(m[0]) - fabs(m[1])) : 0;
+    const double flat = near * slopes * (reach + 1.0 / 64) * 2 * 65536 / view->fit.persp.focal2_q16 / fabs(h);
+    HOLDS(&bias_of_need, depth + step * larger + ldexp(1, -18) + near * place / (z * fabs(h)) + flat >= least_needed,
           "depth %g, step %g, of %g", depth, step, least_needed);
 }
 
@@ -934,7 +937,7 @@ static void check_scene(const gn_knobs *knobs)
     static int32_t view[3 * N_TRIANGLES][3];
     static gn_surface surface;
     static gn_lattice lattice;
-    gn_surface_cache cache = {.object = NULL, .lights = UINT64_MAX};
+    gn_surface_cache cache = {.object = NULL};
     gn_scratch *scratch = &renderer.scratch;
     corner_scene();
     if (!begin(knobs)) return;

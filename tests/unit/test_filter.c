@@ -92,50 +92,8 @@ static void test_tent_sums(void)
 }
 #endif
 
-/* As MODEL 7 writes them: constant and slope of each weight. */
-static const struct {
-    int32_t whole;
-    int32_t w[GN_TENT_TAPS_MAX][2];
-} linear_kernel[3] = {
-    {4, {{1, -1}, {2, -1}, {1, 1}, {0, 1}}},
-    {12, {{1, -1}, {3, -2}, {4, -1}, {3, 1}, {1, 2}, {0, 1}}},
-    {52, {{1, -1}, {5, -4}, {12, -7}, {16, -4}, {12, 4}, {5, 7}, {1, 4}, {0, 1}}},
-};
+/* ---- Attenuation, exactly ---------------------------------------------------------------------------------------- */
 
-static int64_t exact_linear_weight(int32_t k, int32_t i, int64_t u, int64_t f)
-{
-    return linear_kernel[k - 1].w[i][0] * f + linear_kernel[k - 1].w[i][1] * u;
-}
-
-/* Weights of the linear kernels. [F6] */
-static void test_linear_weights(void)
-{
-    tally weight = {0}, sum = {0};
-    for (int32_t bits = 4; bits <= 12; bits++)
-        for (int32_t k = 1; k <= 3; k++)
-            for (uint32_t u = 0; u <= 1U << bits; u++) {
-                uint32_t w[GN_TENT_TAPS_MAX + 1];
-                int32_t n = 2 * (k + 1);
-                int64_t total = 0, f = (int64_t)1 << bits;
-                for (int32_t i = 0; i <= GN_TENT_TAPS_MAX; i++) w[i] = 0xDEADBEEFU;
-                gn_linear_weights(w, k, u, bits);
-                for (int32_t i = 0; i < n; i++) {
-                    int64_t exact = exact_linear_weight(k, i, u, f);
-                    HOLDS(&weight, w[i] == exact, "k %d, F 2^%d, u %u, texel %d: %u, not %lld", (int)k, (int)bits,
-                          (unsigned)u, (int)i, (unsigned)w[i], (long long)exact);
-                    total += w[i];
-                }
-                HOLDS(&sum, total == linear_kernel[k - 1].whole * f && w[n] == 0xDEADBEEFU, "k %d, F 2^%d, u %u: %lld",
-                      (int)k, (int)bits, (unsigned)u, (long long)total);
-            }
-    CHECK_TALLY(weight, "linear weights are those of the model");
-    CHECK_TALLY(sum, "linear weights sum to the whole and end where they should");
-}
-
-/* The largest difference between F6 and F3: over edges along an axis, and over any pattern of texels. [F6] */
-static void test_linear_against_tent(void)
-{
-    static const double edge_bound[3] = {0.0704, 0.0287, 0.0480}, any_bound[3] = {0.2277, 0.0901, 0.1383};
 #if GN_RUNTIME_KNOBS
 #define BUILT_DEPTH_BITS                                                                                               \
     {                                                                                                                  \
@@ -147,40 +105,6 @@ static void test_linear_against_tent(void)
         GN_DEPTH_BITS, GN_OTHER_DEPTH_BITS, GN_DEPTH_BITS                                                              \
     }
 #endif
-
-    enum { BITS = 8, F = 1 << BITS };
-    for (int32_t k = 1; k <= 3; k++) {
-        static double difference[F + 1][GN_TENT_TAPS_MAX], tent[F + 1][GN_TENT_TAPS_MAX];
-        double edge = 0, any = 0;
-        int32_t n = 2 * (k + 1);
-        for (int32_t u = 0; u <= F; u++) {
-            double prefix = 0;
-            for (int32_t i = 0; i < n; i++) {
-                tent[u][i] = (double)exact_weight(k, i, u, F) / ((2 * k + 1) * (2 * k + 1) * F * F);
-                difference[u][i] =
-                    (double)exact_linear_weight(k, i, u, F) / (linear_kernel[k - 1].whole * F) - tent[u][i];
-                prefix += difference[u][i];
-                edge = fmax(edge, fabs(prefix));
-            }
-        }
-        for (int32_t u = 0; u <= F; u += 4)
-            for (int32_t v = 0; v <= F; v += 4) {
-                double half =
-                    0; /* weights sum to 1 both ways: the worst pattern takes all that gain, or all that lose */
-                for (int32_t j = 0; j < n; j++)
-                    for (int32_t i = 0; i < n; i++)
-                        half += fabs((tent[u][i] + difference[u][i]) * (tent[v][j] + difference[v][j]) -
-                                     tent[u][i] * tent[v][j]) /
-                                2;
-                any = fmax(any, half);
-            }
-        printf("linear kernel against tent, k = %d: %.4f over edges, %.4f over any pattern\n", (int)k, edge, any);
-        CHECK(edge <= edge_bound[k - 1]);
-        CHECK(any <= any_bound[k - 1]);
-    }
-}
-
-/* ---- Attenuation, exactly ---------------------------------------------------------------------------------------- */
 
 static gn_frame frame;
 static gn_scene scene;
@@ -227,7 +151,7 @@ static int exact_lit(const gn_receiver *r, int64_t i, int64_t j)
 /* Taps of one axis: the first texel and the weights, over `whole`. */
 static int32_t exact_taps(int64_t *first, int64_t w[GN_TENT_TAPS_MAX], i128 *whole, int32_t c_q16)
 {
-    int32_t k = view.filter - 1, bits = GN_K(&frame, weight_bits), linear = scene.shadow.kernel == GN_KERNEL_LINEAR;
+    int32_t k = view.filter - 1, bits = GN_K(&frame, weight_bits);
     int64_t f = (int64_t)1 << bits, c = (int64_t)c_q16 + 32768;
     int64_t texel = (int64_t)i128_floor_div(c, 65536), u = (int64_t)i128_round_shr(c - texel * 65536, 16 - bits);
     if (view.filter == GN_FILTER_HARD) {
@@ -243,9 +167,8 @@ static int32_t exact_taps(int64_t *first, int64_t w[GN_TENT_TAPS_MAX], i128 *who
         w[1] = u;
         return 2;
     }
-    *whole = linear ? linear_kernel[k - 1].whole * f : (2 * k + 1) * (2 * k + 1) * f * f;
-    for (int32_t i = 0; i < 2 * (k + 1); i++)
-        w[i] = linear ? exact_linear_weight(k, i, u, f) : exact_weight(k, i, u, f);
+    *whole = (2 * k + 1) * (2 * k + 1) * f * f;
+    for (int32_t i = 0; i < 2 * (k + 1); i++) w[i] = exact_weight(k, i, u, f);
     return 2 * (k + 1);
 }
 
@@ -385,7 +308,6 @@ static void random_view(void *texels, uint32_t i)
     SET_KNOB(&frame, shadow_depth_frac, rng_range(&random_state, 0, 4));
     SET_KNOB(&frame, atten_bits, i & 1 ? 8 : 16);
     SET_KNOB(&frame, edge, rng_below(&random_state, 2) ? rng_range(&random_state, 1, 8) : 0);
-    scene.shadow.kernel = rng_below(&random_state, 2) ? GN_KERNEL_LINEAR : GN_KERNEL_TENT;
     scene.shadow.disk_samples = 1 + rng_below(&random_state, 64);
     view.filter = (uint8_t)rng_below(&random_state, 6);
     view.disk_radius_q16 =
@@ -474,13 +396,12 @@ static const char *described(const gn_receiver *r)
 {
     static char text[240];
     snprintf(text, sizeof text,
-             "filter %d%s, T %d, %d bits + %d, F 2^%d, border %d, disk %d of %u, at (%d, %d), depth %u, slopes %d %d, "
+             "filter %d, T %d, %d bits + %d, F 2^%d, border %d, disk %d of %u, at (%d, %d), depth %u, slopes %d %d, "
              "pixel %d %d",
-             (int)view.filter, scene.shadow.kernel == GN_KERNEL_LINEAR ? " linear" : "", (int)view.tile_texels,
-             (int)view.depth_bits, (int)GN_K(&frame, shadow_depth_frac), (int)GN_K(&frame, weight_bits),
-             (int)view.border_lit, (int)view.disk_radius_q16, (unsigned)scene.shadow.disk_samples, (int)r->u_q16,
-             (int)r->v_q16, (unsigned)r->depth_q32, (int)r->slope_q28[0], (int)r->slope_q28[1], (int)r->pixel_x,
-             (int)r->pixel_y);
+             (int)view.filter, (int)view.tile_texels, (int)view.depth_bits, (int)GN_K(&frame, shadow_depth_frac),
+             (int)GN_K(&frame, weight_bits), (int)view.border_lit, (int)view.disk_radius_q16,
+             (unsigned)scene.shadow.disk_samples, (int)r->u_q16, (int)r->v_q16, (unsigned)r->depth_q32,
+             (int)r->slope_q28[0], (int)r->slope_q28[1], (int)r->pixel_x, (int)r->pixel_y);
     return text;
 }
 
@@ -527,7 +448,7 @@ static void try_point(verdict *result, const gn_receiver *r)
     if (numerator == 65536 * denominator) HOLDS(&result->ends, a == 65536, "lit is %u: %s", (unsigned)a, described(r));
 }
 
-/* With bounds that never answer, as without GN_DEPTH_BLOCKS. */
+/* With bounds that never answer. */
 static void try_without_blocks(verdict *result, const gn_receiver *r)
 {
     static const gn_depth_block unknown = {0, 65535};
@@ -619,7 +540,6 @@ static void test_lit_and_shadowed(void)
                 view.filter = (uint8_t)filter;
                 view.depth_bits = depth_bits[i % 3];
                 view.depth = at_bytes(texels);
-                scene.shadow.kernel = i & 2 ? GN_KERNEL_LINEAR : GN_KERNEL_TENT;
                 SET_KNOB(&frame, weight_bits, bits);
                 SET_KNOB(&frame, atten_bits, i & 1 ? 8 : 16);
                 SET_KNOB(&frame, shadow_depth_frac, (int32_t)(i % 5));
@@ -776,8 +696,6 @@ int main(void)
 #if GN_INTERPOLATES && GN_FILTER_MAX >= 2
     test_tent_sums();
 #endif
-    test_linear_weights();
-    test_linear_against_tent();
     test_attenuation();
     test_neighbours();
     test_lit_and_shadowed();

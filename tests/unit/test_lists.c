@@ -1,11 +1,10 @@
-/* Light lists (P9, P10, R9): which lights an object and a screen tile keep, against doubles; and that the picture is
+/* Light lists (P9, P10): which lights an object keeps, against doubles; and that the picture is
  * that of all lights wherever the lists hold all that reach. */
 #include <stdlib.h>
 #include <string.h>
 
 #include "check.h"
 #include "knobs.h"
-#include "visible/gn_screen_rect.h"
 #include "light/gn_punctual.h"
 #include "light_scene.h"
 
@@ -249,102 +248,7 @@ static void test_early_outs(void)
     CHECK(memcmp(with, without, sizeof with) == 0);
 }
 
-/* ---- Lists of screen tiles (R9) ---------------------------------------------------------------------------------- */
-
-/* The world point of a pixel at a view depth. */
-static void point_at(int x, int y, double depth, double out[3])
-{
-    const gn_cam *cam = &one.frame.cam;
-    double focal2 = cam->focal2_px_q16 / 65536.0;
-    double right = (2 * x + 1 - W) * depth / focal2, up = (H - 1 - 2 * y) * depth / focal2;
-    for (int k = 0; k < 3; k++)
-        out[k] = cam->eye_q16[k] / 65536.0 + ldexp(cam->axis_q30[0][k], -30) * right +
-                 ldexp(cam->axis_q30[1][k], -30) * up + ldexp(cam->axis_q30[2][k], -30) * depth;
-}
-
-static double distance2(const gn_light *light, const double p[3])
-{
-    double d2 = 0;
-    for (int k = 0; k < 3; k++)
-        d2 += (p[k] - light->position_q16[k] / 65536.0) * (p[k] - light->position_q16[k] / 65536.0);
-    return d2;
-}
-
-/* The view depth of a pixel's ray that is nearest to the light, beyond the near plane. */
-static double nearest_depth(const gn_light *light, int x, int y)
-{
-    double a[3], b[3], along = 0, length2 = 0;
-    point_at(x, y, 0, a);
-    point_at(x, y, 1, b);
-    for (int k = 0; k < 3; k++) {
-        along += (light->position_q16[k] / 65536.0 - a[k]) * (b[k] - a[k]);
-        length2 += (b[k] - a[k]) * (b[k] - a[k]);
-    }
-    return fmax(along / length2, one.frame.cam.near_q16 / 65536.0);
-}
-
-/* Whether the light reaches the surface of some pixel of the tile; with `depth` NULL: whether any surface could be
- * reached there. */
-static int reaches_pixels(const gn_light *light, const gn_rect *rect, const uint32_t *depth)
-{
-    double range = light->range_q16 / 65536.0, p[3];
-    for (int y = rect->y0; y < rect->y1; y++) {
-        for (int x = rect->x0; x < rect->x1; x++) {
-            if (depth && depth[y * W + x] == UINT32_MAX) continue;
-            point_at(x, y, depth ? depth[y * W + x] / 65536.0 : nearest_depth(light, x, y), p);
-            if (distance2(light, p) < range * range) return 1;
-        }
-    }
-    return 0;
-}
-
-typedef struct {
-    uint32_t n_listed, n_reaching, n_possible, n_all;
-} tile_tally;
-
-static void check_tile(const gn_rect *rect, const uint32_t *depth, tile_tally *t)
-{
-    uint64_t lights = gn_punctual_in_tile(&one.frame, rect);
-    for (uint32_t l = 0; l < ls.scene.n_lights; l++) {
-        uint32_t listed = lights >> l & 1U;
-        if (ls.light[l].kind == GN_LIGHT_DIRECTIONAL || !ls.light[l].range_q16) {
-            CHECK_EQ_INT(listed, 1);
-            continue;
-        }
-        int reaching = reaches_pixels(&ls.light[l], rect, depth), possible = reaches_pixels(&ls.light[l], rect, NULL);
-        if ((reaching || possible) && !listed) CHECK(listed);
-        t->n_listed += listed;
-        t->n_reaching += (uint32_t)reaching;
-        t->n_possible += (uint32_t)possible;
-        t->n_all++;
-    }
-    CHECK(lights >> ls.scene.n_lights == 0);
-}
-
-/* No light that reaches a pixel is missing, and most that could reach none are: those a tile lists beyond the exact
- * answer (some point of some pixel's ray in range) are those behind corners of its frustum, at most a fifth. [R9] */
-static void test_tile_lists(void)
-{
-    static uint32_t depth[W * H];
-    rng r = {37};
-    tile_tally t = {0, 0, 0, 0};
-    for (int i = 0; i < 6; i++) {
-        random_scene(&r, 20, 0.3, 3);
-        init(&one, GN_VIEW_DEPTH);
-        SET_KNOB(&one.frame, tile_width, 8 << i % 2);
-        SET_KNOB(&one.frame, tile_height, 6);
-        draw(&one, (uint8_t *)depth);
-        for (uint32_t tile = 0; tile < gn_screen_tile_count(&one); tile++) {
-            gn_rect rect = gn_screen_rect(&one.frame, tile);
-            check_tile(&rect, depth, &t);
-        }
-    }
-    CHECK(t.n_reaching > 100 || !GN_RUNTIME_KNOBS);
-    CHECK(t.n_listed < t.n_all / 2 || !GN_RUNTIME_KNOBS); /* of tiles this small */
-    CHECK(t.n_listed - t.n_possible <= t.n_possible / 5);
-    printf("tile lists: %u of %u lights listed, %u could reach a pixel's ray, %u reach a surface\n", t.n_listed,
-           t.n_all, t.n_possible, t.n_reaching);
-}
+/* ---- Screen tiles ------------------------------------------------------------------------------------------------ */
 
 /* The picture does not know of screen tiles: persp_step 1, every size. */
 static void test_tile_sizes(void)
@@ -373,7 +277,6 @@ int main(void)
     test_lists_show_all();
     test_out_of_reach();
     test_early_outs();
-    test_tile_lists();
     test_tile_sizes();
     return check_report();
 }

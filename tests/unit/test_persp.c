@@ -2,6 +2,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "scene/gn_sides.h"
 #include "base/gn_math.h"
 #include "shadow/gn_persp.h"
 #include "check.h"
@@ -114,7 +115,7 @@ static void make_spot(gn_light_view *view, int i)
     light.outer_turn = (uint16_t)lround(degrees[i & 3] / 360 * 65536);
     view->bias_constant_q16 = light.bias_constant_q16;
     view->bias_slope_q16 = i & 16 ? 1 << 15 : 0;
-#if GN_DEPTH_BLOCKS
+#if GN_DISK_FILTER
     static gn_depth_block blocks[T * T / 64];
     view->block = blocks;
 #endif
@@ -154,7 +155,7 @@ static void test_small_casters(void)
         const gn_caster_corner *c[3] = {&corner[0], &corner[1], &corner[2]};
         make_spot(&view, i);
         make_caster(corner, &view, &state);
-        casting.job.two_sided = i & 4;
+        casting.job.sides = i & 4 ? GN_SIDES_BOTH : GN_SIDE_CCW;
         int32_t n[2];
         memset(texels, 255, sizeof texels);
         for (int way = 0; way < 2; way++) {

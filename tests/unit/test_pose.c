@@ -211,6 +211,29 @@ static void test_limits(void)
     CHECK(got[0].exp == 0 && object.to_world.exp == 14);
 }
 
+/* What stands on a node of scale 0 is valid all the same: a light has a direction, a camera is a rotation. */
+static void test_nothing_left(void)
+{
+    static gn_object object;
+    static gn_light light;
+    static gn_camera camera;
+    const int32_t t[3] = {1, 2, 3}, s[3] = {0, 0, 0};
+    const int16_t none[4] = {0, 0, 0, 32767};
+    const gn_rig_channel at_rest[3] = {{NULL, t, NULL, 1, 0, GN_RIG_TRANSLATION, 0},
+                                       {NULL, NULL, none, 1, 0, GN_RIG_ROTATION, 0},
+                                       {NULL, s, NULL, 1, 0, GN_RIG_SCALE, 0}};
+    const gn_rig_node one = {NULL, at_rest, -1};
+    const gn_rig_link links[3] = {{0, 0, GN_RIG_OBJECT, 16}, {0, 0, GN_RIG_LIGHT, 0}, {0, 0, GN_RIG_CAMERA, 0}};
+    const gn_rig rig = {&one, links, NULL, 1, 3, 0};
+    gn_pose(&rig, 0, 0, got, &object, &light, &camera);
+    for (int i = 0; i < 9; i++) {
+        CHECK_EQ_INT(object.to_world.m_q30[i / 3][i % 3], 0);
+        CHECK_NEAR(camera.to_world.m_q30[i / 3][i % 3], i % 4 ? 0 : 1 << 30, 4);
+    }
+    CHECK(!light.direction[0] && !light.direction[1] && light.direction[2] == -(1 << 30));
+    CHECK_EQ_INT(light.position_q16[2], 3);
+}
+
 int main(void)
 {
     rng r = {3};
@@ -219,5 +242,6 @@ int main(void)
         for (int k = 0; k < 10; k++) check_pose(&r);
     }
     test_limits();
+    test_nothing_left();
     return check_report();
 }

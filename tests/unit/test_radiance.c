@@ -13,7 +13,6 @@
 enum {
     STAGE_FILTER,
     STAGE_FILTER_TENT,
-    STAGE_FILTER_LINEAR,
     STAGE_DISTANCE,
     STAGE_ATTENUATION, /* and one for each way of mixing */
     STAGE_ATTENUATION_ALWAYS,
@@ -27,7 +26,6 @@ enum {
 static const char *const stage_name[STAGE_COUNT] = {
     "filter, 2x2: lit part, LSB of Q16",
     "filter, tents of 3x3 to 7x7: lit part, LSB of Q16",
-    "filter, linear kernels: lit part, LSB of Q16",
     "attenuation: distance strength, LSB of Q16",
     "attenuation: strength and distance, LSB of Q16",
     "attenuation: with a mask, always, LSB of Q16",
@@ -74,19 +72,12 @@ static double tent_integral(double x, double h)
 }
 
 /* Weight of a texel along an axis for a receiver at `at`. */
-static double weight_of(const gn_light_view *view, gn_kernel kernel, int texel, double at)
+static double weight_of(const gn_light_view *view, int texel, double at)
 {
-    static const double linear[3][8] = {
-        {0, 1, 2, 1}, {0, 1, 3, 4, 3, 1}, {0, 1, 5, 12, 16, 12, 5, 1}}; /* at f = 0; f on is the one before */
-    static const double sum[3] = {4, 12, 52};
     const int k = view->filter_idx;
     if (k == 0) return fmax(0, 1 - fabs(texel + 0.5 - at));
     const double h = k + 0.5;
-    if (kernel == GN_KERNEL_TENT) return (tent_integral(texel + 1 - at, h) - tent_integral(texel - at, h)) / (h * h);
-    const double f = at + 0.5 - floor(at + 0.5);
-    const int i = texel - ((int)floor(at + 0.5) - (k + 1));
-    if (i < 0 || i > 2 * k + 1) return 0;
-    return (linear[k - 1][i + 1 < 8 ? i + 1 : 0] * (1 - f) + linear[k - 1][i] * f) / sum[k - 1];
+    return (tent_integral(texel + 1 - at, h) - tent_integral(texel - at, h)) / (h * h);
 }
 
 static void fill_texels(const gn_light_view *view, uint8_t *lit)
@@ -105,11 +96,10 @@ static void fill_texels(const gn_light_view *view, uint8_t *lit)
         }
 }
 
-static double filter_bound(const gn_knobs *knobs, const gn_light_view *view, gn_kernel kernel)
+static double filter_bound(const gn_knobs *knobs, const gn_light_view *view)
 {
-    static const double linear_slope[] = {1, 1 / 2.0, 1 / 3.0, 4 / 13.0};
     const int k = view->filter_idx;
-    const double slope = kernel == GN_KERNEL_LINEAR || k == 0 ? linear_slope[k] : 2.0 / (2 * k + 1);
+    const double slope = k == 0 ? 1 : 2.0 / (2 * k + 1);
     return LSB16 + 2 * slope * ldexp(1, -knobs->weight_bits - 1) + (knobs->atten_bits == 8 ? ldexp(1, -9) : 0);
 }
 
@@ -118,7 +108,6 @@ static void check_filter(const gn_knobs *knobs)
     static uint8_t lit[64 * 64];
     random_scene();
     fixed.shadow.filter = (gn_filter)uniform(GN_FILTER_2X2, GN_FILTER_DISK);
-    fixed.shadow.kernel = (gn_kernel)uniform(0, 2);
     if (!begin(knobs)) return;
     gn_light_view *view = &renderer.frame.view[0];
     const int t = view->tile_texels, reach = view->filter_idx + 2;
@@ -136,12 +125,10 @@ static void check_filter(const gn_knobs *knobs)
         for (int y = (int)v - reach; y <= (int)v + reach; y++)
             for (int x = (int)u - reach; x <= (int)u + reach; x++)
                 if (x >= 0 && y >= 0 && x < t && y < t && lit[y * t + x])
-                    want += weight_of(view, fixed.shadow.kernel, x, u) * weight_of(view, fixed.shadow.kernel, y, v);
+                    want += weight_of(view, x, u) * weight_of(view, y, v);
         const double got = gn_filter_attenuation(&renderer.frame, view, &r) * LSB16;
-        const int stage = view->filter_idx == 0                     ? STAGE_FILTER
-                          : fixed.shadow.kernel == GN_KERNEL_LINEAR ? STAGE_FILTER_LINEAR
-                                                                    : STAGE_FILTER_TENT;
-        record(stage, fabs(got - want), filter_bound(knobs, view, fixed.shadow.kernel), LSB16);
+        const int stage = view->filter_idx == 0 ? STAGE_FILTER : STAGE_FILTER_TENT;
+        record(stage, fabs(got - want), filter_bound(knobs, view), LSB16);
     }
 }
 

@@ -11,6 +11,7 @@
 static gn_renderer one;
 static gn_scene scene;
 static gn_light light;
+enum { NEAR_MOST_Q16 = 8192 << 16 };
 
 static void test_reach(void)
 {
@@ -232,6 +233,26 @@ static void test_automatic_sizes(void)
     CHECK(n_normal > 500 && n_depth > 500);
 }
 
+/* The light in the plane of a surface, as far from it as there is room, a wide spot in a small tile: more than 64 bits
+ * hold. The depth form takes twice the range, which lights everything. */
+static void test_automatic_in_plane(void)
+{
+    gn_light_view view = {.perspective = 1, .tile_texels = 8, .offset_q16 = 9 << 16, .auto_step = 1 << 10};
+    const int32_t face_q30[3] = {1 << 29, 929887697, 0}; /* cos 60, sin 60 degrees */
+    view.fit.persp.near_q16 = NEAR_MOST_Q16;
+    view.fit.persp.texel_per_z = gn_bf_recip(gn_bf_from_u64(1 << 10)); /* 2^6 texels of the light-plane distance */
+    view.fit.persp.texel_per_z.exp += 17;
+    view.fit.persp.per_near = gn_bf_recip(gn_bf_from_u64(NEAR_MOST_Q16));
+    for (int i = 0; i < 3; i++) view.axis_q30[i][i] = 1 << 30;
+    for (int32_t h_q16 = 0; h_q16 < 3; h_q16++)
+        for (int form = GN_AUTO_BIAS_DEPTH; form <= GN_AUTO_BIAS_NORMAL; form++) {
+            gn_auto_plane plane = {(gn_auto_bias)form, view.offset_q16, view.auto_step, 0, 0};
+            const int32_t from_q16[3] = {2 * h_q16, 0, NEAR_MOST_Q16};
+            gn_bias_auto_plane(&view, face_q30, from_q16, &plane);
+            CHECK(plane.form == GN_AUTO_BIAS_DEPTH && plane.less_q32 == plane.step_q32 + ((int64_t)2 << 32));
+        }
+}
+
 int main(void)
 {
     const gn_picture p = {64, 64, GN_FORMAT_RGB888, GN_VIEW_COLOUR, 0};
@@ -245,5 +266,6 @@ int main(void)
     test_automatic_limit();
     test_automatic_steep();
     test_automatic_sizes();
+    test_automatic_in_plane();
     return check_report();
 }

@@ -1,4 +1,4 @@
-/* Visible spans of a screen tile [R2], sorted and drawn by gn_shade_tile: whatever the cells hold, every pixel gets the
+/* Visible spans of a screen tile [R2], linked and drawn by gn_shade_tile: whatever the cells hold, every pixel gets the
  * colour of the triangle that its cell names. Triangles cover the whole picture and are unlit, so that a triangle's
  * colour is one and known; the cells are filled in here, not by the raster. */
 #include <string.h>
@@ -22,8 +22,7 @@ static const int32_t far_pos[9] = {GN_Q16(-80), GN_Q16(-11), GN_Q16(-10), GN_Q16
                                    GN_Q16(-10), 0,           GN_Q16(50),  GN_Q16(-10)};
 static const uint16_t triangle_idx[3] = {0, 1, 2};
 static const uint16_t white[9] = {65535, 65535, 65535, 65535, 65535, 65535, 65535, 65535, 65535};
-/* Of one look all over, and of vertex colours that happen to be alike: the one is filled in as its spans are found, the
- * other's are linked and shaded. */
+/* A mesh of one colour, whose runs are filled, and one of equal vertex colours, whose runs are shaded. */
 static const gn_mesh plain = {
     .pos = far_pos, .idx = triangle_idx, .n_vertices = 3, .n_triangles = 1, .pos_frac_bits = 16};
 static const gn_mesh coloured = {

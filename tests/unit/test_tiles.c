@@ -609,7 +609,6 @@ static void test_independence(void)
 
 typedef struct {
     gn_filter filter;
-    gn_kernel kernel;
     gn_softness softness;
     int plane, importance, depth_bits;
     double normal, receiver, constant, caster;
@@ -636,7 +635,6 @@ static void poison_scene(const poison_case *c, uint64_t seed)
     }
     gn_shadow_settings *shadow = &ls.scene.shadow;
     shadow->filter = shadow->other_filter = c->filter;
-    shadow->kernel = c->kernel;
     shadow->penumbra_uq16 = c->filter == GN_FILTER_DISK ? 40 << 16 : 65536;
     shadow->tile_sizes = c->importance ? GN_TILES_IMPORTANCE : GN_TILES_EQUAL;
     shadow->n_cascades = 4;
@@ -694,16 +692,16 @@ static void check_poison(const poison_case *c, uint64_t seed)
 static void test_poison(void)
 {
     static const poison_case cases[] = {
-        {GN_FILTER_HARD, GN_KERNEL_TENT, GN_SOFTNESS_DEFAULT, 0, 0, 16, 1, 0, 0, 0, GN_BLEND_HARD, 0, 64},
-        {GN_FILTER_2X2, GN_KERNEL_TENT, GN_SOFTNESS_HARD, 0, 1, 8, 8, 8, 0, 0, GN_BLEND_SOFT, 0, 64},
-        {GN_FILTER_3X3, GN_KERNEL_TENT, GN_SOFTNESS_DEFAULT, 1, 0, 32, 1, 0, 2, 1, GN_BLEND_DITHER, 1, 32},
-        {GN_FILTER_3X3, GN_KERNEL_LINEAR, GN_SOFTNESS_SOFT, 0, 1, 16, 2, 1, 64, 8, GN_BLEND_SOFT, 1, 64},
-        {GN_FILTER_5X5, GN_KERNEL_TENT, GN_SOFTNESS_DEFAULT, 0, 0, 8, 8, 0, 0, 0, GN_BLEND_SOFT, 0, 32},
-        {GN_FILTER_5X5, GN_KERNEL_LINEAR, GN_SOFTNESS_DEFAULT, 1, 1, 32, 0, 2, 1, 0, GN_BLEND_DITHER, 1, 64},
-        {GN_FILTER_7X7, GN_KERNEL_TENT, GN_SOFTNESS_DEFAULT, 0, 0, 16, 8, 8, 64, 8, GN_BLEND_SOFT, 0, 32},
-        {GN_FILTER_7X7, GN_KERNEL_LINEAR, GN_SOFTNESS_SOFT, 1, 1, 16, 0, 0, 0, 0, GN_BLEND_SOFT, 1, 32},
-        {GN_FILTER_DISK, GN_KERNEL_TENT, GN_SOFTNESS_DEFAULT, 0, 0, 8, 1, 0, 0, 0, GN_BLEND_SOFT, 0, 64},
-        {GN_FILTER_DISK, GN_KERNEL_TENT, GN_SOFTNESS_DEFAULT, 1, 1, 32, 8, 8, 0, 0, GN_BLEND_SOFT, 1, 32},
+        {GN_FILTER_HARD, GN_SOFTNESS_DEFAULT, 0, 0, 16, 1, 0, 0, 0, GN_BLEND_HARD, 0, 64},
+        {GN_FILTER_2X2, GN_SOFTNESS_HARD, 0, 1, 8, 8, 8, 0, 0, GN_BLEND_SOFT, 0, 64},
+        {GN_FILTER_3X3, GN_SOFTNESS_DEFAULT, 1, 0, 32, 1, 0, 2, 1, GN_BLEND_DITHER, 1, 32},
+        {GN_FILTER_3X3, GN_SOFTNESS_SOFT, 0, 1, 16, 2, 1, 64, 8, GN_BLEND_SOFT, 1, 64},
+        {GN_FILTER_5X5, GN_SOFTNESS_DEFAULT, 0, 0, 8, 8, 0, 0, 0, GN_BLEND_SOFT, 0, 32},
+        {GN_FILTER_5X5, GN_SOFTNESS_DEFAULT, 1, 1, 32, 0, 2, 1, 0, GN_BLEND_DITHER, 1, 64},
+        {GN_FILTER_7X7, GN_SOFTNESS_DEFAULT, 0, 0, 16, 8, 8, 64, 8, GN_BLEND_SOFT, 0, 32},
+        {GN_FILTER_7X7, GN_SOFTNESS_SOFT, 1, 1, 16, 0, 0, 0, 0, GN_BLEND_SOFT, 1, 32},
+        {GN_FILTER_DISK, GN_SOFTNESS_DEFAULT, 0, 0, 8, 1, 0, 0, 0, GN_BLEND_SOFT, 0, 64},
+        {GN_FILTER_DISK, GN_SOFTNESS_DEFAULT, 1, 1, 32, 8, 8, 0, 0, GN_BLEND_SOFT, 1, 32},
     };
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) check_poison(&cases[i], 40 + i);
 }
@@ -711,8 +709,7 @@ static void test_poison(void)
 /* The poison is not harmless: in the light's own tiles it shows. */
 static void test_poison_shows(void)
 {
-    static const poison_case c = {
-        GN_FILTER_3X3, GN_KERNEL_TENT, GN_SOFTNESS_DEFAULT, 0, 0, 16, 1, 0, 0, 0, GN_BLEND_HARD, 0, 32};
+    static const poison_case c = {GN_FILTER_3X3, GN_SOFTNESS_DEFAULT, 0, 0, 16, 1, 0, 0, 0, GN_BLEND_HARD, 0, 32};
     static uint32_t clean[PW * PH], poisoned[PW * PH];
     poison_scene(&c, 40);
     for (uint32_t light = 0; light < ls.scene.n_lights; light++) {

@@ -4,6 +4,7 @@
 
 #include "exact.h"
 #include "knobs.h"
+#include "geometry/gn_pixel_mask.h"
 #include "visible/gn_setup.h"
 #include "geometry/gn_walk.h"
 #include "gnomon.h"
@@ -105,6 +106,54 @@ static void test_small_triangles(void)
 }
 
 /* Vertices as far out as the header allows; the window lies at a vertex, on an edge or inside. */
+/* The pixels of a box that edge functions in 64 bits say, those in a window alone. */
+static uint32_t exact_mask(const int32_t x[3], const int32_t y[3], int32_t bits, window box, window in)
+{
+    uint32_t mask = 0;
+    for (int32_t py = box.y0; py < box.y1; py++)
+        for (int32_t px = box.x0; px < box.x1; px++)
+            if (px >= in.x0 && px < in.x1 && py >= in.y0 && py < in.y1 && exact_covers(x, y, bits, px, py))
+                mask |= 1U << (GN_MASK_WIDTH * (py - box.y0) + px - box.x0);
+    return mask;
+}
+
+static window box_of(const int32_t x[3], const int32_t y[3], int32_t bits)
+{
+    const window box = {gn_first_px(gn_min32(gn_min32(x[0], x[1]), x[2]), bits),
+                        gn_first_px(gn_min32(gn_min32(y[0], y[1]), y[2]), bits),
+                        gn_first_px(gn_max32(gn_max32(x[0], x[1]), x[2]), bits),
+                        gn_first_px(gn_max32(gn_max32(y[0], y[1]), y[2]), bits)};
+    return box;
+}
+
+/* Masks of triangles whose boxes have up to 4 x 3 pixels, whole and cut by a window. */
+static void test_masks(void)
+{
+    tally whole = {0}, cut = {0};
+    for (uint32_t i = 0; i < 400000; i++) {
+        int32_t bits = tried_bits[i & 3], one = 1 << bits, x[3], y[3];
+        for (int k = 0; k < 3; k++) {
+            x[k] = random_coord(-2, 2, bits);
+            y[k] = random_coord(-2, 1, bits);
+        }
+        make_awkward(x, y);
+        const int64_t area = (int64_t)(x[1] - x[0]) * (y[2] - y[0]) - (int64_t)(x[2] - x[0]) * (y[1] - y[0]);
+        const window box = box_of(x, y, bits);
+        const int32_t width = box.x1 - box.x0, height = box.y1 - box.y0, b = area < 0 ? 1 : 2, c = 3 - b;
+        if (!area || width < 1 || height < 1 || width > GN_MASK_WIDTH || height > GN_MASK_HEIGHT) continue;
+        const uint32_t mask = gn_pixel_mask(box.x0 * one + one / 2 - x[0], box.y0 * one + one / 2 - y[0], x[b] - x[0],
+                                            y[b] - y[0], x[c] - x[0], y[c] - y[0], width, height, bits);
+        HOLDS(&whole, mask == exact_mask(x, y, bits, box, box), "bits %d: (%d, %d) (%d, %d) (%d, %d): %#x", (int)bits,
+              (int)x[0], (int)y[0], (int)x[1], (int)y[1], (int)x[2], (int)y[2], (unsigned)mask);
+        const int32_t dx = rng_range(&random_state, -2, 2), dy = rng_range(&random_state, -2, 2);
+        const window in = {box.x0 + dx, box.y0 + dy, box.x1 + dx, box.y1 + dy};
+        HOLDS(&cut, gn_mask_cut(mask, -dx, -dy, width, height) == exact_mask(x, y, bits, box, in), "cut by %d, %d",
+              (int)dx, (int)dy);
+    }
+    CHECK_TALLY(whole, "masks");
+    CHECK_TALLY(cut, "cut masks");
+}
+
 static void test_huge_triangles(void)
 {
     tally t = {0};
@@ -394,7 +443,8 @@ static int tri_covers(const gn_tri *tri, int px, int py)
     return exact_covers(x, y, GN_K(&renderer.frame, subpixel_bits), px, py);
 }
 
-/* The surface of every pixel is one whose snapped triangle covers its centre. */
+/* The surface of every pixel is one whose snapped triangle covers its centre; small triangles without a pixel have no
+ * record. */
 static void check_owners(tally *t, uint32_t scene_idx)
 {
     const gn_frame *frame = &renderer.frame;
@@ -412,6 +462,14 @@ static void check_owners(tally *t, uint32_t scene_idx)
                 found = found || tri_covers(&frame->tri[k], px, py);
             HOLDS(t, found, "scene %u at (%d, %d): triangle %#x", (unsigned)scene_idx, px, py, (unsigned)owner);
         }
+    for (uint32_t k = 0; k < frame->stats.n_triangles; k++) {
+        int32_t x[3], y[3], bits = GN_K(frame, subpixel_bits);
+        gn_setup_corners(frame, &frame->tri[k], x, y);
+        const window box = box_of(x, y, bits), in = {0, 0, WIDTH, HEIGHT};
+        const int small = box.x1 - box.x0 <= GN_MASK_WIDTH && box.y1 - box.y0 <= GN_MASK_HEIGHT;
+        const int seen = !small || exact_mask(x, y, bits, box, in);
+        HOLDS(t, seen, "scene %u: record %u has no pixel", (unsigned)scene_idx, (unsigned)k);
+    }
 }
 
 /* A rugged sheet across the whole view, some of it far beyond the guard band: no pixel may show the background. */
@@ -536,6 +594,7 @@ int main(void)
 {
     test_first_px();
     test_small_triangles();
+    test_masks();
     test_huge_triangles();
     test_fixed_point_limits();
     test_narrow_edges();

@@ -52,13 +52,13 @@ check(engine.run(['knobs']).out === native('knobs'), 'other knobs');
 
 // ---- The view ---------------------------------------------------------------------------------------------------------
 
-const drawn = (view) => crc32(rgb888(engine.draw(['scenes/sundial.gltf', '--size', '96x64'], view).rgba));
-const still = {yaw: 0, pitch: 0, zoom: 1, hour: -1}, home = drawn(still);
-check(home === drawn(undefined), 'a view that turns nothing changes the picture');
-for (const [key, value] of [['yaw', 30], ['pitch', 10], ['zoom', 1.5], ['hour', 9]]) check(drawn({...still, [key]: value}) !== home, `${key} changes nothing`);
-check(drawn({...still, yaw: 360}) === home, 'once around is another picture');
-check(drawn({...still, pitch: 300}) === drawn({...still, pitch: 400}), 'the camera goes over the top');
-check(drawn(still) === home, 'a turn stays');
+const drawn = (...how) => crc32(rgb888(engine.draw(['scenes/sundial.gltf', '--size', '96x64', ...how]).rgba));
+const home = drawn();
+check(home === drawn('--turn', '0,0,1'), 'a turn of nothing changes the picture');
+for (const how of [['--turn', '30,0,1'], ['--turn', '0,10,1'], ['--turn', '0,0,1.5'], ['--hour', '9']]) check(drawn(...how) !== home, `${how} changes nothing`);
+check(drawn('--turn', '360,0,1') === home, 'once around is another picture');
+check(drawn('--turn', '0,70,1') === drawn('--turn', '0,90,1'), 'the camera goes over the top');
+check(drawn() === home, 'a turn stays');
 
 // ---- What is wrong ------------------------------------------------------------------------------------------------------
 

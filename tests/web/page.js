@@ -64,6 +64,9 @@ async function checkTurns() {
     await idle();
     check((await crc()) === still, `after ${what} Home is another picture`);
   };
+  await run('turn(40, 0)');
+  check((await text('command')).includes('--turn 40,0,1.00'), `the command line of what is turned: ${await text('command')}`);
+  await run('front()');
   await changes('the mouse', async () => {
     await browser.mouse('mousePressed', x, y);
     for (const step of [10, 30, 60]) await browser.mouse('mouseMoved', x + step, y + step / 2);
@@ -205,6 +208,8 @@ async function checkLayout(what, [width, height], phone) {
   await browser.resize(width, height, phone);
   await new Promise((done) => setTimeout(done, 400));
   const wide = await browser.value(`[...document.querySelectorAll('main *, header *')].filter((e) => e.offsetParent && !e.closest('#scenes') && !e.closest('.unseen') && e.getBoundingClientRect().right > innerWidth + 1).map((e) => e.tagName + e.id).join(' ')`);
+  const [picture, stage] = await browser.value(`['picture', 'stage'].map((id) => $(id).getBoundingClientRect().width)`);
+  check(picture >= 0.98 * stage, `${what}: the picture takes ${picture} of ${stage} pixels`);
   check((await browser.value('document.documentElement.scrollWidth <= innerWidth')) && wide === '', `${what}: wider than the window: ${wide}`);
   const small = await browser.value(`[...document.querySelectorAll('button, select, .segments label, .presets label')].filter((e) => e.offsetParent && e.getBoundingClientRect().height < 24).map((e) => e.className + e.id).join(' ')`);
   check(small === '', `${what}: too small to press: ${small}`);

@@ -82,12 +82,14 @@ typedef struct {
     bool coplanar;
 } floor_parts;
 
-static void add_floor_triangle(floor_parts *parts, const scene_object *object, double p[3][3], const bounds *b)
+static void add_floor_triangle(floor_parts *parts, const scene_object *object, double p[3][3], int sign,
+                               const bounds *b)
 {
     double u[3], v[3], normal[3];
     vec_sub(u, p[1], p[0]);
     vec_sub(v, p[2], p[0]);
     vec_cross(normal, u, v);
+    normal[1] *= sign;
     double length = sqrt(vec_dot(normal, normal)), height = (p[0][1] + p[1][1] + p[2][1]) / 3 - b->low[1];
     if (!(fabs(normal[1]) > floor_steepness * length)) return;
     bool is_up = normal[1] > 0;
@@ -104,10 +106,11 @@ static floor_parts find_floor(loader *l, const bounds *b)
     for (size_t i = 0; i < s->n_objects; i++) {
         const scene_object *object = &s->objects[i];
         const scene_mesh *mesh = &s->meshes[object->mesh_idx];
+        const int sign = scene_object_sign(object);
         for (size_t t = 0; t < mesh->n_triangles; t++) {
             double p[3][3];
             for (int k = 0; k < 3; k++) scene_vertex(p[k], s, object, mesh->idx[3 * t + (size_t)k]);
-            add_floor_triangle(&parts, object, p, b);
+            add_floor_triangle(&parts, object, p, sign, b);
         }
     }
     poses_apply(&l->poses, l->poses.n, s);
@@ -139,7 +142,7 @@ static bool add_ground(loader *l, const bounds *b, bool coplanar)
     for (int i = 0; i < 3; i++) object.albedo[i] = ground_albedo;
     mesh_splitter splitter;
     size_t first, n_meshes;
-    return mesh_splitter_init(&splitter, l, &quad) && mesh_split(&splitter, name, idx, 2, false, &first, &n_meshes) &&
+    return mesh_splitter_init(&splitter, l, &quad) && mesh_split(&splitter, name, idx, 2, &first, &n_meshes) &&
            loader_add_objects(l, &object, first, n_meshes);
 }
 
@@ -203,7 +206,7 @@ static void turn_camera(scene_camera *camera, double azimuth, double elevation)
 
 /* Frames what is there before the ground is added. glTF models, and most others, face +Z: that is where it stands, a
  * bit to the side and above. */
-static void make_camera(loader *l, const bounds *b)
+static bool make_camera(loader *l, const bounds *b)
 {
     scene_camera *camera = &l->s->camera;
     const scene_options *options = l->options;
@@ -216,10 +219,12 @@ static void make_camera(loader *l, const bounds *b)
     double distance = fit_distance(l, b, &camera->to_world, camera->focal * options->height / (camera_fill * smaller));
     for (int i = 0; i < 3; i++) camera->to_world.m[i][3] = b->centre[i] + distance * camera->to_world.m[i][2];
     if (options->orbit) camera->focal *= options->zoom; /* as a lens: the camera stays outside */
+    if (!loader_limit_focal(l, &camera->focal)) return false;
     camera->far = distance + sqrt(2) * ground_half_size_radii * b->radius;
     double ground = ground_depth(camera->to_world.m[1][3] - b->low[1], elevation, atan(1 / camera->focal));
     double near = fmin(0.5 * (distance - b->radius), 0.9 * ground);
     camera->near = fmax(near, camera->far / 1000);
+    return true;
 }
 
 /* How deep behind the middle objects are, and their shadows on the ground if there is one. */
@@ -284,11 +289,9 @@ static void default_shadow(const loader *l, scene_shadow *out)
                           .cascade_fade = scene_share(0.1),
                           .filter = SCENE_FILTER_3X3,
                           .other_filter = SCENE_FILTER_3X3,
-                          .kernel = SCENE_KERNEL_TENT,
                           .penumbra = 1,
                           .disk_samples = 16,
                           .mixing = default_mixing(l->s),
-                          .caster_culling = true,
                           .tiles = SCENE_TILES_WORTH,
                           .fit = SCENE_FIT_TIGHT,
                           .refresh = {1, 1, 1, 1},
@@ -392,7 +395,7 @@ bool loader_add_defaults(loader *l)
         find_view_range(l, false, &seen);
         adapt_shadow(l, &seen);
     } else {
-        make_camera(l, &b);
+        if (!make_camera(l, &b)) return false;
         s->stage.camera = s->camera.to_world;
     }
     if (s->n_lights == 0 && !lights_add(l, "default", SCENE_LIGHT_DIRECTIONAL)) return false;

@@ -230,7 +230,7 @@ scene_mesh *loader_add_mesh(loader *l, const char *name)
     l->light_of_mesh = lights;
     char *copy = grown ? duplicate(l, name) : NULL;
     if (!copy) return NULL;
-    l->light_of_mesh[s->n_meshes] = (mesh_light){0};
+    l->light_of_mesh[s->n_meshes] = (mesh_light){.alpha = 1};
     s->meshes[s->n_meshes] = (scene_mesh){.name = copy};
     return &s->meshes[s->n_meshes++];
 }
@@ -287,6 +287,22 @@ bool loader_add_setting(loader *l, const char *key, const char *value)
     return setting->key && setting->value;
 }
 
+bool loader_add_rig_node(loader *l, size_t parent, const scene_affine *matrix, size_t *out)
+{
+    scene_rig *rig = l->s->rig;
+    scene_node *grown = realloc(rig->nodes, (rig->n_nodes + 1) * sizeof *grown);
+    if (!grown) return loader_fail(l, "out of memory");
+    rig->nodes = grown;
+    *out = rig->n_nodes++;
+    grown[*out] = (scene_node){.parent = parent,
+                               .in_scene = true,
+                               .has_matrix = true,
+                               .matrix = *matrix,
+                               .rotation = {0, 0, 0, 1},
+                               .scale = {1, 1, 1}};
+    return true;
+}
+
 scene_object object_defaults(void)
 {
     return (scene_object){.to_world = affine_identity(),
@@ -306,6 +322,7 @@ static bool copy_mesh_light(loader *l, scene_object *object)
 {
     const mesh_light *light = &l->light_of_mesh[object->mesh_idx];
     size_t n = l->s->meshes[object->mesh_idx].n_vertices;
+    object->alpha *= light->alpha;
     if (light->mask) object->mask = loader_own(l, n, 4);
     if (light->baked) object->baked = loader_own(l, n, 3 * sizeof *object->baked);
     if (object->mask) memcpy(object->mask, light->mask, n * 4);
@@ -343,6 +360,35 @@ bool loader_add_objects(loader *l, const scene_object *pattern, size_t first_mes
         if (!copy_mesh_light(l, object)) return false;
     }
     return true;
+}
+
+static char lower(char c)
+{
+    return c >= 'A' && c <= 'Z' ? (char)(c - 'A' + 'a') : c;
+}
+
+bool loader_same_word(const char *a, const char *b)
+{
+    for (; *a && lower(*a) == lower(*b); a++) b++;
+    return !*a && !*b;
+}
+
+/* By its mark; without one, by every other byte of its beginning. */
+bool loader_is_utf16(const uint8_t *bytes, size_t n_bytes)
+{
+    if (n_bytes < 4) return false;
+    if ((bytes[0] == 0xFF && bytes[1] == 0xFE) || (bytes[0] == 0xFE && bytes[1] == 0xFF)) return true;
+    return (bytes[0] && !bytes[1] && bytes[2] && !bytes[3]) || (!bytes[0] && bytes[1] && !bytes[2] && bytes[3]);
+}
+
+bool loader_limit_focal(loader *l, double *focal)
+{
+    static const double least = 1.0 / 32, most = 255.99, degrees_per_radian = 180 / VEC_PI; /* of gn_camera.focal_q24 */
+    const double was = *focal;
+    if (was >= least && was <= most) return true;
+    *focal = fmin(fmax(was, least), most);
+    return loader_remark(l, "the camera sees %.3g degrees from top to bottom: drawn are %.3g, of 0.448 to 176 at most",
+                         2 * atan(1 / was) * degrees_per_radian, 2 * atan(1 / *focal) * degrees_per_radian);
 }
 
 bool loader_clamp_colour(double *rgb, size_t n)

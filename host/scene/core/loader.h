@@ -40,6 +40,7 @@ typedef enum {
 typedef struct {
     uint8_t *mask; /* 4 per vertex */
     double *baked; /* 3 per vertex */
+    double alpha;  /* 0..1, times that of every object of the mesh */
 } mesh_light;
 
 typedef struct {
@@ -92,6 +93,9 @@ bool loader_try_file(loader *l, const char *path, uint8_t **bytes, size_t *n_byt
 bool loader_may_read(const loader *l, const char *name);
 /* name, as seen from the folder of the scene file. */
 char *loader_relative_path(loader *l, const char *name);
+/* beside.c: the path of a file that the scene names, also where upper and lower case differ, with a note. *problem: why
+ * it may not be read; else NULL, and the file may still not be there. False: failed. */
+bool loader_find_beside(loader *l, const char *name, const char **path, const char **problem);
 
 /* New elements of the scene, zeroed but for their name. NULL: failed. */
 scene_mesh *loader_add_mesh(loader *l, const char *name);
@@ -99,12 +103,21 @@ scene_object *loader_add_object(loader *l, const char *name);
 scene_light *loader_add_light(loader *l, const char *name);
 scene_texture *loader_add_texture(loader *l, const char *name);
 bool loader_add_setting(loader *l, const char *key, const char *value);
+/* A node of scene.rig on a parent. *out: its index. False: failed. */
+bool loader_add_rig_node(loader *l, size_t parent, const scene_affine *matrix, size_t *out);
 
 /* White, opaque, casts and receives; without name and mesh. */
 scene_object object_defaults(void);
 
 /* One object per mesh of the range, all like the pattern (whose name is copied), with the mesh's baked light. */
 bool loader_add_objects(loader *l, const scene_object *pattern, size_t first_mesh, size_t n_meshes);
+
+bool loader_is_utf16(const uint8_t *bytes, size_t n_bytes);
+/* Upper and lower case of ASCII are alike. */
+bool loader_same_word(const char *a, const char *b);
+
+/* Keeps the focal length of a perspective camera within what the library takes; with a remark if it is outside. */
+bool loader_limit_focal(loader *l, double *focal);
 
 /* Clamps to 0..1; false if that changed anything. */
 bool loader_clamp_colour(double *rgb, size_t n);
@@ -115,13 +128,19 @@ void loader_free_mesh_light(loader *l);
 /* texture.c */
 enum { TEXTURE_MAX_PICTURE = 8192 };
 typedef struct {
-    bool clamp_u, clamp_v, bilinear, mipmapped;
+    bool clamp_u, clamp_v, mirrored[2], bilinear, mipmapped;
     bool is_data; /* a mask image: plain numbers, not sRGB */
 } texture_use;
 /* To be asked before a picture is decoded: false, with the error, if it is too much. name: for that. */
 bool texture_may_decode(loader *l, const char *name, const uint8_t *bytes, size_t n_bytes);
 /* Adds the picture, resampled if its sides need it; the picture's pixels are taken or freed in any case. */
 bool texture_add(loader *l, const char *name, rgba8_picture *picture, const texture_use *use, size_t *out);
+
+/* The mirror image behind the image, along u (0) or v (1). */
+bool texture_add_mirror(loader *l, scene_texture *texture, int axis);
+
+/* mirror.c: when all objects are there. Textures that are mirrored become others that look the same. */
+bool mirror_textures(loader *l);
 
 /* mesh.c. The input's arrays are temporary ones of the loader. */
 
@@ -143,9 +162,9 @@ typedef struct {
 bool mesh_splitter_init(mesh_splitter *splitter, loader *l, const scene_mesh *input);
 
 /* Adds triangles (3 * n_triangles indices of the input, all in range) as the meshes *first ... *first + *n_meshes - 1.
- * With flip their winding is reversed: for instances whose transform mirrors (see gltf_mesh.c). */
-bool mesh_split(mesh_splitter *splitter, const char *name, const uint32_t *idx, size_t n_triangles, bool flip,
-                size_t *first, size_t *n_meshes);
+ */
+bool mesh_split(mesh_splitter *splitter, const char *name, const uint32_t *idx, size_t n_triangles, size_t *first,
+                size_t *n_meshes);
 
 /* mesh_order.c: the same triangles; those of a large mesh in an order in which neighbours are near each other. NULL:
  * failed. */

@@ -188,8 +188,7 @@ static bool gather_all(mesh_splitter *sp, size_t n_vertices, scene_mesh *mesh, m
     return ok;
 }
 
-static bool add_taken(mesh_splitter *sp, const char *name, const uint32_t *idx, size_t n_triangles, size_t n_vertices,
-                      bool flip)
+static bool add_taken(mesh_splitter *sp, const char *name, const uint32_t *idx, size_t n_triangles, size_t n_vertices)
 {
     scene_mesh *mesh = loader_add_mesh(sp->l, name);
     if (!mesh) return false;
@@ -199,21 +198,21 @@ static bool add_taken(mesh_splitter *sp, const char *name, const uint32_t *idx, 
     if (!mesh->idx) return false;
     for (size_t i = 0; i < n_triangles; i++) {
         mesh->idx[3 * i] = sp->local[idx[3 * i]];
-        mesh->idx[3 * i + 1] = sp->local[idx[3 * i + (flip ? 2 : 1)]];
-        mesh->idx[3 * i + 2] = sp->local[idx[3 * i + (flip ? 1 : 2)]];
+        mesh->idx[3 * i + 1] = sp->local[idx[3 * i + 1]];
+        mesh->idx[3 * i + 2] = sp->local[idx[3 * i + 2]];
     }
     return gather_all(sp, n_vertices, mesh, &sp->l->light_of_mesh[sp->l->s->n_meshes - 1]);
 }
 
-bool mesh_split(mesh_splitter *splitter, const char *name, const uint32_t *idx, size_t n_triangles, bool flip,
-                size_t *first, size_t *n_meshes)
+bool mesh_split(mesh_splitter *splitter, const char *name, const uint32_t *idx, size_t n_triangles, size_t *first,
+                size_t *n_meshes)
 {
     loader *l = splitter->l;
     *first = l->s->n_meshes;
     if (!(idx = mesh_order(l, splitter->input, idx, n_triangles))) return false;
     for (size_t at = 0; at < n_triangles;) {
         size_t n_vertices, taken = take_triangles(splitter, idx + 3 * at, n_triangles - at, &n_vertices);
-        if (!add_taken(splitter, name, idx + 3 * at, taken, n_vertices, flip)) return false;
+        if (!add_taken(splitter, name, idx + 3 * at, taken, n_vertices)) return false;
         at += taken;
     }
     *n_meshes = l->s->n_meshes - *first;

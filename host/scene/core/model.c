@@ -61,6 +61,7 @@ void scene_free(scene *s)
         free(s->settings[i].key);
         free(s->settings[i].value);
     }
+    for (size_t i = 0; i < s->n_clips; i++) free(s->clips[i].name);
     for (size_t i = 0; i < s->n_notes; i++) free(s->notes[i]);
     for (size_t i = 0; i < s->n_remarks; i++) free(s->remarks[i]);
     for (size_t i = 0; i < s->n_files; i++) free(s->files[i]);
@@ -69,6 +70,7 @@ void scene_free(scene *s)
     free(s->objects);
     free(s->textures);
     free(s->settings);
+    free(s->clips);
     free(s->notes);
     free(s->remarks);
     free(s->files);

@@ -58,6 +58,7 @@ typedef struct {
     int width, height;           /* 1..4096 */
     uint8_t *rgba;               /* 4 per texel, rows from the top: sRGB colour, linear alpha; smaller levels */
     bool clamp_u, clamp_v;       /* else it repeats */
+    bool mirrored[2];            /* along u, v: it repeats mirrored. While a file is loaded: mirror.c undoes it */
     bool bilinear;               /* else nearest */
     bool mipmapped;              /* levels of half the size, rounded down, follow, down to one texel */
     scene_texture_format format; /* texels are rounded to its values, and then to 8 bits */
@@ -147,7 +148,6 @@ typedef enum {
     SCENE_FILTER_7X7,
     SCENE_FILTER_DISK
 } scene_filter;
-typedef enum { SCENE_KERNEL_TENT, SCENE_KERNEL_LINEAR } scene_kernel;                      /* F3, F6 */
 typedef enum { SCENE_MIX_NONE, SCENE_MIX_ALWAYS, SCENE_MIX_DISTANCE } scene_mixing;        /* M6 */
 typedef enum { SCENE_TILES_EQUAL, SCENE_TILES_IMPORTANCE, SCENE_TILES_WORTH } scene_tiles; /* A2, A7 */
 /* D2, D12; compiled: tight, in boxes that the tool finds for the whole animation once the scene is loaded. */
@@ -162,9 +162,8 @@ typedef struct {
     double cascade_fade;       /* D3, D6: 0.001..1, default 0.1 */
     scene_filter filter;       /* of the directional atlas */
     scene_filter other_filter; /* of the local-light atlas; the loader makes it the same */
-    scene_kernel kernel;
-    double penumbra;  /* F4, the setting sigma, 0..64, default 1 */
-    int disk_samples; /* F4, 1..64, default 16 */
+    double penumbra;           /* F4, the setting sigma, 0..64, default 1 */
+    int disk_samples;          /* F4, 1..64, default 16 */
     scene_mixing mixing;
     bool main_light;     /* D10 */
     bool caster_culling; /* D8; changes no pixel */
@@ -209,7 +208,7 @@ typedef struct {
 
 typedef struct {
     char *name;
-    double duration; /* seconds */
+    double duration; /* seconds; 0: not known */
 } scene_clip;
 
 typedef struct {
@@ -257,6 +256,8 @@ typedef struct {
     int n_fixed_fits;
     scene_added added; /* what the file lacked */
     scene_stage stage;
+    size_t n_clips, clip_idx; /* of the file; the one that plays */
+    scene_clip *clips;
     scene_rig *rig;    /* if scene_options.rig requested it, of glTF; else NULL */
     size_t n_settings; /* extras.gnomon of the glTF scene, in file order: applied like --set, before it */
     scene_setting *settings;
@@ -270,7 +271,7 @@ typedef struct {
     char **files;
     double extent;   /* how far from the origin anything may come, beside where it is; 0: not farther */
     double fps;      /* frames per second of its animation; 0: it has none */
-    double duration; /* seconds until everything in it has come to rest */
+    double duration; /* seconds until everything in the clip that plays has come to rest */
 } scene;
 
 typedef enum { SCENE_GROUND_AUTO, SCENE_GROUND_ON, SCENE_GROUND_OFF } scene_ground;
@@ -284,12 +285,17 @@ typedef struct {
     scene_up up;       /* z: the whole file is turned, so that its front, -y, is at +Z */
     bool smooth;       /* meshes without normals: smooth vertex normals instead of face normals */
     bool outside;      /* a file may name files outside the folder of the scene */
+    const char *clip;  /* the clip that plays, by its name or number; NULL: the first */
     bool rig;          /* nodes and clips are kept */
     bool posed;        /* for what moves alone: textures have no levels, which take long */
     int budget;        /* how many times the usual limits of what a file may ask for (budget.c); 0: once */
     bool orbit;        /* in the place of any camera of the file: */
     double yaw, pitch; /* degrees: from the front (+Z) to the right (+X); upwards */
     double zoom;       /* > 0; 1: all is in the picture */
+    bool turn;         /* the camera, around what it looks at: */
+    double turn_yaw, turn_pitch, turn_zoom; /* degrees to the right, upwards; > 0: how much longer its lens is */
+    bool at_hour;                           /* the first directional light stands as the sun at */
+    double hour;                            /* 6 .. 18 */
     /* NULL, or what loads with the same options, of other frames, need not find again */
     struct scene_seen *seen;
 } scene_options;
@@ -310,6 +316,9 @@ int scene_add_note(scene *s, const char *text, char *error, size_t error_bytes);
 void scene_vertex(double *out, const scene *s, const scene_object *object, size_t vertex_idx);
 /* The same in the object's space: the weighted mean of where its joints take it. */
 void scene_posed(double *out, const scene_mesh *mesh, const scene_object *object, size_t vertex_idx);
+/* 1; -1: the transforms of the pose mirror the object, so that its triangles turn the other way round; 0: it has no
+ * volume, and is not drawn. Of joints the first that has an inverse tells. */
+int scene_object_sign(const scene_object *object);
 
 /* Appends a light of this kind, placed so that it lights the scene as the camera sees it and throws a shadow into the
  * picture: what

@@ -10,7 +10,6 @@
 static const double far_radii = 1000; /* farther from the origin, in its own size: moved there */
 static const double flat = 1.0 / (1 << 24),
                     thinnest = 1.0 / (1 << 16); /* of a transform's largest scale: below, and instead */
-static const double speck = 1e-5;               /* of the scene: the size of what is scaled to nothing */
 
 /* Of object i in the pose; pose poses.n is the scene's own, which is stored twice. */
 typedef void (*change)(scene_affine *to_world, const void *how);
@@ -45,18 +44,6 @@ static void add_to_column(scene_affine *a, int column, const double *direction, 
     for (int i = 0; i < 3; i++) a->m[i][column] += length * direction[i];
 }
 
-/* A direction at right angles to u. */
-static void beside(double *out, const double *u)
-{
-    double axis[3] = {0, 0, 0};
-    int k = 0;
-    for (int i = 1; i < 3; i++)
-        if (fabs(u[i]) < fabs(u[k])) k = i;
-    axis[k] = 1;
-    vec_cross(out, u, axis);
-    vec_normalise(out);
-}
-
 static void order_columns(int order[3], double length[3], const scene_affine *a)
 {
     for (int k = 0; k < 3; k++) {
@@ -74,27 +61,20 @@ static void order_columns(int order[3], double length[3], const scene_affine *a)
             }
 }
 
-/* Columns that the transform lacks, or nearly so, get a length that nobody sees. how: the length where all are 0. */
+/* A column that the transform of a plane lacks, or nearly so, gets a length that nobody sees. One that lacks two, or
+ * all, stays: the object has no area, and is not drawn. */
 static void thicken(scene_affine *a, const void *how)
 {
+    (void)how;
     int order[3];
     double length[3], u[3], v[3], w[3], column[3];
     order_columns(order, length, a);
-    double longest = length[order[0]];
-    if (!isfinite(longest)) return;
-    if (!(longest > 1e-150)) {
-        longest = *(const double *)how;
-        for (int k = 0; k < 3; k++)
-            for (int i = 0; i < 3; i++) a->m[i][k] = i == k ? longest : 0;
-        return;
-    }
+    const double longest = length[order[0]];
+    if (!isfinite(longest) || !(longest > 1e-150)) return;
     affine_column(u, a, order[0]);
     vec_normalise(u);
     affine_column(column, a, order[1]);
-    if (part_beside(v, column, u, NULL) < flat * longest) {
-        beside(v, u);
-        add_to_column(a, order[1], v, thinnest * longest);
-    }
+    if (part_beside(v, column, u, NULL) < flat * longest) return;
     vec_normalise(v);
     affine_column(column, a, order[2]);
     const double left = part_beside(w, column, u, v);
@@ -109,17 +89,8 @@ static void thicken(scene_affine *a, const void *how)
 static bool is_thin(const scene_affine *a)
 {
     scene_affine thick = *a;
-    const double any = 1;
-    thicken(&thick, &any);
+    thicken(&thick, NULL);
     return memcmp(&thick, a, sizeof thick) != 0;
-}
-
-static double radius_of(const scene_mesh *mesh)
-{
-    double most = 0;
-    for (size_t i = 0; i < mesh->n_vertices; i++)
-        most = fmax(most, sqrt(vec_dot(mesh->pos + 3 * i, mesh->pos + 3 * i)));
-    return most;
 }
 
 static bool is_ever_thin(const loader *l, size_t object_idx, size_t at)
@@ -130,15 +101,13 @@ static bool is_ever_thin(const loader *l, size_t object_idx, size_t at)
     return thin;
 }
 
-static bool thicken_objects(loader *l, const bounds *b)
+static bool thicken_objects(loader *l)
 {
     scene *s = l->s;
     bool any = false;
     for (size_t i = 0, at = 0; i < s->n_objects; at += 1 + s->objects[i++].n_joints) {
         if (!is_ever_thin(l, i, at)) continue;
-        const double radius = radius_of(&s->meshes[s->objects[i].mesh_idx]);
-        const double length = radius > 0 ? speck * b->radius / radius : 1;
-        change_object(l, i, thicken, &length);
+        change_object(l, i, thicken, NULL);
         any = true;
     }
     return any;
@@ -165,8 +134,29 @@ static void move_inside(scene_affine *a, const void *how)
     for (int k = 0; k < 3; k++) a->m[k][3] = at[k];
 }
 
+/* Keeps an object where it was when its mesh is moved by -centre: its transform changes, or those of its joints, in all
+ * poses. Of a rig it gets a node of its own. */
+static bool follow_mesh(loader *l, size_t object_idx, const double *centre)
+{
+    scene_object *o = &l->s->objects[object_idx];
+    const scene_poses *p = &l->poses;
+    size_t at = 1;
+    for (size_t i = 0; i < object_idx; i++) at += 1 + l->s->objects[i].n_joints;
+    if (o->n_joints == 0) change_object(l, object_idx, move_inside, centre);
+    for (size_t i = 0; i < o->n_joints; i++) {
+        move_inside(&o->joints[i].now, centre);
+        move_inside(&o->joints[i].rest, centre);
+        move_inside(&o->joints[i].bind, centre);
+        for (size_t k = 0; p->n > 0 && k <= p->n; k++) move_inside(&p->affines[k * p->n_affines + at + i], centre);
+    }
+    if (o->n_joints || !l->s->rig || o->node_idx == SCENE_NONE) return true;
+    scene_affine place = affine_identity();
+    move_inside(&place, centre);
+    return loader_add_rig_node(l, o->node_idx, &place, &o->node_idx);
+}
+
 /* A mesh whose vertices are far from its own origin. */
-static void centre_mesh(loader *l, size_t mesh_idx)
+static bool centre_mesh(loader *l, size_t mesh_idx)
 {
     scene_mesh *mesh = &l->s->meshes[mesh_idx];
     double low[3] = {HUGE_VAL, HUGE_VAL, HUGE_VAL}, high[3] = {-HUGE_VAL, -HUGE_VAL, -HUGE_VAL}, centre[3], half = 0;
@@ -178,10 +168,11 @@ static void centre_mesh(loader *l, size_t mesh_idx)
         centre[k] = low[k] / 2 + high[k] / 2;
         half = fmax(half, (high[k] - low[k]) / 2);
     }
-    if (mesh->joint || !is_far(centre, half)) return;
+    if (!is_far(centre, half)) return true;
     for (size_t i = 0; i < 3 * mesh->n_vertices; i++) mesh->pos[i] -= centre[i % 3];
     for (size_t i = 0; i < l->s->n_objects; i++)
-        if (l->s->objects[i].mesh_idx == mesh_idx) change_object(l, i, move_inside, centre);
+        if (l->s->objects[i].mesh_idx == mesh_idx && !follow_mesh(l, i, centre)) return false;
+    return true;
 }
 
 static void move_scene(loader *l, const double *by)
@@ -198,12 +189,12 @@ static void move_scene(loader *l, const double *by)
 
 bool place_objects(loader *l, const bounds *b, bool *changed)
 {
-    *changed = false;
+    for (size_t i = 0; i < l->s->n_meshes; i++)
+        if (!centre_mesh(l, i)) return false;
+    *changed = thicken_objects(l);
     if (l->options->rig) return true; /* whoever poses the nodes has them as they are */
-    *changed = thicken_objects(l, b);
     if (!is_far(b->centre, b->radius)) return true;
     *changed = true;
-    for (size_t i = 0; i < l->s->n_meshes; i++) centre_mesh(l, i);
     move_scene(l, b->centre);
     return loader_note(l, "the scene is far from the origin, at %g %g %g: it is moved to it", b->centre[0],
                        b->centre[1], b->centre[2]);

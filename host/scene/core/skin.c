@@ -27,3 +27,13 @@ void scene_vertex(double *out, const scene *s, const scene_object *object, size_
     scene_posed(p, &s->meshes[object->mesh_idx], object, vertex_idx);
     affine_point(out, &object->to_world, p);
 }
+
+int scene_object_sign(const scene_object *object)
+{
+    const int sign = affine_sign(&object->to_world);
+    for (size_t i = 0; i < object->n_joints; i++) {
+        const int joint = affine_sign(&object->joints[i].now);
+        if (joint) return sign * joint;
+    }
+    return sign;
+}

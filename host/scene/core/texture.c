@@ -3,6 +3,7 @@
 #include "texture_format.h"
 
 #include <stdlib.h>
+#include <string.h>
 
 enum { MAX_TEXTURE_SIDE = 4096 };
 
@@ -54,6 +55,7 @@ bool texture_add(loader *l, const char *name, rgba8_picture *picture, const text
         *out = l->s->n_textures - 1;
         texture->clamp_u = use->clamp_u;
         texture->clamp_v = use->clamp_v;
+        memcpy(texture->mirrored, use->mirrored, sizeof texture->mirrored);
         texture->bilinear = use->bilinear;
         ok = fit_sides(l, picture, use, texture) && (!use->mipmapped || l->options->posed || add_levels(l, texture));
     }
@@ -61,4 +63,33 @@ bool texture_add(loader *l, const char *name, rgba8_picture *picture, const text
     free(picture->rgba);
     picture->rgba = NULL;
     return ok;
+}
+
+static void copy_mirrored(uint8_t *to, const uint8_t *from, int w, int h, int axis)
+{
+    const int width = axis ? w : 2 * w, height = axis ? 2 * h : h;
+    for (int y = 0; y < height; y++)
+        for (int x = 0; x < width; x++) {
+            const int from_x = x < w ? x : 2 * w - 1 - x, from_y = y < h ? y : 2 * h - 1 - y;
+            memcpy(to + 4 * ((size_t)y * (size_t)width + (size_t)x),
+                   from + 4 * ((size_t)from_y * (size_t)w + (size_t)from_x), 4);
+        }
+}
+
+bool texture_add_mirror(loader *l, scene_texture *texture, int axis)
+{
+    if (!texture_shrink(texture, MAX_TEXTURE_SIDE / 2, false, NULL))
+        return budget_fail_memory(l, (size_t)MAX_TEXTURE_SIDE * MAX_TEXTURE_SIDE);
+    const int w = texture->width, h = texture->height;
+    const size_t n = (size_t)w * (size_t)h * 8;
+    const char *over = budget_spend(l, BUDGET_TEXTURE_BYTES, n);
+    if (over) return loader_fail(l, "%s: mirrored texture '%.200s': %s", l->path, texture->name, over);
+    uint8_t *rgba = loader_own(l, n, 1);
+    if (!rgba) return false;
+    copy_mirrored(rgba, texture->rgba, w, h, axis);
+    free(texture->rgba);
+    texture->rgba = rgba;
+    texture->width = axis ? w : 2 * w;
+    texture->height = axis ? 2 * h : h;
+    return !texture->mipmapped || add_levels(l, texture);
 }

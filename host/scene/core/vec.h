@@ -83,16 +83,20 @@ static inline bool affine_is_finite(const scene_affine *a)
     return true;
 }
 
-/* Of normalised columns: the sign of the determinant survives scales whose product underflows. */
-static inline bool affine_mirrors(const scene_affine *a)
+/* Sign of the determinant; 0: there is no inverse, as far as Q1.30 can tell. Rows are normalised, so that scales of any
+ * size count alike. */
+static inline int affine_sign(const scene_affine *a)
 {
-    double x[3], y[3], z[3], normal[3];
-    affine_column(x, a, 0);
-    affine_column(y, a, 1);
-    affine_column(z, a, 2);
-    if (!vec_normalise(x) || !vec_normalise(y) || !vec_normalise(z)) return false;
-    vec_cross(normal, x, y);
-    return vec_dot(normal, z) < 0;
+    double row[3][3], normal[3], largest = 0;
+    int exp;
+    for (int i = 0; i < 9; i++) largest = fmax(largest, fabs(a->m[i / 3][i % 3]));
+    frexp(largest, &exp);
+    for (int i = 0; i < 9; i++) row[i / 3][i % 3] = floor(ldexp(a->m[i / 3][i % 3], 30 - exp) + 0.5);
+    for (int i = 0; i < 3; i++)
+        if (!vec_normalise(row[i])) return 0;
+    vec_cross(normal, row[1], row[2]);
+    const double det = vec_dot(row[0], normal);
+    return det > 0x1p-28 ? 1 : det < -0x1p-28 ? -1 : 0;
 }
 
 #endif

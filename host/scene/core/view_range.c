@@ -134,13 +134,13 @@ static void to_view(double *out, const scene *s, const scene_object *o, size_t v
 }
 
 /* Whether no part of a triangle shows its front. */
-static bool faces_away(const polygon *p, bool parallel)
+static bool faces_away(const polygon *p, int sign, bool parallel)
 {
     double u[3], v[3], n[3];
     vec_sub(u, p->corner[1], p->corner[0]);
     vec_sub(v, p->corner[2], p->corner[0]);
     vec_cross(n, u, v);
-    return (parallel ? n[2] : vec_dot(n, p->corner[0])) < 0;
+    return sign * (parallel ? n[2] : vec_dot(n, p->corner[0])) < 0;
 }
 
 void view_range_begin(view_range *r)
@@ -156,10 +156,11 @@ void view_range_add(view_range *r, const scene *s, const scene_affine *camera, d
     for (size_t i = 0; i < s->n_objects; i++) {
         const scene_object *o = &s->objects[i];
         const scene_mesh *mesh = &s->meshes[o->mesh_idx];
-        for (size_t t = 0; t < mesh->n_triangles && !o->hidden; t++) {
+        const int sign = scene_object_sign(o);
+        for (size_t t = 0; t < mesh->n_triangles && !o->hidden && sign; t++) {
             p.n = 3;
             for (size_t k = 0; k < 3; k++) to_view(p.corner[k], s, o, mesh->idx[3 * t + k], &v);
-            if (o->two_sided || !faces_away(&p, s->camera.half_height > 0)) add_triangle(r, s, o, &p, aspect);
+            if (o->two_sided || !faces_away(&p, sign, s->camera.half_height > 0)) add_triangle(r, s, o, &p, aspect);
         }
     }
 }

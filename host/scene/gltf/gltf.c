@@ -134,32 +134,34 @@ static bool place_and_animate(gltf *g, const json_value *used_scene)
         if (!gltf_place_nodes(g, used_scene)) return false;
         gltf_keep_rest(g);
     }
-    return gltf_read_animations(g) && gltf_pose(g, g->l->options->frame) && gltf_place_nodes(g, used_scene);
+    return gltf_choose_clip(g) && gltf_read_animations(g) && gltf_pose(g, g->l->options->frame) &&
+           gltf_place_nodes(g, used_scene);
 }
 
+/* Zeros behind it are padding, as some programs write it. */
 static bool load_json(loader *l, const char *text, size_t n_bytes, gltf_bytes glb)
 {
     json_doc doc;
+    while (n_bytes > 0 && !text[n_bytes - 1]) n_bytes--;
     char error[200];
     const size_t mark = n_bytes >= 3 && memcmp(text, "\xEF\xBB\xBF", 3) == 0 ? 3 : 0; /* of UTF-8 */
+    if (loader_is_utf16((const uint8_t *)text, n_bytes))
+        return loader_fail(l, "%s: the text is UTF-16: save it as UTF-8", l->path);
     if (json_parse(&doc, text + mark, n_bytes - mark, error, sizeof error) != 0)
         return loader_fail(l, "%s:%s", l->path, error);
     gltf g = {.l = l, .root = doc.root, .glb = glb, .fps = DEFAULT_FPS};
     const json_value *used_scene;
-    bool ok = check_asset(&g) && find_arrays(&g) && spend_arrays(&g, &doc) && gltf_load_buffers(&g) &&
-              find_scene(&g, &used_scene) && gltf_scene_knobs(&g, used_scene) && gltf_read_nodes(&g) &&
-              gltf_begin_rig(&g) && place_and_animate(&g, used_scene) && emit_nodes(&g) && gltf_end_rig(&g) &&
-              gltf_keep_poses(&g, used_scene);
+    bool ok = gltf_clean(l, &doc) && check_asset(&g) && find_arrays(&g) && spend_arrays(&g, &doc) &&
+              gltf_load_buffers(&g) && find_scene(&g, &used_scene) && gltf_scene_knobs(&g, used_scene) &&
+              gltf_read_nodes(&g) && gltf_begin_rig(&g) && place_and_animate(&g, used_scene) && emit_nodes(&g) &&
+              mirror_textures(l) && gltf_end_rig(&g) && gltf_keep_poses(&g, used_scene);
     json_free(&doc);
     return ok;
 }
 
-bool gltf_load(loader *l)
+bool gltf_load(loader *l, const uint8_t *file, size_t n_file)
 {
-    uint8_t *bytes;
-    size_t n_bytes;
-    return loader_read_file(l, l->path, &bytes, &n_bytes) &&
-           load_json(l, (const char *)bytes, n_bytes, (gltf_bytes){0});
+    return load_json(l, (const char *)file, n_file, (gltf_bytes){0});
 }
 
 static size_t word_at(const uint8_t *bytes)
@@ -185,7 +187,7 @@ static bool read_chunk(loader *l, const uint8_t *file, size_t n_bytes, size_t *a
         return loader_fail(l, "%s: byte %zu: a chunk header is cut off", l->path, *at);
     size_t length = word_at(file + *at);
     *type = word_at(file + *at + 4);
-    *out = (gltf_bytes){file + *at + GLB_CHUNK_HEADER_BYTES, length};
+    *out = (gltf_bytes){.bytes = file + *at + GLB_CHUNK_HEADER_BYTES, .n_bytes = length};
     if (length > n_bytes - *at - GLB_CHUNK_HEADER_BYTES) {
         return loader_fail(l, "%s: byte %zu: a chunk of %zu bytes reaches beyond the end", l->path, *at, length);
     }
@@ -206,14 +208,11 @@ static bool check_glb_header(loader *l, const uint8_t *file, size_t n_file, size
 }
 
 /* Chunks after JSON and BIN, and of unknown type, are skipped as the format demands. */
-bool gltf_load_glb(loader *l)
+bool gltf_load_glb(loader *l, const uint8_t *file, size_t n_file)
 {
-    uint8_t *file;
-    size_t n_file, n_bytes = 0, at = GLB_HEADER_BYTES, type;
+    size_t n_bytes = 0, at = GLB_HEADER_BYTES, type;
     gltf_bytes text, chunk, binary = {0};
-    if (!loader_read_file(l, l->path, &file, &n_file) || !check_glb_header(l, file, n_file, &n_bytes) ||
-        !read_chunk(l, file, n_bytes, &at, &type, &text))
-        return false;
+    if (!check_glb_header(l, file, n_file, &n_bytes) || !read_chunk(l, file, n_bytes, &at, &type, &text)) return false;
     if (type != GLB_JSON) return loader_fail(l, "%s: the first chunk is not JSON", l->path);
     size_t n_odd = text.n_bytes % 4 != 0;
     while (at < n_bytes) {

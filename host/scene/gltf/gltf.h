@@ -1,7 +1,7 @@
-/* The glTF loader's inside: gltf.c reads the file and drives, gltf_json.c reads typed members, gltf_buffer.c and
- * gltf_accessor.c turn bytes into numbers, gltf_attribute.c and gltf_mesh.c make meshes, gltf_material.c,
- * gltf_texture.c and gltf_light.c what they say, gltf_node.c the hierarchy and the camera, gltf_animation.c moves nodes
- * before that, gltf_knobs.c reads extras.gnomon. */
+/* The glTF loader's inside: gltf.c reads the file and drives, gltf_json.c reads typed members, gltf_clean.c takes out
+ * what is none, gltf_buffer.c and gltf_accessor.c turn bytes into numbers, gltf_attribute.c, gltf_mesh.c and
+ * gltf_alpha.c make meshes, gltf_material.c, gltf_texture.c and gltf_light.c what they say, gltf_node.c the hierarchy
+ * and the camera, gltf_clip.c and gltf_animation.c move nodes before that, gltf_knobs.c reads extras.gnomon. */
 #ifndef GNOMON_HOST_GLTF_H
 #define GNOMON_HOST_GLTF_H
 
@@ -11,8 +11,9 @@
 #define GLTF_NONE SIZE_MAX
 
 typedef struct {
-    const uint8_t *bytes; /* NULL: the file gives no data */
+    const uint8_t *bytes; /* NULL: there are none */
     size_t n_bytes;
+    const char *problem; /* why there are none, for a message; else NULL */
 } gltf_bytes;
 
 typedef struct {
@@ -30,8 +31,9 @@ typedef struct {
 } gltf_node;
 
 typedef struct {
-    bool loaded[2]; /* [1]: with reversed winding, for mirroring instances */
-    size_t first_mesh[2], n_meshes[2];
+    bool loaded;
+    size_t first_mesh, n_meshes;
+    bool has_ramp; /* its coordinates are those of the ramp of alpha, which is its texture */
 } gltf_primitive;
 
 /* KHR_texture_transform: texture coordinates times scale, turned by -rotation, plus offset. */
@@ -71,10 +73,13 @@ typedef struct {
     gltf_primitive **primitive; /* [mesh][primitive], rows made on first use */
     gltf_texture *texture;      /* two per texture: as a picture, as data; made on first use */
     bool has_mask_texture;      /* some material or node names one */
+    bool has_ramp;              /* of alpha: the texture with which alpha varies between vertices is made: */
+    size_t ramp_idx;
     double fps;
     gltf_played *played;
     size_t n_played;
     size_t camera_node; /* of the camera that is used, if loader.has_camera */
+    double camera_back; /* how far it stands behind its node */
 } gltf;
 
 /* What to do about compressed meshes, behind what is wrong. */
@@ -97,10 +102,17 @@ bool gltf_get_extension(gltf *g, const json_value *parent, const char *name, con
 /* parent.name, or "kind index" in temporary memory. NULL: failed. */
 const char *gltf_name(gltf *g, const json_value *parent, const char *kind);
 
+/* gltf_clean.c: as if members that are null, and references below 0, were not there; says so, and where members come
+ * twice. */
+bool gltf_clean(loader *l, json_doc *doc);
+
 /* gltf_buffer.c */
 bool gltf_load_buffers(gltf *g);
-/* A data URI or a file beside the scene. *missing: NULL, or which file is not there and why. */
-bool gltf_load_uri(gltf *g, const json_value *where, const char *uri, gltf_bytes *out, const char **missing);
+bool gltf_is_data_uri(const char *uri);
+/* A data URI or a file beside the scene. False: out of memory, or over the budget; what else is wrong: out->problem. */
+bool gltf_load_uri(gltf *g, const char *uri, gltf_bytes *out);
+/* Why the buffer of the view has no bytes; else NULL. */
+const char *gltf_view_problem(const gltf *g, const json_value *view);
 /* The bytes of a buffer view; stride 0: packed. */
 bool gltf_view_bytes(gltf *g, const json_value *view, gltf_bytes *out, size_t *stride);
 
@@ -110,11 +122,12 @@ typedef struct {
     size_t count, n_components;
     size_t component_type;
     bool normalized;
-    double *values;                  /* count * n_components, normalised ones in -1..1 or 0..1; finite */
-    size_t n_not_finite, not_finite; /* numbers of the file's that are none: 0 in values; the element of the first */
+    double *values; /* count * n_components, normalised ones in -1..1 or 0..1; NULL if count is 0, with a remark */
+    size_t n_not_finite, not_finite; /* numbers of the file's that are not finite; the element of the first */
 } gltf_array;
-bool gltf_read_accessor(gltf *g, size_t accessor_idx, gltf_array *out); /* without such numbers */
-bool gltf_read_loosely(gltf *g, size_t accessor_idx, gltf_array *out);
+bool gltf_read_accessor(gltf *g, size_t accessor_idx, gltf_array *out); /* fails for numbers that are not finite */
+bool gltf_read_loosely(gltf *g, size_t accessor_idx, gltf_array *out);  /* they are 0 in values */
+bool gltf_read_as_it_is(gltf *g, size_t accessor_idx, gltf_array *out); /* they are in values */
 
 /* gltf_attribute.c: every attribute of ours but texture coordinates, which are read where something looks them up. */
 typedef struct {
@@ -122,8 +135,19 @@ typedef struct {
     const gltf_uv_transform *uv;
     bool mask_uv;
 } gltf_wants;
+/* Beside the mesh, in temporary memory. */
+typedef struct {
+    mesh_light light;
+    bool *lost;    /* per vertex: its place is not finite or too large, and 0 in the mesh; NULL: none is */
+    double *alpha; /* per vertex, 0..1, of COLOR_0; NULL: 1 */
+} gltf_beside;
+/* n_vertices stays 0 if there are none, with a remark. */
 bool gltf_read_attributes(gltf *g, const json_value *attributes, const gltf_wants *wants, scene_mesh *out,
-                          mesh_light *light);
+                          gltf_beside *beside);
+
+/* gltf_alpha.c: the meshes of a primitive. */
+bool gltf_split_mesh(gltf *g, const gltf_material *material, scene_mesh *mesh, const gltf_beside *beside,
+                     gltf_primitive *out);
 
 /* gltf_texture.c. data: a mask image. *out SCENE_NONE: ignored, with a note. */
 bool gltf_load_texture(gltf *g, size_t texture_idx, bool is_data, size_t *out);
@@ -150,11 +174,15 @@ bool gltf_read_nodes(gltf *g);
 bool gltf_place_nodes(gltf *g, const json_value *used_scene);
 void gltf_keep_rest(gltf *g); /* placed nodes are at rest */
 bool gltf_emit_camera(gltf *g, size_t node_idx);
-/* Scale and shear do not belong to a camera: forward is kept, up made orthogonal to it, right follows. */
+/* Scale and shear do not belong to a camera: forward is kept, up made orthogonal to it, right follows. It stands
+ * camera_back behind the node. */
 bool gltf_camera_axes(gltf *g, const gltf_node *node, scene_affine *out);
 
 /* gltf_light.c */
 bool gltf_emit_light(gltf *g, size_t node_idx);
+
+/* gltf_clip.c: scene.clips and clip_idx, by the options. */
+bool gltf_choose_clip(gltf *g);
 
 /* gltf_animation.c. gltf_pose writes a frame's translation, rotation and scale into the nodes; gltf_keep_poses, when
  * all is there, keeps where all frames take the objects: loader.poses, scene.stage. */

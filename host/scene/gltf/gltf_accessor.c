@@ -85,14 +85,12 @@ static bool locate(gltf *g, const json_value *owner, size_t element_bytes, size_
     return true;
 }
 
-/* What is no number is 0, and counts. */
+/* What is no number counts. */
 static void read_element(gltf_array *a, const uint8_t *bytes, size_t element, double *out)
 {
     for (size_t i = 0; i < a->n_components; i++) {
         out[i] = read_component(bytes + i * component_bytes(a->component_type), a->component_type, a->normalized);
-        if (isfinite(out[i])) continue;
-        out[i] = 0;
-        if (a->n_not_finite++ == 0) a->not_finite = element;
+        if (!isfinite(out[i]) && a->n_not_finite++ == 0) a->not_finite = element;
     }
 }
 
@@ -124,7 +122,7 @@ static bool sparse_parts(gltf *g, const json_value *sparse, const json_value **i
     if (!gltf_get_size(g, sparse, "count", count) || !gltf_get(g, sparse, "indices", JSON_OBJECT, indices) ||
         !gltf_get(g, sparse, "values", JSON_OBJECT, values) || !gltf_get_size(g, *indices, "componentType", index_type))
         return false;
-    if (*count == 0 || !*indices || !*values) return gltf_fail(g, sparse, "count, indices and values are needed");
+    if (!*indices || !*values) return gltf_fail(g, sparse, "count, indices and values are needed");
     if (*index_type != GLTF_UBYTE && *index_type != GLTF_USHORT && *index_type != GLTF_UINT) {
         return gltf_fail(g, *indices, "componentType must be 5121, 5123 or 5125");
     }
@@ -137,6 +135,7 @@ static bool read_sparse(gltf *g, const json_value *sparse, gltf_array *out)
     size_t count = 0, index_type = 0;
     element_run index_run, value_run;
     if (!sparse_parts(g, sparse, &indices, &values, &count, &index_type)) return false;
+    if (count == 0) return true;
     if (count > out->count) return gltf_fail(g, sparse, "count %zu exceeds the accessor's %zu", count, out->count);
     if (!locate(g, indices, component_bytes(index_type), count, &index_run)) return false;
     if (!locate(g, values, out->n_components * component_bytes(out->component_type), count, &value_run)) return false;
@@ -172,17 +171,26 @@ static bool read_type(gltf *g, const json_value *accessor, gltf_array *out)
            gltf_fail(g, accessor, "type '%s' is not SCALAR, VEC2, VEC3, VEC4, or MAT4 of floats", type);
 }
 
-bool gltf_read_loosely(gltf *g, size_t accessor_idx, gltf_array *out)
+bool gltf_read_as_it_is(gltf *g, size_t accessor_idx, gltf_array *out)
 {
     const json_value *accessor = g->accessors->children[accessor_idx], *sparse = NULL;
     *out = (gltf_array){0};
     if (!read_type(g, accessor, out) || !gltf_get_size(g, accessor, "count", &out->count) ||
         !gltf_get(g, accessor, "sparse", JSON_OBJECT, &sparse))
         return false;
-    if (out->count == 0) return gltf_fail(g, accessor, "count must be at least 1");
+    if (out->count == 0)
+        return loader_remark(g->l, "accessor %zu has a count of 0: as if it were not there", accessor_idx);
     bool dense = json_get(accessor, "bufferView") != NULL;
     if (!(dense ? read_dense(g, accessor, out) : read_zeros(g, accessor, out))) return false;
     return !sparse || read_sparse(g, sparse, out);
+}
+
+bool gltf_read_loosely(gltf *g, size_t accessor_idx, gltf_array *out)
+{
+    if (!gltf_read_as_it_is(g, accessor_idx, out)) return false;
+    const size_t n = out->n_not_finite ? out->count * out->n_components : 0;
+    for (size_t i = 0; i < n; i++) out->values[i] = isfinite(out->values[i]) ? out->values[i] : 0;
+    return true;
 }
 
 bool gltf_read_accessor(gltf *g, size_t accessor_idx, gltf_array *out)

@@ -1,6 +1,5 @@
 /* glTF animation of node translation, rotation and scale, at one moment or at all: time = frame / fps, clamped to the
- * ends of each sampler. All animations of the file play at once; where two move the same property of a node, the first
- * in the file wins. */
+ * ends of each sampler. One clip plays; where two of its channels move the same property of a node, the first wins. */
 #include "gltf.h"
 
 #include <math.h>
@@ -57,6 +56,7 @@ static bool join_keys(gltf *g, sampler *s)
     return kept == n || loader_note(g->l, "%zu keys of animations come twice for one time: the last counts", n - kept);
 }
 
+/* Without keys it moves nothing. */
 static bool read_sampler(gltf *g, const json_value *json, sampler *out)
 {
     size_t input = GLTF_NONE, output = GLTF_NONE;
@@ -69,8 +69,10 @@ static bool read_sampler(gltf *g, const json_value *json, sampler *out)
     else if (strcmp(kind, "STEP") == 0) out->kind = CURVE_STEP;
     else if (strcmp(kind, "CUBICSPLINE") == 0) out->kind = CURVE_CUBIC;
     else return gltf_fail(g, json, "interpolation '%s' is unknown", kind);
-    return gltf_read_accessor(g, input, &out->times) && check_times(g, json_get(json, "input"), &out->times) &&
-           gltf_read_accessor(g, output, &out->values) && check_values(g, json_get(json, "output"), out) &&
+    if (!gltf_read_accessor(g, input, &out->times) || !gltf_read_accessor(g, output, &out->values)) return false;
+    if (out->values.count == 0) out->times.count = 0;
+    if (out->times.count == 0) return true;
+    return check_times(g, json_get(json, "input"), &out->times) && check_values(g, json_get(json, "output"), out) &&
            join_keys(g, out);
 }
 
@@ -100,7 +102,6 @@ static bool read_target(gltf *g, const json_value *target, channel *out)
                              node);
     out->property = translation ? out->node->translation : rotation ? out->node->rotation : out->node->scale;
     out->width = rotation ? 4 : 3;
-    out->node->moves = true;
     out->bit = translation ? 1 : rotation ? 2 : 4;
     return true;
 }
@@ -134,6 +135,7 @@ static bool play_channel(gltf *g, const channel *c, const char *animation, unsig
     }
     *moved = (unsigned char)(*moved | c->bit);
     if (!read_sampler(g, c->sampler, &s)) return false;
+    if (s.times.count == 0) return true;
     note_duration(g, &s.times);
     g->played = loader_grow(g->l, g->played, g->n_played, sizeof *g->played);
     if (!g->played) return false;
@@ -141,7 +143,8 @@ static bool play_channel(gltf *g, const channel *c, const char *animation, unsig
     return true;
 }
 
-static bool play_animation(gltf *g, const json_value *json, unsigned char *moved)
+/* plays: it is the clip that does. Of the others what they move is noted. */
+static bool read_animation(gltf *g, const json_value *json, bool plays, unsigned char *moved)
 {
     const json_value *channels = NULL, *samplers = NULL;
     const char *name = gltf_name(g, json, "animation");
@@ -151,7 +154,8 @@ static bool play_animation(gltf *g, const json_value *json, unsigned char *moved
     for (size_t i = 0; channels && i < channels->n_children; i++) {
         channel c;
         if (!read_channel(g, channels->children[i], samplers, &c)) return false;
-        if (c.property && !play_channel(g, &c, name, &moved[c.node - g->node])) return false;
+        if (c.property) c.node->moves = true;
+        if (c.property && plays && !play_channel(g, &c, name, &moved[c.node - g->node])) return false;
     }
     return true;
 }
@@ -161,8 +165,9 @@ bool gltf_read_animations(gltf *g)
     size_t n_nodes = g->nodes ? g->nodes->n_children : 0;
     unsigned char *moved = loader_alloc(g->l, n_nodes + 1, 1);
     if (!moved) return false;
-    for (size_t i = 0; g->animations && i < g->animations->n_children; i++) {
-        if (!play_animation(g, g->animations->children[i], moved)) return false;
+    for (size_t i = 0; i < g->l->s->n_clips; i++) {
+        const bool plays = i == g->l->s->clip_idx;
+        if ((plays || g->l->options->rig) && !read_animation(g, g->animations->children[i], plays, moved)) return false;
     }
     return true;
 }
@@ -266,7 +271,7 @@ static bool keep_channel(gltf *g, size_t clip, const channel *c)
     rig->channels = grown;
     arena_block *mark = g->l->memory.blocks;
     bool ok = read_sampler(g, c->sampler, &s);
-    if (ok) {
+    if (ok && s.times.count > 0) {
         scene_channel *to = &rig->channels[rig->n_channels++];
         *to = (scene_channel){clip, node, what, curve_of(&s)};
         to->curve.times = own_numbers(g, s.times.values, s.times.count);

@@ -11,9 +11,10 @@ static bool read_attribute(gltf *g, const json_value *attributes, const char *na
     *out = (gltf_array){0};
     if (!gltf_get_ref(g, attributes, name, g->accessors, &accessor)) return false;
     if (accessor == GLTF_NONE) return true;
-    const bool must = strcmp(name, "POSITION") == 0; /* a shape can do without the others */
-    if (!(must ? gltf_read_accessor(g, accessor, out) : gltf_read_loosely(g, accessor, out))) return false;
-    if (out->n_not_finite > 0 &&
+    const bool place = strcmp(name, "POSITION") == 0; /* a shape can do without the others */
+    if (!(place ? gltf_read_as_it_is(g, accessor, out) : gltf_read_loosely(g, accessor, out))) return false;
+    if (out->count == 0) return true;
+    if (!place && out->n_not_finite > 0 &&
         !loader_remark(g->l, "%zu numbers of a %s are not finite: 0 is taken", out->n_not_finite, name))
         return false;
     if (n_vertices != 0 && out->count != n_vertices) {
@@ -36,17 +37,31 @@ static bool check_range(gltf *g, const json_value *where, const gltf_array *a, c
     return true;
 }
 
-static bool read_position(gltf *g, const json_value *attributes, scene_mesh *out)
+/* Vertices without a place: faces that have one are left out. */
+static bool find_lost(gltf *g, const gltf_array *a, gltf_beside *beside)
+{
+    for (size_t i = 0; i < 3 * a->count; i++) {
+        if (fabs(a->values[i]) <= LOADER_MAX_COORDINATE) continue;
+        if (!beside->lost) beside->lost = loader_alloc(g->l, a->count, sizeof *beside->lost);
+        if (!beside->lost) return false;
+        beside->lost[i / 3] = true;
+        a->values[i] = 0;
+    }
+    return true;
+}
+
+static bool read_position(gltf *g, const json_value *attributes, scene_mesh *out, gltf_beside *beside)
 {
     gltf_array a;
     if (!read_attribute(g, attributes, "POSITION", 0, &a)) return false;
+    if (a.count == 0) return true;
     const json_value *where = json_get(attributes, "POSITION");
     if (a.n_components != 3 || a.component_type == GLTF_UINT)
         return gltf_fail(g, where, "VEC3 of float, byte or short is expected");
     if (!gltf_spend(g, where, BUDGET_VERTICES, a.count)) return false;
     out->n_vertices = a.count;
     out->pos = a.values;
-    return check_range(g, where, &a, "coordinate");
+    return find_lost(g, &a, beside);
 }
 
 /* Of a fixed number of components. */
@@ -80,14 +95,35 @@ static bool normalise(gltf *g, gltf_array *a, const char *mesh_name)
                          mesh_name, most);
 }
 
-static bool read_colour(gltf *g, const json_value *attributes, scene_mesh *out)
+/* Floats that are all whole and go far beyond 1 are of 255 levels. */
+static bool scale_levels(gltf *g, gltf_array *a, const char *mesh_name)
+{
+    const size_t n = a->component_type == GLTF_FLOAT ? a->count * a->n_components : 0;
+    double most = 0;
+    for (size_t i = 0; i < n; i++) {
+        if (fabs(a->values[i] - floor(a->values[i])) > 0) return true;
+        most = fmax(most, a->values[i]);
+    }
+    if (!(most > 15 && most <= 255)) return true;
+    for (size_t i = 0; i < n; i++) {
+        const bool alpha = a->n_components == 4 && i % 4 == 3; /* which may go from 0 to 1 all the same */
+        a->values[i] /= alpha && a->values[i] <= 1 ? 1 : 255;
+    }
+    return loader_remark(g->l, "vertex colours of '%s' go up to %g: they are taken for 255ths", mesh_name, most);
+}
+
+static bool read_colour(gltf *g, const json_value *attributes, scene_mesh *out, gltf_beside *beside)
 {
     gltf_array a;
     if (!read_attribute(g, attributes, "COLOR_0", out->n_vertices, &a)) return false;
     if (!a.values) return true;
     if (a.n_components < 3) return gltf_fail(g, json_get(attributes, "COLOR_0"), "VEC3 or VEC4 is expected");
     if (!is_float_or_normalized(&a) && !normalise(g, &a, out->name)) return false;
+    if (!scale_levels(g, &a, out->name)) return false;
     out->rgb = a.values;
+    if (a.n_components == 4) beside->alpha = loader_alloc(g->l, a.count, sizeof *beside->alpha);
+    if (a.n_components == 4 && !beside->alpha) return false;
+    for (size_t i = 0; beside->alpha && i < a.count; i++) beside->alpha[i] = fmin(fmax(a.values[4 * i + 3], 0), 1);
     for (size_t i = 1; a.n_components == 4 && i < a.count; i++)
         memmove(a.values + 3 * i, a.values + 4 * i, 3 * sizeof *a.values);
     if (loader_clamp_colour(out->rgb, 3 * a.count)) return true;
@@ -191,9 +227,12 @@ static bool read_joints(gltf *g, const json_value *attributes, scene_mesh *out)
 }
 
 bool gltf_read_attributes(gltf *g, const json_value *attributes, const gltf_wants *wants, scene_mesh *out,
-                          mesh_light *light)
+                          gltf_beside *beside)
 {
-    return read_position(g, attributes, out) && read_real(g, attributes, "NORMAL", 3, out->n_vertices, &out->nrm) &&
-           read_colour(g, attributes, out) && read_texture_coordinates(g, attributes, wants, out) &&
-           read_joints(g, attributes, out) && read_baked(g, attributes, out, light);
+    *beside = (gltf_beside){0};
+    if (!read_position(g, attributes, out, beside)) return false;
+    if (out->n_vertices == 0) return true;
+    return read_real(g, attributes, "NORMAL", 3, out->n_vertices, &out->nrm) &&
+           read_colour(g, attributes, out, beside) && read_texture_coordinates(g, attributes, wants, out) &&
+           read_joints(g, attributes, out) && read_baked(g, attributes, out, &beside->light);
 }

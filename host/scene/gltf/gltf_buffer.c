@@ -1,4 +1,4 @@
-/* glTF buffers (the .glb chunk, files beside the scene, base64 data URIs) and buffer views. */
+/* glTF buffers (the .glb chunk, files beside the scene, data URIs) and buffer views. */
 #include "gltf.h"
 
 #include <string.h>
@@ -8,41 +8,8 @@ static int base64_digit(char c)
     if (c >= 'A' && c <= 'Z') return c - 'A';
     if (c >= 'a' && c <= 'z') return c - 'a' + 26;
     if (c >= '0' && c <= '9') return c - '0' + 52;
+    if (c == '-' || c == '_') return c == '-' ? 62 : 63; /* as in names of files and URLs */
     return c == '+' ? 62 : c == '/' ? 63 : -1;
-}
-
-/* Strict: groups of four, padded, no white space. */
-static bool decode_base64(gltf *g, const json_value *where, const char *text, gltf_bytes *out)
-{
-    size_t n = strlen(text), n_bytes = 0;
-    size_t n_pad = n >= 1 && text[n - 1] == '=' ? (n >= 2 && text[n - 2] == '=' ? 2 : 1) : 0;
-    if (n % 4 != 0) return gltf_fail(g, where, "base64 data is cut: %zu characters are not a multiple of 4", n);
-    uint8_t *bytes = loader_alloc(g->l, n / 4 * 3 + 1, 1);
-    if (!bytes) return false;
-    uint32_t bits = 0;
-    for (size_t i = 0; i < n; i++) {
-        int digit = i >= n - n_pad ? 0 : base64_digit(text[i]);
-        if (digit < 0) return gltf_fail(g, where, "base64 data has a bad character at %zu", i);
-        bits = bits << 6 | (uint32_t)digit;
-        if (i % 4 != 3) continue;
-        bytes[n_bytes++] = (uint8_t)(bits >> 16);
-        bytes[n_bytes++] = (uint8_t)(bits >> 8);
-        bytes[n_bytes++] = (uint8_t)bits;
-    }
-    *out = (gltf_bytes){bytes, n_bytes - n_pad};
-    return true;
-}
-
-static bool load_data_uri(gltf *g, const json_value *where, const char *uri, gltf_bytes *out)
-{
-    static const char marker[] = ";base64";
-    const char *comma = strchr(uri, ',');
-    size_t n_marker = sizeof marker - 1;
-    if (!comma) return gltf_fail(g, where, "the data URI has no comma");
-    if ((size_t)(comma - uri) < n_marker || memcmp(comma - n_marker, marker, n_marker) != 0) {
-        return gltf_fail(g, where, "the data URI is not base64");
-    }
-    return decode_base64(g, where, comma + 1, out);
 }
 
 static int hex_digit(char c)
@@ -52,59 +19,118 @@ static int hex_digit(char c)
     return c >= 'A' && c <= 'F' ? c - 'A' + 10 : -1;
 }
 
-static char *decode_percent(gltf *g, const char *uri)
+/* Bytes of a URI, %41 as A. There is a zero behind them. NULL: failed. */
+static uint8_t *decode_percent(gltf *g, const char *uri, size_t *n)
 {
-    char *name = loader_alloc(g->l, strlen(uri) + 1, 1);
-    if (!name) return NULL;
-    size_t n = 0;
-    for (; *uri; uri++) {
-        int high = uri[0] == '%' ? hex_digit(uri[1]) : -1, low = high >= 0 ? hex_digit(uri[2]) : -1;
-        if (low >= 0 && high * 16 + low > 0) {
-            name[n++] = (char)(high * 16 + low);
-            uri += 2;
-        } else name[n++] = *uri;
+    uint8_t *bytes = loader_alloc(g->l, strlen(uri) + 1, 1);
+    *n = 0;
+    for (; bytes && *uri; uri++) {
+        const int high = uri[0] == '%' ? hex_digit(uri[1]) : -1, low = high >= 0 ? hex_digit(uri[2]) : -1;
+        bytes[(*n)++] = (uint8_t)(low >= 0 ? high * 16 + low : *uri);
+        if (low >= 0) uri += 2;
     }
-    return name;
+    return bytes;
 }
 
-static bool load_file_uri(gltf *g, const json_value *where, const char *uri, gltf_bytes *out, const char **missing)
+static bool is_space(uint8_t c)
 {
-    const char *name = decode_percent(g, uri);
-    if (!name) return false;
-    if (strstr(uri, "://")) return gltf_fail(g, where, "only files beside the scene and data URIs are supported");
-    if (!loader_may_read(g->l, name))
-        return gltf_fail(g, where, "%.200s is outside the folder of the scene, which only --outside allows", name);
-    const char *path = loader_relative_path(g->l, name);
+    return c == ' ' || (c >= '\t' && c <= '\r');
+}
+
+/* In place, n characters. White space does not count, and padding may be missing. *n_bytes: of the result. NULL, or the
+ * character that is wrong; that at n: the text is cut. */
+static const uint8_t *decode_base64(uint8_t *text, size_t n, size_t *n_bytes)
+{
+    uint32_t bits = 0;
+    size_t n_digits = 0;
+    bool ended = false;
+    *n_bytes = 0;
+    for (size_t i = 0; i < n; i++) {
+        const int digit = base64_digit((char)text[i]);
+        if (is_space(text[i])) continue;
+        ended = ended || (text[i] == '=' && n_digits % 4 > 1);
+        if (ended ? text[i] != '=' : digit < 0) return text + i;
+        if (ended) continue;
+        bits = bits << 6 | (uint32_t)digit;
+        if (n_digits++ % 4 == 0) continue; /* 6 bits more than whole bytes: none is full */
+        text[(*n_bytes)++] = (uint8_t)(bits >> (2 * (3 - (n_digits - 1) % 4)));
+    }
+    return n_digits % 4 == 1 ? text + n : NULL;
+}
+
+/* What is wrong with it is a problem of those who need it. */
+static bool load_data_uri(gltf *g, const char *uri, gltf_bytes *out)
+{
+    const char *comma = strchr(uri, ',');
+    if (!comma) return out->problem = "the data URI has no comma", true;
+    size_t n, n_bytes;
+    const char *head = loader_format(g->l, "%.*s", (int)(comma - uri), uri), *last = head ? strrchr(head, ';') : NULL;
+    uint8_t *bytes = decode_percent(g, comma + 1, &n);
+    if (!head || !bytes) return false;
+    *out = (gltf_bytes){.bytes = bytes, .n_bytes = n};
+    if (!last || !loader_same_word(last + 1, "base64")) return true;
+    const uint8_t *wrong = decode_base64(bytes, n, &n_bytes);
+    out->n_bytes = n_bytes;
+    if (!wrong) return true;
+    *out = (gltf_bytes){.problem = loader_format(g->l, "base64 data %s at %zu",
+                                                 wrong == bytes + n ? "is cut off" : "has a bad character",
+                                                 (size_t)(wrong - bytes))};
+    return out->problem != NULL;
+}
+
+/* "http" and the like, but not the letter of a drive. */
+static bool has_scheme(const char *uri)
+{
+    const size_t n = strspn(uri, "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789+.-");
+    return n > 1 && uri[n] == ':';
+}
+
+static bool load_file_uri(gltf *g, const char *uri, gltf_bytes *out)
+{
+    size_t n;
+    char *name = (char *)decode_percent(g, uri, &n);
+    const char *path, *why;
     uint8_t *bytes = NULL;
-    if (!path || !loader_try_file(g->l, path, &bytes, &out->n_bytes, missing)) return false;
-    if (*missing) *missing = loader_format(g->l, "%s %s", path, *missing);
+    if (!name) return false;
+    for (char *c = name; *c; c++) *c = *c == '\\' ? '/' : *c; /* as written on Windows */
+    if (has_scheme(uri))
+        return (out->problem = loader_format(g->l, "%.200s: only files beside the scene and data URIs are read", name));
+    if (!loader_find_beside(g->l, name, &path, &why)) return false;
+    if (!why && !loader_try_file(g->l, path, &bytes, &out->n_bytes, &why)) return false;
     out->bytes = bytes;
-    return true;
+    return !why || (out->problem = loader_format(g->l, "%.200s %s", path, why));
 }
 
-bool gltf_load_uri(gltf *g, const json_value *where, const char *uri, gltf_bytes *out, const char **missing)
+bool gltf_is_data_uri(const char *uri)
 {
-    bool is_data = strncmp(uri, "data:", 5) == 0;
-    *missing = NULL;
-    return is_data ? load_data_uri(g, where, uri, out) : load_file_uri(g, where, uri, out, missing);
+    char head[6] = "";
+    strncpy(head, uri, sizeof head - 1);
+    return loader_same_word(head, "data:");
 }
 
+bool gltf_load_uri(gltf *g, const char *uri, gltf_bytes *out)
+{
+    *out = (gltf_bytes){0};
+    return gltf_is_data_uri(uri) ? load_data_uri(g, uri, out) : load_file_uri(g, uri, out);
+}
+
+/* Buffers that nothing needs need not be there. */
 static bool load_buffer(gltf *g, const json_value *json, gltf_bytes *out)
 {
     size_t n_bytes = GLTF_NONE;
-    const char *uri = NULL, *missing = NULL;
+    const char *uri = NULL;
     if (!gltf_get_size(g, json, "byteLength", &n_bytes) || !gltf_get_string(g, json, "uri", &uri)) return false;
     if (n_bytes == GLTF_NONE) return gltf_fail(g, json, "byteLength is missing");
     if (!uri && json->child_idx == 0) *out = g->glb;
-    if (uri && !gltf_load_uri(g, json_get(json, "uri"), uri, out, &missing)) return false;
-    if (missing) return gltf_fail(g, json_get(json, "uri"), "%s", missing);
-    if (!out->bytes) return true; /* an error only if something reads it */
+    if (uri && !gltf_load_uri(g, uri, out)) return false;
+    if (!out->bytes && !out->problem) out->problem = "it has no data";
+    if (out->problem) return loader_remark(g->l, "buffer %zu is not there: %s", json->child_idx, out->problem);
     if (out->n_bytes < n_bytes)
-        return gltf_fail(g, json, "%zu bytes are announced, %zu are there", n_bytes, out->n_bytes);
+        return loader_remark(g->l, "buffer %zu: %zu bytes are announced, %zu are there", json->child_idx, n_bytes,
+                             out->n_bytes);
     out->n_bytes = n_bytes;
     return true;
 }
-
 bool gltf_load_buffers(gltf *g)
 {
     size_t n = g->buffers ? g->buffers->n_children : 0;
@@ -114,6 +140,14 @@ bool gltf_load_buffers(gltf *g)
         if (!load_buffer(g, g->buffers->children[i], &g->buffer[i])) return false;
     }
     return true;
+}
+
+const char *gltf_view_problem(const gltf *g, const json_value *view)
+{
+    const json_value *buffer = json_get(view, "buffer");
+    const double idx = buffer && buffer->type == JSON_NUMBER ? buffer->number : -1;
+    const size_t n = g->buffers ? g->buffers->n_children : 0;
+    return idx >= 0 && idx < (double)n ? g->buffer[(size_t)idx].problem : NULL;
 }
 
 bool gltf_view_bytes(gltf *g, const json_value *view, gltf_bytes *out, size_t *stride)
@@ -126,11 +160,12 @@ bool gltf_view_bytes(gltf *g, const json_value *view, gltf_bytes *out, size_t *s
     if (buffer == GLTF_NONE) return gltf_fail(g, view, "buffer is missing");
     if (n_bytes == GLTF_NONE) return gltf_fail(g, view, "byteLength is missing");
     const gltf_bytes *source = &g->buffer[buffer];
-    if (!source->bytes) return gltf_fail(g, view, "buffer %zu has no data", buffer);
+    const json_value *owner = g->buffers->children[buffer], *uri = json_get(owner, "uri");
+    if (!source->bytes) return gltf_fail(g, uri ? uri : owner, "%s", source->problem);
     if (offset > source->n_bytes || n_bytes > source->n_bytes - offset) {
         return gltf_fail(g, view, "bytes %zu to %zu lie outside buffer %zu of %zu bytes", offset, offset + n_bytes,
                          buffer, source->n_bytes);
     }
-    *out = (gltf_bytes){source->bytes + offset, n_bytes};
+    *out = (gltf_bytes){.bytes = source->bytes + offset, .n_bytes = n_bytes};
     return true;
 }

@@ -4,7 +4,8 @@
 
 #include "../core/loader.h"
 
-bool gltf_load(loader *l);     /* .gltf */
-bool gltf_load_glb(loader *l); /* .glb */
+/* The file's bytes: JSON text, and the binary container. */
+bool gltf_load(loader *l, const uint8_t *file, size_t n_file);
+bool gltf_load_glb(loader *l, const uint8_t *file, size_t n_file);
 
 #endif

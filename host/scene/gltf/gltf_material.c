@@ -107,7 +107,9 @@ static bool wraps_alike(gltf *g, const scene_object *o, const char *name, size_t
 {
     if (o->texture_idx == SCENE_NONE || *texture_idx == SCENE_NONE) return true;
     const scene_texture *a = &g->l->s->textures[o->texture_idx], *b = &g->l->s->textures[*texture_idx];
-    if (a->clamp_u == b->clamp_u && a->clamp_v == b->clamp_v) return true;
+    if (a->clamp_u == b->clamp_u && a->clamp_v == b->clamp_v && a->mirrored[0] == b->mirrored[0] &&
+        a->mirrored[1] == b->mirrored[1])
+        return true;
     *texture_idx = SCENE_NONE;
     return loader_remark(g->l, "emissive texture of material '%s' ignored: it wraps otherwise than the base colour's",
                          name);

@@ -1,10 +1,10 @@
 /* glTF primitives -> scene meshes, and mesh nodes -> scene objects.
  *
  * Nodes that instance a mesh share its scene meshes, one per primitive (more if it is too large for 16-bit indices).
- * glTF reverses the winding where a node's transform mirrors (negative determinant). The engines cull by the winding on
- * the screen, after the transform, and know nothing of determinants: so a mirroring instance gets a copy of the mesh
- * whose index order is reversed beforehand. Vertex normals need nothing: the inverse transpose keeps them outward. */
+ * Where a node's transform mirrors, the engines turn the winding, as glTF asks for. */
 #include "gltf.h"
+
+#include <string.h>
 
 #include "../core/vec.h"
 
@@ -41,6 +41,22 @@ static size_t corner_of(size_t mode, size_t i, size_t k)
     return k == 0 ? i : i + (i % 2 == 0 ? k : 3 - k);
 }
 
+/* Takes out the triangles that have a lost vertex. */
+static bool drop_lost(gltf *g, scene_mesh *mesh, const bool *lost)
+{
+    size_t n_kept = 0;
+    for (size_t i = 0; i < mesh->n_triangles; i++) {
+        const uint32_t *t = mesh->idx + 3 * i;
+        if (lost && (lost[t[0]] || lost[t[1]] || lost[t[2]])) continue;
+        memmove(mesh->idx + 3 * n_kept++, t, 3 * sizeof *t);
+    }
+    const size_t n_lost = mesh->n_triangles - n_kept;
+    mesh->n_triangles = n_kept;
+    return n_lost == 0 ||
+           loader_remark(g->l, "%zu faces of '%s' are left out: places of their vertices are not finite, or beyond %g",
+                         n_lost, mesh->name, LOADER_MAX_COORDINATE);
+}
+
 static bool assemble(gltf *g, const json_value *primitive, size_t mode, scene_mesh *out)
 {
     uint32_t *walk = NULL;
@@ -69,7 +85,7 @@ static bool has_data(gltf *g, const json_value *attributes)
 
 /* n_triangles stays 0 for what is skipped, with a note. */
 static bool read_primitive(gltf *g, const json_value *primitive, const char *name, const gltf_wants *wants,
-                           scene_mesh *out, mesh_light *light)
+                           scene_mesh *out, gltf_beside *beside)
 {
     const json_value *attributes = NULL;
     size_t mode = MODE_TRIANGLES;
@@ -88,39 +104,36 @@ static bool read_primitive(gltf *g, const json_value *primitive, const char *nam
     if (json_get(primitive, "targets") &&
         !loader_remark(g->l, "morph targets of mesh '%s' ignored: they are not supported", name))
         return false;
-    return gltf_read_attributes(g, attributes, wants, out, light) && assemble(g, primitive, mode, out) &&
+    if (!gltf_read_attributes(g, attributes, wants, out, beside)) return false;
+    if (out->n_vertices == 0) return true;
+    return assemble(g, primitive, mode, out) && drop_lost(g, out, beside->lost) &&
            (out->n_triangles == 0 || mesh_prepare_normals(g->l, out));
 }
 
-static bool load_primitive(gltf *g, const json_value *json, const char *name, const gltf_material *material, bool flip,
+static bool load_primitive(gltf *g, const json_value *json, const char *name, const gltf_material *material,
                            gltf_primitive *out)
 {
     const gltf_wants wants = {.uv_set = material->uv_set, .uv = &material->uv, .mask_uv = g->has_mask_texture};
     scene_mesh mesh;
-    mesh_light light = {0};
-    mesh_splitter splitter;
-    if (out->loaded[flip]) return true;
-    out->loaded[flip] = true;
+    gltf_beside beside = {0};
+    if (out->loaded) return true;
+    out->loaded = true;
     arena_block *mark = g->l->memory.blocks;
-    bool ok = read_primitive(g, json, name, &wants, &mesh, &light);
-    if (ok && mesh.n_triangles > 0) {
-        ok = mesh_splitter_init(&splitter, g->l, &mesh);
-        splitter.light = light;
-        ok = ok && mesh_split(&splitter, name, mesh.idx, mesh.n_triangles, flip, &out->first_mesh[flip],
-                              &out->n_meshes[flip]);
-    }
+    bool ok = read_primitive(g, json, name, &wants, &mesh, &beside);
+    if (ok && mesh.n_triangles > 0) ok = gltf_split_mesh(g, material, &mesh, &beside, out);
     arena_release(&g->l->memory, mark); /* many primitives may share one large vertex buffer */
     return ok;
 }
 
 /* A texture needs coordinates. */
-static bool check_coordinates(gltf *g, const json_value *json, const scene_mesh *mesh, scene_object *object)
+static bool check_coordinates(gltf *g, const json_value *json, const scene_mesh *mesh, bool has_uv,
+                              scene_object *object)
 {
     if (object->mask_texture_idx != SCENE_NONE && !mesh->mask_uv) {
         return gltf_fail(g, json, "a mask_texture is looked up at TEXCOORD_1, which is missing");
     }
     const bool coloured = object->texture_idx != SCENE_NONE, glows = object->emissive_texture_idx != SCENE_NONE;
-    if (mesh->uv) return true;
+    if (has_uv) return true;
     object->texture_idx = object->emissive_texture_idx = SCENE_NONE;
     for (int i = 0; glows && i < 3; i++) object->emissive[i] = 0;
     return (!coloured || loader_remark(g->l, "base colour texture of mesh '%s' ignored: it has no texture coordinates",
@@ -140,20 +153,22 @@ static void place(scene_object *object, const gltf *g, const gltf_node *node, co
 static bool emit_primitive(gltf *g, const gltf_node *node, const json_value *json, const char *mesh_name,
                            const gltf_skin *skin, gltf_primitive *primitive)
 {
-    bool flip = affine_mirrors(skin->n ? &skin->joints[0].now : &node->world);
     gltf_material material;
     if (!gltf_read_material(g, json, node->moves || skin->moves, &material) ||
         !gltf_material_knobs(g, node->json, &material))
         return false;
-    if (!load_primitive(g, json, mesh_name, &material, flip, primitive)) return false;
-    if (primitive->n_meshes[flip] == 0) return true; /* skipped, with a note */
+    if (!load_primitive(g, json, mesh_name, &material, primitive)) return false;
+    if (primitive->n_meshes == 0) return true; /* skipped, with a note */
     scene_object object = material.surface;
     place(&object, g, node, skin);
-    if (!check_coordinates(g, json, &g->l->s->meshes[primitive->first_mesh[flip]], &object)) return false;
+    const scene_mesh *mesh = &g->l->s->meshes[primitive->first_mesh];
+    if (!check_coordinates(g, json, mesh, mesh->uv && !primitive->has_ramp, &object)) return false;
+    if (primitive->has_ramp) object.texture_idx = g->ramp_idx;
+    if (skin->n && !mesh->joint) return gltf_fail(g, json, "joints or weights have no elements");
     const char *name = gltf_name(g, node->json, "node");
     object.name = name ? loader_format(g->l, "%s", name) : NULL;
     const size_t first = g->l->s->n_objects;
-    return object.name && loader_add_objects(g->l, &object, primitive->first_mesh[flip], primitive->n_meshes[flip]) &&
+    return object.name && loader_add_objects(g->l, &object, primitive->first_mesh, primitive->n_meshes) &&
            gltf_add_joints(g, json, skin, first);
 }
 
@@ -167,11 +182,21 @@ static bool mesh_primitives(gltf *g, size_t mesh_idx, const json_value **out)
     return g->primitive[mesh_idx] != NULL;
 }
 
+/* Whether the attribute is there and has elements. */
+static bool has_elements(gltf *g, const json_value *attributes, const char *name)
+{
+    const json_value *idx = json_get(attributes, name);
+    const size_t n = g->accessors ? g->accessors->n_children : 0;
+    if (!idx || idx->type != JSON_NUMBER || !(idx->number < (double)n)) return idx != NULL; /* an error elsewhere */
+    const json_value *count = json_get(g->accessors->children[(size_t)idx->number], "count");
+    return count && count->type == JSON_NUMBER && count->number > 0;
+}
+
 /* Whether the skin moves the primitive. */
 static bool is_skinned(gltf *g, const json_value *json, const gltf_skin *skin, const char *name, bool *out)
 {
     const json_value *attributes = json_get(json, "attributes");
-    *out = attributes && json_get(attributes, "JOINTS_0") && json_get(attributes, "WEIGHTS_0");
+    *out = has_elements(g, attributes, "JOINTS_0") && has_elements(g, attributes, "WEIGHTS_0");
     return *out || skin->n == 0 ||
            loader_remark(g->l, "mesh '%s' has a skin, but no JOINTS_0 or no WEIGHTS_0: it stays at rest", name);
 }

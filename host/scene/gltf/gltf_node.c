@@ -183,7 +183,7 @@ bool gltf_camera_axes(gltf *g, const gltf_node *node, scene_affine *out)
         out->m[i][0] = right[i];
         out->m[i][1] = up[i];
         out->m[i][2] = back[i];
-        out->m[i][3] = node->world.m[i][3];
+        out->m[i][3] = node->world.m[i][3] + g->camera_back * back[i];
         ok = ok && fabs(out->m[i][3]) <= LOADER_MAX_COORDINATE;
     }
     return ok || gltf_fail(g, node->json, "the camera's transform has no direction or is too large");
@@ -209,11 +209,12 @@ static bool read_perspective(gltf *g, const json_value *perspective, scene_camer
     out->focal = 1 / tan(fov / 2);
     out->near = near_distance;
     out->far = far_distance;
-    return true;
+    return loader_limit_focal(g->l, &out->focal);
 }
 
-/* The picture's own shape decides how much is seen to the sides; a near plane of 0, which the library does not have, is
- * moved where nobody sees it. [R10] */
+/* The picture's own shape decides how much is seen to the sides. A near plane of 0, which the library does not have, is
+ * moved where nobody sees it; for one behind the camera, the camera goes back: along its axis all looks the same. [R10]
+ */
 static bool read_orthographic(gltf *g, const json_value *orthographic, scene_camera *out)
 {
     double height = 0, near_distance = 0, far_distance = 0;
@@ -223,14 +224,17 @@ static bool read_orthographic(gltf *g, const json_value *orthographic, scene_cam
         return false;
     if (!(height > 0 && height <= LOADER_MAX_COORDINATE))
         return gltf_fail(g, orthographic, "ymag %g is not positive, or too large", height);
-    if (!(near_distance >= 0)) return gltf_fail(g, orthographic, "znear %g is negative", near_distance);
     if (!(far_distance > near_distance))
         return gltf_fail(g, orthographic, "zfar %g is not beyond znear %g", far_distance, near_distance);
     out->focal = 1;
     out->half_height = height;
-    out->near = fmax(near_distance, 1e-3 * fmin(height, far_distance));
-    out->far = far_distance;
-    return true;
+    const double least = 1e-3 * fmin(height, far_distance - fmin(near_distance, 0));
+    g->camera_back = near_distance < 0 ? least - near_distance : 0;
+    out->near = fmax(near_distance + g->camera_back, least);
+    out->far = far_distance + g->camera_back;
+    return g->camera_back <= 0 ||
+           loader_note(g->l, "znear %g of the camera is behind it: the camera is moved back by %g", near_distance,
+                       g->camera_back);
 }
 
 static bool read_lens(gltf *g, const json_value *camera, bool is_orthographic, scene_camera *out)
@@ -239,6 +243,7 @@ static bool read_lens(gltf *g, const json_value *camera, bool is_orthographic, s
     const char *key = is_orthographic ? "orthographic" : "perspective";
     if (!gltf_get(g, camera, key, JSON_OBJECT, &lens)) return false;
     if (!lens) return gltf_fail(g, camera, "%s is missing", key);
+    g->camera_back = 0;
     return is_orthographic ? read_orthographic(g, lens, out) : read_perspective(g, lens, out);
 }
 
@@ -258,6 +263,6 @@ bool gltf_emit_camera(gltf *g, size_t node_idx)
     if (g->l->has_camera) return loader_note(g->l, "camera '%s' ignored: the first camera is used", name);
     g->l->has_camera = true;
     g->camera_node = node_idx;
-    return gltf_camera_axes(g, node, &g->l->s->camera.to_world) &&
-           read_lens(g, camera, is_orthographic, &g->l->s->camera);
+    return read_lens(g, camera, is_orthographic, &g->l->s->camera) &&
+           gltf_camera_axes(g, node, &g->l->s->camera.to_world);
 }

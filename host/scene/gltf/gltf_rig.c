@@ -34,6 +34,7 @@ static bool keep_camera(gltf *g, size_t node_idx)
     const scene_camera used = l->s->camera;
     const bool has_camera = l->has_camera;
     const size_t camera_node = g->camera_node;
+    const double camera_back = g->camera_back;
     size_t idx = GLTF_NONE;
     if (!gltf_get_ref(g, g->node[node_idx].json, "camera", g->cameras, &idx)) return false;
     if (idx == GLTF_NONE || l->options->orbit) return true;
@@ -45,7 +46,11 @@ static bool keep_camera(gltf *g, size_t node_idx)
     l->has_camera = has_camera;
     l->s->camera = used;
     g->camera_node = camera_node;
+    scene_affine back = affine_identity();
+    back.m[2][3] = g->camera_back;
+    g->camera_back = camera_back;
     if (!is_read) return ok;
+    if (back.m[2][3] > 0 && !loader_add_rig_node(l, node_idx, &back, &node_idx)) return false;
     scene_view *grown = realloc(rig->cameras, (rig->n_cameras + 1) * sizeof *grown);
     if (!grown) return loader_fail(l, "out of memory");
     rig->cameras = grown;
@@ -55,28 +60,27 @@ static bool keep_camera(gltf *g, size_t node_idx)
     return true;
 }
 
-/* up=z: one node more, which all roots stand on. There is memory for it. */
-static void turn_rig(scene_rig *rig)
+/* up=z: one node more, which all roots stand on. */
+static bool turn_rig(gltf *g)
 {
-    for (size_t i = 0; i < rig->n_nodes; i++)
-        if (rig->nodes[i].parent == SCENE_NONE) rig->nodes[i].parent = rig->n_nodes;
-    rig->nodes[rig->n_nodes++] = (scene_node){.parent = SCENE_NONE,
-                                              .in_scene = true,
-                                              .has_matrix = true,
-                                              .matrix = affine_z_up(),
-                                              .rotation = {0, 0, 0, 1},
-                                              .scale = {1, 1, 1}};
+    const scene_affine turn = affine_z_up();
+    const scene_rig *rig = g->l->s->rig;
+    size_t root;
+    if (!loader_add_rig_node(g->l, SCENE_NONE, &turn, &root)) return false;
+    for (size_t i = 0; i < root; i++)
+        if (rig->nodes[i].parent == SCENE_NONE) rig->nodes[i].parent = root;
+    return true;
 }
 
 bool gltf_end_rig(gltf *g)
 {
     scene_rig *rig = g->l->s->rig;
     if (!rig) return true;
-    for (size_t i = 0; i < rig->n_nodes; i++) {
+    for (size_t i = 0, n = rig->n_nodes; i < n; i++) {
         rig->nodes[i].parent = g->node[i].parent;
         rig->nodes[i].in_scene = g->node[i].in_scene;
         if (g->node[i].in_scene && !keep_camera(g, i)) return false;
     }
-    if (g->l->options->up == SCENE_UP_Z) turn_rig(rig);
+    if (g->l->options->up == SCENE_UP_Z && !turn_rig(g)) return false;
     return gltf_keep_clips(g);
 }

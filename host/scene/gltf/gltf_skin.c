@@ -19,7 +19,7 @@ static bool read_binds(gltf *g, const json_value *json, size_t n, scene_joint *o
     const json_value *where = json_get(json, "inverseBindMatrices");
     if (!gltf_get_ref(g, json, "inverseBindMatrices", g->accessors, &accessor)) return false;
     if (where && !gltf_read_accessor(g, accessor, &a)) return false;
-    if (where && (a.n_components != 16 || a.count < n))
+    if (a.count > 0 && (a.n_components != 16 || a.count < n))
         return gltf_fail(g, where, "%zu MAT4 are expected, one per joint", n);
     for (size_t i = 0; i < n; i++) {
         const double *m = a.values ? a.values + 16 * i : NULL;

@@ -13,14 +13,14 @@ enum {
     WRAP_REPEAT = 10497
 };
 
-static bool read_wrap(gltf *g, const json_value *sampler, const char *key, const char *name, bool *clamp)
+static bool read_wrap(gltf *g, const json_value *sampler, const char *key, const char *name, bool *clamp,
+                      bool *mirrored)
 {
     size_t wrap = WRAP_REPEAT;
     if (!gltf_get_size(g, sampler, key, &wrap)) return false;
     *clamp = wrap == WRAP_CLAMP;
-    if (wrap == WRAP_MIRROR)
-        return loader_note(g->l, "mirrored repeat of texture '%s' ignored: it repeats plainly", name);
-    return wrap == WRAP_CLAMP || wrap == WRAP_REPEAT ||
+    *mirrored = wrap == WRAP_MIRROR;
+    return *clamp || *mirrored || wrap == WRAP_REPEAT ||
            loader_note(g->l, "wrap mode %zu of texture '%s' is unknown: it repeats", wrap, name);
 }
 
@@ -29,7 +29,8 @@ static bool read_sampler(gltf *g, const json_value *texture, const char *name, t
     size_t idx = GLTF_NONE, filter = 0, smaller = 0;
     if (!gltf_get_ref(g, texture, "sampler", g->samplers, &idx)) return false;
     const json_value *sampler = json_at(g->samplers, idx);
-    if (!read_wrap(g, sampler, "wrapS", name, &out->clamp_u) || !read_wrap(g, sampler, "wrapT", name, &out->clamp_v) ||
+    if (!read_wrap(g, sampler, "wrapS", name, &out->clamp_u, &out->mirrored[0]) ||
+        !read_wrap(g, sampler, "wrapT", name, &out->clamp_v, &out->mirrored[1]) ||
         !gltf_get_size(g, sampler, "magFilter", &filter) || !gltf_get_size(g, sampler, "minFilter", &smaller))
         return false;
     out->bilinear = filter != FILTER_NEAREST;
@@ -38,14 +39,16 @@ static bool read_sampler(gltf *g, const json_value *texture, const char *name, t
 }
 
 /* Many images may be one buffer view: its bytes are paid for every time. */
-static bool image_bytes(gltf *g, const json_value *image, gltf_bytes *out, const char **missing)
+static bool image_bytes(gltf *g, const json_value *image, gltf_bytes *out)
 {
     size_t view = GLTF_NONE, stride;
     const char *uri = NULL;
     if (!gltf_get_ref(g, image, "bufferView", g->buffer_views, &view) || !gltf_get_string(g, image, "uri", &uri))
         return false;
-    if (uri) return gltf_load_uri(g, json_get(image, "uri"), uri, out, missing);
-    if (view == GLTF_NONE) return gltf_fail(g, image, "uri or bufferView is needed");
+    if (uri) return gltf_load_uri(g, uri, out);
+    if (view == GLTF_NONE) return out->problem = "neither uri nor bufferView is there", true;
+    out->problem = gltf_view_problem(g, g->buffer_views->children[view]);
+    if (out->problem) return true;
     return gltf_view_bytes(g, g->buffer_views->children[view], out, &stride) &&
            gltf_spend(g, image, BUDGET_FILE_BYTES, out->n_bytes);
 }
@@ -54,7 +57,7 @@ static bool image_bytes(gltf *g, const json_value *image, gltf_bytes *out, const
 static const char *picture_label(const json_value *image, const char *name)
 {
     const json_value *uri = json_get(image, "uri");
-    bool is_file = uri && uri->type == JSON_STRING && strncmp(uri->string, "data:", 5) != 0;
+    bool is_file = uri && uri->type == JSON_STRING && !gltf_is_data_uri(uri->string);
     return is_file ? uri->string : name;
 }
 
@@ -64,9 +67,10 @@ static bool load_image(gltf *g, const json_value *image, const char *name, const
     gltf_bytes bytes = {0};
     rgba8_picture picture;
     char problem[200];
-    const char *missing = NULL, *label = picture_label(image, name);
-    if (!image_bytes(g, image, &bytes, &missing)) return false;
-    if (missing) return loader_remark(g->l, "texture '%.150s': %.250s: it is drawn without", label, missing);
+    const char *label = picture_label(image, name);
+    if (!image_bytes(g, image, &bytes)) return false;
+    if (bytes.problem)
+        return loader_remark(g->l, "texture '%.150s': %.250s: it is drawn without", label, bytes.problem);
     if (!picture_is(bytes.bytes, bytes.n_bytes))
         return loader_remark(g->l, "texture '%.150s' ignored: only " PICTURE_FORMATS " images are supported", label);
     if (!texture_may_decode(g->l, label, bytes.bytes, bytes.n_bytes)) return false;
@@ -78,7 +82,8 @@ static bool load_image(gltf *g, const json_value *image, const char *name, const
 static bool same_use(const texture_use *a, const texture_use *b)
 {
     return a->clamp_u == b->clamp_u && a->clamp_v == b->clamp_v && a->bilinear == b->bilinear &&
-           a->mipmapped == b->mipmapped && a->is_data == b->is_data;
+           a->mirrored[0] == b->mirrored[0] && a->mirrored[1] == b->mirrored[1] && a->mipmapped == b->mipmapped &&
+           a->is_data == b->is_data;
 }
 
 /* What another glTF texture made of the same image, if it did the same. */

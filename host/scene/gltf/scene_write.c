@@ -129,13 +129,11 @@ static size_t add_masks(writer *w, const uint8_t *mask, size_t n)
     return add_accessor(w, add_view(w, start, ARRAY_BUFFER), UBYTE, true, n, "VEC4", "");
 }
 
-/* A loader reverses the winding where a transform mirrors: the file has it the other way round. */
-static size_t add_indices(writer *w, const scene_mesh *m, bool reversed)
+static size_t add_indices(writer *w, const scene_mesh *m)
 {
     const size_t start = w->bytes.n;
     for (size_t i = 0; i < 3 * m->n_triangles; i++) {
-        const size_t k = reversed && i % 3 ? i - i % 3 + 3 - i % 3 : i;
-        const uint16_t idx = (uint16_t)m->idx[k];
+        const uint16_t idx = (uint16_t)m->idx[i];
         write_bytes(&w->bytes, &idx, sizeof idx);
     }
     return add_accessor(w, add_view(w, start, ELEMENT_ARRAY_BUFFER), USHORT, false, 3 * m->n_triangles, "SCALAR", "");
@@ -158,8 +156,7 @@ static size_t add_mesh(writer *w, const scene_object *o, size_t material)
     if (m->mask_uv) write_format(b, ", \"TEXCOORD_1\": %zu", add_floats(w, m->mask_uv, n, 2, false));
     if (o->mask) write_format(b, ", \"_GNOMON_MASK\": %zu", add_masks(w, o->mask, n));
     if (o->baked) write_format(b, ", \"_GNOMON_BAKED\": %zu", add_floats(w, o->baked, n, 3, false));
-    write_format(b, "}, \"indices\": %zu, \"material\": %zu}]}", add_indices(w, m, affine_mirrors(&o->to_world)),
-                 material);
+    write_format(b, "}, \"indices\": %zu, \"material\": %zu}]}", add_indices(w, m), material);
     return w->n_meshes++;
 }
 
@@ -328,17 +325,15 @@ static void add_camera(writer *w)
 
 static void put_shadow(write_buffer *b, const scene *s)
 {
-    static const char *const filters[] = {"hard", "2x2", "3x3", "5x5", "7x7", "disk"}, *const kernels[] = {"tent",
-                                                                                                           "linear"};
+    static const char *const filters[] = {"hard", "2x2", "3x3", "5x5", "7x7", "disk"};
     static const char *const mixing[] = {"none", "always", "distance"},
                              *const tiles[] = {"equal", "importance", "worth"}, *const fits[] = {"stable", "tight"};
     static const char *const blends[] = {"hard", "soft", "dither"}, *const distances[] = {"depth", "radius"};
     const scene_shadow *w = &s->shadow;
     write_format(b,
-                 ", \"filter\": \"%s\", \"other_filter\": \"%s\", \"kernel\": \"%s\", \"mixing\": \"%s\", \"tiles\": "
+                 ", \"filter\": \"%s\", \"other_filter\": \"%s\", \"mixing\": \"%s\", \"tiles\": "
                  "\"%s\", \"fit\": \"%s\"",
-                 filters[w->filter], filters[w->other_filter], kernels[w->kernel], mixing[w->mixing], tiles[w->tiles],
-                 fits[w->fit]);
+                 filters[w->filter], filters[w->other_filter], mixing[w->mixing], tiles[w->tiles], fits[w->fit]);
     write_format(b,
                  ", \"cascade_blend\": \"%s\", \"distance_mode\": \"%s\", \"disk_samples\": %d, \"object_lights\": %d",
                  blends[w->blend], distances[w->distance_mode], w->disk_samples, w->object_lights);

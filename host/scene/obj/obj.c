@@ -17,12 +17,13 @@ static void turn_up(const obj_file *o, double *v)
     v[2] = -y;
 }
 
-/* A place must be numbers; a colour that is none is not there. */
+/* A place must be numbers, but any; a colour that is none is not there. */
 static bool read_place(obj_text *t, double *x, size_t *n)
 {
-    t->forgiving = true;
-    const bool ok = obj_numbers(t, x, OBJ_MAX_NUMBERS, n);
-    t->forgiving = false;
+    t->forgiving = t->any_number = true;
+    bool ok = obj_numbers(t, x, OBJ_MAX_NUMBERS, n);
+    t->forgiving = t->any_number = false;
+    for (size_t i = 3; ok && i < *n; i++) ok = isfinite(x[i]);
     if (ok) return true;
     if (*n < 3) return obj_fail(t, "%s", t->wrong);
     *n = 3;
@@ -162,19 +163,30 @@ bool obj_add_triangle(obj_file *o, const obj_corner *a, const obj_corner *b, con
     return true;
 }
 
+static bool has_place(const obj_file *o, uint32_t vertex)
+{
+    if (vertex == OBJ_NONE) return false;
+    const double *v = o->v + 3 * (size_t)vertex;
+    return isfinite(v[0]) && isfinite(v[1]) && isfinite(v[2]);
+}
+
 static bool read_face(obj_file *o, obj_text *t)
 {
     obj_corner corners[OBJ_MAX_CORNERS];
     size_t n = 0;
-    bool lacks = false;
+    bool lacks = false, wild = false;
     for (char *word = obj_next_word(t); word; word = obj_next_word(t)) {
         if (n == OBJ_MAX_CORNERS) return obj_fail(t, "a face of more than %d corners", OBJ_MAX_CORNERS);
         corners[n].v = OBJ_NONE;
         if (!read_corner(o, t, word, &corners[n])) return false;
-        lacks = lacks || corners[n++].v == OBJ_NONE;
+        lacks = lacks || corners[n].v == OBJ_NONE;
+        wild = wild || !has_place(o, corners[n++].v);
     }
-    if (lacks && o->n_lost == 0) o->lost_line = t->line;
-    if (lacks) return o->n_lost++ > 0 || obj_remark(t, "a face names a vertex that is out of range, and is left out");
+    if (wild && o->n_lost == 0) o->lost_line = t->line;
+    if (wild)
+        return o->n_lost++ > 0 ||
+               obj_remark(t, lacks ? "a face names a vertex that is out of range, and is left out"
+                                   : "a face has a vertex whose place is not finite, or beyond 1e18, and is left out");
     if (n < 3) return loader_remark(t->l, "faces of less than 3 corners are left out");
     bool crosses;
     if (!obj_cut_polygon(o, corners, n, &crosses)) return false;
@@ -215,17 +227,17 @@ static char find_object_word(const loader *l, const uint8_t *bytes, size_t n_byt
 {
     if (!l->options->rig) return 0;
     for (size_t i = 0; i + 1 < n_bytes; i++)
-        if (bytes[i] == 'o' && (bytes[i + 1] == ' ' || bytes[i + 1] == '\t') && (i == 0 || bytes[i - 1] == '\n'))
+        if ((bytes[i] == 'o' || bytes[i] == 'O') && (bytes[i + 1] == ' ' || bytes[i + 1] == '\t') &&
+            (i == 0 || bytes[i - 1] == '\n'))
             return 'o';
     return 'g';
 }
 
 static uint32_t *element_count(obj_file *o, const char *word)
 {
-    if (word[0] != 'v') return NULL;
-    if (!word[1]) return &o->so_far.v;
-    if (strcmp(word, "vt") == 0) return &o->so_far.vt;
-    return strcmp(word, "vn") == 0 ? &o->so_far.vn : NULL;
+    if (loader_same_word(word, "v")) return &o->so_far.v;
+    if (loader_same_word(word, "vt")) return &o->so_far.vt;
+    return loader_same_word(word, "vn") ? &o->so_far.vn : NULL;
 }
 
 static bool read_element(obj_file *o, obj_text *t)
@@ -256,26 +268,22 @@ static bool read_statement(obj_file *o, obj_text *t)
     const char *word = obj_next_word(t);
     uint32_t *count = element_count(o, word);
     if (count) return ++*count;
-    if (strcmp(word, "f") == 0) return read_face(o, t);
-    if (strcmp(word, "usemtl") == 0) return use_material(o, t);
-    if (strcmp(word, "mtllib") == 0) return obj_read_libraries(o, t);
-    if (word[0] == o->object_word && !word[1]) return begin_object(o, obj_rest(t));
+    if (loader_same_word(word, "f")) return read_face(o, t);
+    if (loader_same_word(word, "usemtl")) return use_material(o, t);
+    if (loader_same_word(word, "mtllib")) return obj_read_libraries(o, t);
+    if (loader_same_word(word, (const char[2]){o->object_word})) return begin_object(o, obj_rest(t));
     for (size_t i = 0; i < sizeof silent / sizeof *silent; i++) {
-        if (strcmp(word, silent[i]) == 0) return true;
+        if (loader_same_word(word, silent[i])) return true;
     }
     return loader_remark(o->l, "'%.40s' statements ignored: only v, vt, vn, f, usemtl and mtllib count", word);
 }
 
-bool obj_load(loader *l)
+bool obj_load(loader *l, uint8_t *bytes, size_t n_bytes)
 {
     obj_file o = {.l = l};
     l->any_axis_up = true;
     obj_text t;
-    uint8_t *bytes;
-    size_t n_bytes;
-    if (!loader_read_file(l, l->path, &bytes, &n_bytes) || !read_elements(&o, bytes, n_bytes) ||
-        !obj_open(&t, l, l->path, bytes, n_bytes, false))
-        return false;
+    if (!read_elements(&o, bytes, n_bytes) || !obj_open(&t, l, l->path, bytes, n_bytes, false)) return false;
     o.object_word = find_object_word(l, bytes, n_bytes);
     if (!begin_object(&o, "")) return false;
     if (!obj_find_material(&o, &t, "default", &o.current_material)) return false;
@@ -284,10 +292,13 @@ bool obj_load(loader *l)
         if (!read_statement(&o, &t)) return false;
     }
     if (o.n_triangles == 0 && o.n_lost > 0)
-        return loader_fail(l, "%s:%zu: all faces name vertices that are out of range, from this one on", l->path,
-                           o.lost_line);
+        return loader_fail(l,
+                           "%s:%zu: all faces name vertices that are out of range or have no place, from this one on",
+                           l->path, o.lost_line);
     if (o.n_triangles == 0) return loader_fail(l, "%s: the file has no faces", l->path);
     if (o.n_crossing > 1 && !loader_remark(l, "so may %zu more polygons", o.n_crossing - 1)) return false;
-    if (o.n_lost > 1 && !loader_remark(l, "so are %zu more faces that name such vertices", o.n_lost - 1)) return false;
-    return finish_colours(&o) && obj_note_undefined_materials(&o) && obj_emit(&o);
+    if (o.n_lost > 1 &&
+        !loader_remark(l, "so are %zu more faces that name vertices out of range, or without a place", o.n_lost - 1))
+        return false;
+    return finish_colours(&o) && obj_finish_materials(&o) && obj_remark_inside_out(&o) && obj_emit(&o);
 }

@@ -1,5 +1,5 @@
 /* The OBJ loader's inside: obj_text.c reads lines, obj_mtl.c materials, obj.c statements, obj_polygon.c cuts faces,
- * obj_mesh.c makes the meshes.
+ * obj_inside_out.c looks at how they are wound, obj_mesh.c makes the meshes.
  */
 #ifndef GNOMON_HOST_OBJ_H
 #define GNOMON_HOST_OBJ_H
@@ -15,12 +15,14 @@ typedef struct {
     char *at;        /* within the current line, which is zero-terminated */
     size_t line;     /* number of its first line */
     size_t n_lines;  /* lines read so far */
+    bool any_number; /* obj_numbers: NAN for what is not finite, or too large */
     bool forgiving;  /* obj_fail does not end the load: it sets ... */
     char wrong[512]; /* ... what is wrong with the line, or the file; else empty */
 } obj_text;
 
 bool obj_open(obj_text *t, loader *l, const char *path, uint8_t *bytes, size_t n_bytes, bool forgiving);
-/* The next line that is not empty, without comment; backslash at a line's end joins it with the next. */
+/* The next line that is not empty, without comment, which begins with a # behind a blank; backslash at a line's end
+ * joins it with the next. */
 bool obj_next_line(obj_text *t);
 /* The next blank-separated word, or NULL. */
 char *obj_next_word(obj_text *t);
@@ -34,10 +36,11 @@ bool obj_spend(obj_text *t, budget_kind kind, size_t n);
 
 typedef struct {
     const char *name;
-    double albedo[3], alpha;
-    size_t texture_idx; /* of the scene, or SCENE_NONE */
-    bool defined;       /* by a material library */
-    uint32_t next;      /* of its bucket, 1 + index; 0: none */
+    double albedo[3], alpha, emissive[3];
+    size_t texture_idx, emissive_texture_idx; /* of the scene, or SCENE_NONE */
+    bool defined;                             /* by a material library */
+    bool glows;                               /* it has a Ke */
+    uint32_t next;                            /* of its bucket, 1 + index; 0: none */
 } obj_material;
 
 typedef struct {
@@ -76,7 +79,7 @@ typedef struct {
     uint32_t *object_of; /* per triangle */
     size_t n_objects;
     size_t n_crossing;        /* faces */
-    size_t n_lost, lost_line; /* faces that name no vertex; the first */
+    size_t n_lost, lost_line; /* faces that name no vertex, or one without a place; the first */
     size_t n_compared;        /* corners with ears, see obj_polygon.c */
     obj_outline *flat;        /* of the face that is being cut; NULL: none was yet */
     uint32_t current_object;
@@ -91,10 +94,13 @@ typedef struct {
 uint32_t *obj_bucket(uint32_t bucket[OBJ_BUCKETS], const char *name);
 bool obj_find_material(obj_file *o, obj_text *t, const char *name, uint32_t *out); /* makes it if need be */
 bool obj_read_libraries(obj_file *o, obj_text *t);
-bool obj_note_undefined_materials(obj_file *o);
+bool obj_finish_materials(obj_file *o);
 
 /* obj.c */
 bool obj_add_triangle(obj_file *o, const obj_corner *a, const obj_corner *b, const obj_corner *c);
+
+/* obj_inside_out.c: says so if the closed surfaces of the file show their backs to the outside. */
+bool obj_remark_inside_out(const obj_file *o);
 
 /* obj_polygon.c: a face of n >= 3 corners as triangles. *crosses: it
  * crosses itself, so that none are right; or finding them would take too long. */

@@ -4,6 +4,7 @@
 
 #include "../core/loader.h"
 
-bool obj_load(loader *l);
+/* The file's bytes, a zero behind them. They are changed. */
+bool obj_load(loader *l, uint8_t *bytes, size_t n_bytes);
 
 #endif

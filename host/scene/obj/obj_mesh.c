@@ -20,9 +20,14 @@ typedef struct {
     size_t n_slots;
 } vertex_table;
 
+static bool is_textured(const obj_material *material)
+{
+    return material->texture_idx != SCENE_NONE || material->emissive_texture_idx != SCENE_NONE;
+}
+
 static bool has_texture(const obj_file *o, size_t triangle)
 {
-    return o->material[o->material_of[triangle]].texture_idx != SCENE_NONE;
+    return is_textured(&o->material[o->material_of[triangle]]);
 }
 
 static bool any_texture(const obj_file *o)
@@ -140,14 +145,16 @@ static bool emit_part(obj_file *o, mesh_splitter *splitter, const obj_part *part
     const obj_material *material = part->material;
     scene_object object = object_defaults();
     memcpy(object.albedo, material->albedo, sizeof object.albedo);
+    memcpy(object.emissive, material->emissive, sizeof object.emissive);
     object.texture_idx = material->texture_idx;
+    object.emissive_texture_idx = material->emissive_texture_idx;
     object.alpha = material->alpha;
     if (material->alpha < 1) {
         object.visible_alpha = SCENE_ALPHA_BLEND;
         object.caster = SCENE_CASTER_DITHER;
     }
     object.name = loader_format(o->l, "%s", *part->object ? part->object : material->name);
-    return object.name && mesh_split(splitter, object.name, part->idx, part->n_triangles, false, &first, &n_meshes) &&
+    return object.name && mesh_split(splitter, object.name, part->idx, part->n_triangles, &first, &n_meshes) &&
            loader_add_objects(o->l, &object, first, n_meshes);
 }
 
@@ -182,7 +189,7 @@ static bool emit_parts(obj_file *o, const scene_mesh *mesh)
              end++)
             memcpy(idx + 3 * end, mesh->idx + 3 * (size_t)order[end], 3 * sizeof *idx);
         const obj_part part = {o->object[object].name, &o->material[material], idx + 3 * first, end - first};
-        splitter.input = part.material->texture_idx != SCENE_NONE ? mesh : &plain;
+        splitter.input = is_textured(part.material) ? mesh : &plain;
         if (!emit_part(o, &splitter, &part)) return false;
     }
     return true;

@@ -1,7 +1,8 @@
-/* OBJ materials: Kd, taken as linear light as it stands (the format does not say, and exporters differ), its
- * texture, and opacity. What is wrong in them is a remark. */
+/* OBJ materials: Kd and Ke, taken as linear light as it stands (the format does not say, and exporters differ), its
+ * textures, and opacity. What is wrong in them is a remark. */
 #include "obj.h"
 
+#include <math.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -28,25 +29,62 @@ bool obj_find_material(obj_file *o, obj_text *t, const char *name, uint32_t *out
                                                  .albedo = {0.8, 0.8, 0.8},
                                                  .alpha = 1,
                                                  .texture_idx = SCENE_NONE,
+                                                 .emissive_texture_idx = SCENE_NONE,
                                                  .next = *bucket};
     *bucket = (uint32_t)++o->n_materials;
     return o->material[o->n_materials - 1].name != NULL;
 }
 
+/* Of Kd or Ke. *is_rgb false: it is given otherwise, and a remark says so. */
+static bool read_rgb(obj_text *t, const obj_material *material, const char *word, double *rgb, bool *is_rgb)
+{
+    size_t n;
+    char *rest = obj_rest(t);
+    *is_rgb = strncmp(rest, "spectral", 8) != 0 && strncmp(rest, "xyz", 3) != 0;
+    if (!*is_rgb) return obj_remark(t, "%s of material '%s' ignored: not RGB", word, material->name);
+    t->at = rest;
+    if (!obj_numbers(t, rgb, 3, &n)) return false;
+    if (n != 1 && n != 3) return obj_fail(t, "%s takes 3 numbers", word);
+    if (n == 1) rgb[1] = rgb[2] = rgb[0];
+    return true;
+}
+
+/* Whole numbers that go far beyond 1 are of 255 levels. */
+static bool are_levels(const double *rgb)
+{
+    double most = 0;
+    for (int i = 0; i < 3; i++) {
+        if (rgb[i] < floor(rgb[i]) || rgb[i] > floor(rgb[i])) return false;
+        most = fmax(most, rgb[i]);
+    }
+    return most > 15 && most <= 255;
+}
+
 static bool read_kd(obj_text *t, obj_material *material)
 {
     double rgb[3];
-    size_t n;
-    char *rest = obj_rest(t);
-    if (strncmp(rest, "spectral", 8) == 0 || strncmp(rest, "xyz", 3) == 0)
-        return obj_remark(t, "Kd of material '%s' ignored: not RGB", material->name);
-    t->at = rest;
-    if (!obj_numbers(t, rgb, 3, &n)) return false;
-    if (n != 1 && n != 3) return obj_fail(t, "Kd takes 3 numbers");
-    if (n == 1) rgb[1] = rgb[2] = rgb[0];
-    memcpy(material->albedo, rgb, sizeof rgb);
+    bool is_rgb;
+    if (!read_rgb(t, material, "Kd", rgb, &is_rgb)) return false;
+    if (!is_rgb) return true;
+    const bool levels = are_levels(rgb);
+    for (int i = 0; i < 3; i++) material->albedo[i] = levels ? rgb[i] / 255 : rgb[i];
+    if (levels) return obj_remark(t, "Kd of material '%s' is taken for 255ths", material->name);
     return loader_clamp_colour(material->albedo, 3) ||
            obj_remark(t, "Kd of material '%s' outside 0..1 is clamped", material->name);
+}
+
+/* May be more than 1, as light. [M10] */
+static bool read_ke(obj_text *t, obj_material *material)
+{
+    double rgb[3];
+    bool is_rgb, clamped = false;
+    if (!read_rgb(t, material, "Ke", rgb, &is_rgb)) return false;
+    for (int i = 0; is_rgb && i < 3; i++) {
+        material->emissive[i] = fmin(fmax(rgb[i], 0), 255);
+        clamped = clamped || rgb[i] < 0 || rgb[i] > 255;
+    }
+    material->glows = material->glows || is_rgb;
+    return !clamped || obj_remark(t, "Ke of material '%s' outside 0..255 is clamped", material->name);
 }
 
 /* d is opacity, Tr is what lacks of it. */
@@ -58,8 +96,9 @@ static bool read_opacity(obj_text *t, obj_material *material, const char *word)
     t->at = rest + (strncmp(rest, "-halo", 5) == 0 ? 5 : 0);
     if (!obj_numbers(t, &value, 1, &n)) return false;
     if (n != 1) return obj_fail(t, "%s takes a number", word);
-    material->alpha = strcmp(word, "d") == 0 ? value : 1 - value;
-    if (word[0] == 'T' && value >= 1) { /* nobody means what nobody sees */
+    const bool lack = strcmp(word, "Tr") == 0;
+    material->alpha = lack ? 1 - value : value;
+    if (lack && value >= 1) { /* nobody means what nobody sees */
         material->alpha = 1;
         return loader_remark(
             t->l,
@@ -85,7 +124,7 @@ static size_t peek_word(obj_text *t, char *out, size_t out_bytes)
 }
 
 /* Steps over options such as -clamp on or -s 2 2; what is left of the line is the file's name. */
-static bool read_map_options(obj_text *t, const obj_material *material, texture_use *out)
+static bool read_map_options(obj_text *t, const obj_material *material, const char *map, texture_use *out)
 {
     char word[64];
     bool other = false;
@@ -101,7 +140,7 @@ static bool read_map_options(obj_text *t, const obj_material *material, texture_
         }
         other = other || !clamp;
     }
-    return !other || obj_remark(t, "options of map_Kd of material '%s' ignored: only -clamp counts", material->name);
+    return !other || obj_remark(t, "options of %s of material '%s' ignored: only -clamp counts", map, material->name);
 }
 
 /* As written on Windows, or in quotes. */
@@ -121,8 +160,6 @@ static const char *last_part(const char *name)
     const char *slash = strrchr(name, '/');
     return slash && slash[1] ? slash + 1 : name;
 }
-
-static const char outside[] = "is outside the folder of the scene, which only --outside allows";
 
 /* A texture that is not there, or damaged, is a remark: the shape is worth showing without its colours. */
 static bool lacks_texture(obj_text *t, const char *path, const char *why)
@@ -159,56 +196,63 @@ static bool read_map_at(obj_file *o, obj_text *t, const char *name, const textur
 {
     uint8_t *bytes = NULL;
     size_t n_bytes = 0;
-    *path = name;
-    *missing = loader_may_read(o->l, name) ? NULL : outside;
+    if (!loader_find_beside(o->l, name, path, missing)) return false;
     if (*missing) return true;
-    *path = loader_relative_path(o->l, name);
-    if (!*path) return false;
     *out = find_loaded(o->l->s, *path, use);
     if (*out != SCENE_NONE) return true;
     if (!loader_try_file(o->l, *path, &bytes, &n_bytes, missing)) return false;
     return *missing || load_texture(o, t, *path, bytes, n_bytes, use, out);
 }
 
-static bool read_map(obj_file *o, obj_text *t, obj_material *material)
+/* map: map_Kd or map_Ke, into *out */
+static bool read_map(obj_file *o, obj_text *t, const obj_material *material, const char *map, size_t *out)
 {
     texture_use use = {.bilinear = true};
-    if (!read_map_options(t, material, &use)) return false;
+    if (!read_map_options(t, material, map, &use)) return false;
     char *name = obj_rest(t);
-    if (!*name) return obj_fail(t, "map_Kd without a name");
+    if (!*name) return obj_fail(t, "%s without a name", map);
     clean_name(name);
-    const char *path, *missing, *last = last_part(name), *beside, *none = outside;
-    if (!read_map_at(o, t, name, &use, &material->texture_idx, &path, &missing)) return false;
-    if (missing && last != name && !read_map_at(o, t, last, &use, &material->texture_idx, &beside, &none)) return false;
+    const char *path, *missing, *last = last_part(name), *beside, *none = "";
+    if (!read_map_at(o, t, name, &use, out, &path, &missing)) return false;
+    if (missing && last != name && !read_map_at(o, t, last, &use, out, &beside, &none)) return false;
     return !missing || !none || lacks_texture(t, path, missing);
 }
 
 /* What stands before any material, or behind one without a name, is of a material that no face can name. */
 enum { UNNAMED = OBJ_NONE - 1 };
 
+static bool begin_material(obj_file *o, obj_text *t, uint32_t *current)
+{
+    const char *name = obj_rest(t);
+    *current = UNNAMED;
+    if (!*name) return obj_fail(t, "newmtl without a name");
+    if (!obj_find_material(o, t, name, current)) return false;
+    o->material[*current].defined = true;
+    return true;
+}
+
+static bool read_property(obj_file *o, obj_text *t, const char *word, obj_material *material)
+{
+    if (strcmp(word, "Kd") == 0) return read_kd(t, material);
+    if (strcmp(word, "Ke") == 0) return read_ke(t, material);
+    if (strcmp(word, "d") == 0 || strcmp(word, "Tr") == 0) return read_opacity(t, material, word);
+    if (strcmp(word, "map_Kd") == 0) return read_map(o, t, material, word, &material->texture_idx);
+    if (strcmp(word, "map_Ke") == 0) return read_map(o, t, material, word, &material->emissive_texture_idx);
+    return loader_remark(t->l, "opacity texture of material '%s' ignored: it is not supported", material->name);
+}
+
+/* Gloss and the like are not read: nothing here could show it. */
 static bool read_statement(obj_file *o, obj_text *t, const char *word, uint32_t *current)
 {
-    if (strcmp(word, "newmtl") == 0) {
-        const char *name = obj_rest(t);
-        *current = UNNAMED;
-        if (!*name) return obj_fail(t, "newmtl without a name");
-        if (!obj_find_material(o, t, name, current)) return false;
-        o->material[*current].defined = true;
-        return true;
-    }
-    bool kd = strcmp(word, "Kd") == 0, d = strcmp(word, "d") == 0, tr = strcmp(word, "Tr") == 0;
-    bool map = strcmp(word, "map_Kd") == 0, map_d = strcmp(word, "map_d") == 0;
-    if (!(kd || d || tr || map || map_d)) return true; /* gloss and the like: nothing here could show it */
-    if (*current == UNNAMED) return true;
-    if (*current == OBJ_NONE) {
-        *current = UNNAMED;
-        return obj_fail(t, "%s before any newmtl", word);
-    }
-    obj_material *material = &o->material[*current];
-    if (kd) return read_kd(t, material);
-    if (d || tr) return read_opacity(t, material, word);
-    if (map) return read_map(o, t, material);
-    return loader_remark(t->l, "opacity texture of material '%s' ignored: it is not supported", material->name);
+    static const char *const properties[] = {"Kd", "Ke", "d", "Tr", "map_Kd", "map_Ke", "map_d"};
+    const char *known = NULL;
+    if (loader_same_word(word, "newmtl")) return begin_material(o, t, current);
+    for (size_t i = 0; i < sizeof properties / sizeof *properties; i++)
+        if (loader_same_word(word, properties[i])) known = properties[i];
+    if (!known || *current == UNNAMED) return true;
+    if (*current != OBJ_NONE) return read_property(o, t, known, &o->material[*current]);
+    *current = UNNAMED;
+    return obj_fail(t, "%s before any newmtl", known);
 }
 
 /* A remark on what is wrong. False: it is something else. */
@@ -235,10 +279,9 @@ static bool read_library_at(obj_file *o, const char *name, const char **missing)
     size_t n_bytes = 0;
     uint32_t current = OBJ_NONE;
     obj_text t;
-    *missing = loader_may_read(o->l, name) ? NULL : outside;
-    if (*missing) return true;
-    const char *path = loader_relative_path(o->l, name);
-    if (!path || is_read(o, path)) return path != NULL;
+    const char *path;
+    if (!loader_find_beside(o->l, name, &path, missing)) return false;
+    if (*missing || is_read(o, path)) return true;
     if (!loader_try_file(o->l, path, &bytes, &n_bytes, missing)) return false;
     if (*missing) return true;
     const char **grown = loader_grow(o->l, o->library, o->n_libraries, sizeof *grown);
@@ -255,7 +298,7 @@ static bool read_library_at(obj_file *o, const char *name, const char **missing)
 static bool read_library(obj_file *o, char *name, const char **missing)
 {
     clean_name(name);
-    const char *last = last_part(name), *none = outside;
+    const char *last = last_part(name), *none = "";
     if (!read_library_at(o, name, missing)) return false;
     if (*missing && last != name && !read_library_at(o, last, &none)) return false;
     if (!none) *missing = NULL;
@@ -280,9 +323,23 @@ bool obj_read_libraries(obj_file *o, obj_text *t)
     return true;
 }
 
-/* After the last line: a library may come after the first use. */
-bool obj_note_undefined_materials(obj_file *o)
+/* A texture without a Ke glows by itself; both textures of a surface repeat, or are clamped. */
+static bool finish_glow(obj_file *o, obj_material *m)
 {
+    if (m->emissive_texture_idx == SCENE_NONE) return true;
+    const scene_texture *glow = &o->l->s->textures[m->emissive_texture_idx],
+                        *base = m->texture_idx == SCENE_NONE ? glow : &o->l->s->textures[m->texture_idx];
+    const bool alike = glow->clamp_u == base->clamp_u, dark = !(m->emissive[0] + m->emissive[1] + m->emissive[2] > 0);
+    for (int i = 0; i < 3; i++) m->emissive[i] = !alike ? 0 : m->glows ? m->emissive[i] : 1;
+    if (!alike || (m->glows && dark)) m->emissive_texture_idx = SCENE_NONE;
+    return alike || loader_remark(o->l, "map_Ke of material '%s' ignored: it wraps otherwise than its map_Kd", m->name);
+}
+
+/* After the last line: a library may come after the first use. */
+bool obj_finish_materials(obj_file *o)
+{
+    for (size_t i = 0; i < o->n_materials; i++)
+        if (!finish_glow(o, &o->material[i])) return false;
     for (size_t i = 1; i < o->n_materials; i++) {
         if (o->material[i].defined) continue;
         if (!loader_remark(o->l, "material '%s' is not defined: it is drawn grey", o->material[i].name)) return false;

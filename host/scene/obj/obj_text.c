@@ -40,6 +40,7 @@ bool obj_open(obj_text *t, loader *l, const char *path, uint8_t *bytes, size_t n
     const size_t mark = n_bytes >= 3 && memcmp(bytes, "\xEF\xBB\xBF", 3) == 0 ? 3 : 0; /* of UTF-8 */
     *t = (obj_text){
         .l = l, .path = path, .next = (char *)bytes + mark, .end = (char *)bytes + n_bytes, .forgiving = forgiving};
+    if (loader_is_utf16(bytes, n_bytes)) return t->line++, obj_fail(t, "the text is UTF-16: save it as UTF-8");
     if (!memchr(bytes, '\n', n_bytes)) /* of an old Macintosh */
         for (size_t i = 0; i < n_bytes; i++) bytes[i] = bytes[i] == '\r' ? '\n' : bytes[i];
     const char *zero = memchr(bytes, 0, n_bytes);
@@ -57,7 +58,7 @@ static bool take_physical_line(obj_text *t)
     if (!stop) stop = t->end;
     t->n_lines++;
     *stop = ' ';
-    while (stop > start && stop[-1] == '\r') *--stop = ' ';
+    while (stop > start && strchr(" \t\r", stop[-1])) *--stop = ' ';
     bool joins = stop > start && stop[-1] == '\\';
     if (joins) stop[-1] = ' ';
     return joins && t->next < t->end;
@@ -73,6 +74,7 @@ bool obj_next_line(obj_text *t)
         if (t->next == t->end && t->end[0] == ' ') *t->end = '\0';
         else t->next[-1] = '\0';
         char *comment = strchr(t->at, '#');
+        while (comment && comment > t->at && !strchr(" \t", comment[-1])) comment = strchr(comment + 1, '#');
         if (comment) *comment = '\0';
         t->at += strspn(t->at, " \t\v\f\r");
         if (*t->at) return true;
@@ -99,13 +101,23 @@ char *obj_rest(obj_text *t)
     return rest;
 }
 
+/* As any C library prints them. */
+static bool is_not_finite(const char *word)
+{
+    char start[4] = "";
+    strncpy(start, word + (*word == '-' || *word == '+'), 3);
+    return loader_same_word(start, "nan") || loader_same_word(start, "inf") || strcmp(start, "1.#") == 0;
+}
+
 /* strtod alone would also take nan, inf and hexadecimal. */
 static bool to_number(obj_text *t, const char *word, double *out)
 {
     char *end;
     *out = strtod(word, &end);
+    if (t->any_number && is_not_finite(word)) return *out = NAN, true;
     if (*end || strspn(word, "+-.0123456789eE") != strlen(word)) return obj_fail(t, "'%.40s' is not a number", word);
-    return fabs(*out) <= LOADER_MAX_COORDINATE || obj_fail(t, "%.40s is out of range", word);
+    if (t->any_number && !(fabs(*out) <= LOADER_MAX_COORDINATE)) *out = NAN;
+    return t->any_number || fabs(*out) <= LOADER_MAX_COORDINATE || obj_fail(t, "%.40s is out of range", word);
 }
 
 bool obj_numbers(obj_text *t, double *out, size_t n_max, size_t *n)

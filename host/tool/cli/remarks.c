@@ -58,6 +58,7 @@ static bool shows_front(const scene *s, const scene_object *o, double normals[3]
 {
     const scene_mesh *mesh = &s->meshes[o->mesh_idx];
     const scene_camera *c = &s->camera;
+    const int sign = scene_object_sign(o);
     if (o->two_sided) return true;
     for (size_t t = 0; t < mesh->n_triangles; t++) {
         double p[3][3], u[3], v[3], n[3], to_eye[3];
@@ -67,10 +68,10 @@ static bool shows_front(const scene *s, const scene_object *o, double normals[3]
         vec_cross(n, u, v);
         for (int k = 0; k < 3; k++)
             to_eye[k] = c->half_height > 0 ? c->to_world.m[k][2] : c->to_world.m[k][3] - p[0][k];
-        const double towards = vec_dot(n, to_eye);
+        const double towards = sign * vec_dot(n, to_eye);
         if (towards > 0) return true;
         *backs |= towards < 0;
-        for (int k = 0; k < 3; k++) normals[k] += n[k];
+        for (int k = 0; k < 3; k++) normals[k] += sign * n[k];
     }
     return false;
 }
@@ -188,4 +189,16 @@ int remarks_on_lights(scene *s, char *error, size_t error_bytes)
         if (note_shared_channels(s, i, &left, error, error_bytes) || note_useless_baked(s, i, error, error_bytes))
             return -1;
     return 0;
+}
+
+void remarks_list_added(const scene *s, char *out, size_t bytes)
+{
+    static const char *const names[] = {"ground", "camera", "light"};
+    const bool added[] = {s->added.ground, s->added.camera, s->added.light};
+    size_t n = 0;
+    if (bytes) *out = 0;
+    for (int i = 0; i < 3; i++) {
+        if (!added[i] || n >= bytes) continue;
+        n += (size_t)snprintf(out + n, bytes - n, "%s%s", n ? ", " : "; added: ", names[i]);
+    }
 }

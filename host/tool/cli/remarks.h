@@ -14,11 +14,18 @@ void remarks_on_picture(const scene *s, const engine_picture *p);
 /* If much of it ends at white: which intensity of the lights leaves little so. */
 void remarks_on_brightness(const scene *s, const settings *set, const engine_picture *p);
 
+/* Adds a note if all that is seen is as good as black, as colours are that are meant to be of 255 levels. 0, or -1 with
+ * one line in error. */
+int remarks_on_dark_colours(scene *s, char *error, size_t error_bytes);
+
 /* Adds a note for every pair of lights that one mask channel cannot serve (M5), and for baked lights without anything
  * baked (M9). 0, or -1 with one line in error. */
 int remarks_on_lights(scene *s, char *error, size_t error_bytes);
 
 /* Adds a note for every light all of whose casters are nearer than its near plane. 0, or -1 with one line in error. */
 int remarks_on_shadows(scene *s, char *error, size_t error_bytes);
+
+/* "; added: ground, light": what the file lacked and the tool added; "": nothing. */
+void remarks_list_added(const scene *s, char *out, size_t bytes);
 
 #endif

@@ -1,4 +1,5 @@
-/* Lights that leave most of a picture white: there is no exposure. */
+/* Lights that leave most of a picture white: there is no exposure. Colours that leave all of it black. */
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -80,4 +81,27 @@ void remarks_on_brightness(const scene *s, const settings *set, const engine_pic
                    s->lights[0].intensity * factors[i]);
         return;
     }
+}
+
+static const double black = 1.0 / 256; /* the brightest channel of colours that nobody sees */
+
+static bool is_black(const scene *s, const scene_object *o)
+{
+    const scene_mesh *mesh = &s->meshes[o->mesh_idx];
+    for (int k = 0; k < 3; k++) {
+        double most = mesh->rgb ? 0 : 1;
+        for (size_t i = 0; mesh->rgb && i < mesh->n_vertices; i++) most = fmax(most, mesh->rgb[3 * i + (size_t)k]);
+        if (o->albedo[k] * most > black || o->emissive[k] > black || o->specular[k] > black) return false;
+    }
+    return true;
+}
+
+int remarks_on_dark_colours(scene *s, char *error, size_t error_bytes)
+{
+    const size_t n = s->n_objects - s->added.ground;
+    for (size_t i = 0; i < n; i++)
+        if (!s->objects[i].hidden && !is_black(s, &s->objects[i])) return 0;
+    return scene_add_note(s,
+                          "all colours are below 1/256, so that all is black: they are linear, 1 is the most, not 255",
+                          error, error_bytes);
 }

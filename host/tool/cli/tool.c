@@ -72,6 +72,7 @@ int tool_load_with(const tool_options *o, const char *const *sets, int n_sets, s
                    size_t error_bytes)
 {
     scene_options options = {.frame = o->frame,
+                             .clip = o->clip,
                              .width = o->width,
                              .height = o->height,
                              .outside = o->outside,
@@ -82,6 +83,12 @@ int tool_load_with(const tool_options *o, const char *const *sets, int n_sets, s
                              .yaw = o->yaw,
                              .pitch = o->pitch,
                              .zoom = o->zoom,
+                             .turn = o->turn,
+                             .turn_yaw = o->turn_yaw,
+                             .turn_pitch = o->turn_pitch,
+                             .turn_zoom = o->turn_zoom,
+                             .at_hour = o->at_hour,
+                             .hour = o->hour,
                              .seen = o->seen};
     for (int i = 0; i < n_sets; i++) {
         char key[32];

@@ -24,6 +24,7 @@ typedef struct {
     size_t light;
     int show; /* render: on the terminal */
     int frame;
+    const char *clip; /* by name or number; NULL: the first */
     int json;
     const char *sets[TOOL_SETS_MAX];
     int n_sets;
@@ -50,6 +51,10 @@ typedef struct {
     int budget;           /* times the usual limits of what a scene may ask for; 0: once */
     int orbit;            /* --orbit is given: */
     double yaw, pitch, zoom;
+    int turn; /* --turn is given: */
+    double turn_yaw, turn_pitch, turn_zoom;
+    int at_hour; /* --hour is given: */
+    double hour;
     struct scene_seen *seen; /* of scene_options */
 } tool_options;
 

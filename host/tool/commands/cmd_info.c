@@ -1,7 +1,9 @@
 /* gnomon info: what a scene needs. */
 #include <stdio.h>
 #include <stdlib.h>
+#include <string.h>
 
+#include "../settings/settings_parse.h"
 #include "info_memory.h"
 #include "info_settings.h"
 #include "../cli/remarks.h"
@@ -75,13 +77,29 @@ static int keep_groups(const settings *set, settings *needed, const scene *s, se
     return 0;
 }
 
+/* What was set beside a preset stays with any of them. */
+static int set_again(settings *out, const tool_options *o, char *error, size_t bytes)
+{
+    for (int i = 0; i < o->n_sets; i++) {
+        char key[32] = "";
+        const char *value = strchr(o->sets[i], '=');
+        if (!value || (size_t)(value - o->sets[i]) >= sizeof key) continue;
+        memcpy(key, o->sets[i], (size_t)(value - o->sets[i]));
+        if (settings_is_knob(key) && settings_of_preset(key) &&
+            settings_apply_knob(out, key, value + 1, error, bytes) < 0)
+            return -1;
+    }
+    return 0;
+}
+
 /* RAM per preset with features and capacities for just this scene at this picture size, where they were not set. */
-static int preset_ram(const settings *set, const settings_demand *demand, const scene *s, settings_ram_parts *ram,
-                      char *error, size_t bytes)
+static int preset_ram(const settings *set, const settings_demand *demand, const scene *s, const tool_options *o,
+                      settings_ram_parts *ram, char *error, size_t bytes)
 {
     for (int i = 0; i < SETTINGS_PRESETS; i++) {
         settings needed = *set;
         settings_preset(&needed, i);
+        if (set_again(&needed, o, error, bytes)) return -1;
         settings_trim(&needed, s);
         settings_demand scaled = *demand;
         if (keep_groups(set, &needed, s, &scaled, error, bytes)) return -1;
@@ -137,6 +155,19 @@ static void json_lights(const report *r)
     printf("]");
 }
 
+static void json_clips(const scene *s)
+{
+    printf(", \"clips\": [");
+    for (size_t i = 0; i < s->n_clips; i++) {
+        printf("%s{\"name\": ", i ? ", " : "");
+        tool_json_string(s->clips[i].name);
+        printf(", \"plays\": %s, ", i == s->clip_idx ? "true" : "false");
+        tool_json_number("seconds", i == s->clip_idx ? s->duration : s->clips[i].duration);
+        printf("}");
+    }
+    printf("]");
+}
+
 static void json_needs(const counts *c)
 {
     printf(", \"features\": {\"vertex_normals\": %d, \"vertex_colours\": %d, \"two_sided\": %d, \"unlit\": %d}",
@@ -173,6 +204,7 @@ static void print_json(const report *r)
            s->n_textures);
     json_lights(r);
     json_objects(&r->counts);
+    json_clips(s);
     json_needs(&r->counts);
     printf(", \"visible_triangles\": %u, \"tile_refs\": %u, \"clipped_triangles\": %u, \"caster_triangles\": %u",
            stats->n_triangles, stats->n_tile_refs, stats->n_clipped, stats->n_caster_triangles);
@@ -306,6 +338,17 @@ static void text_needs(const counts *c)
     printf("%s%s\n", c->smooth ? " vertex_normals" : "", c->coloured ? " vertex_colours" : "");
 }
 
+static void text_clips(const scene *s)
+{
+    if (s->n_clips) printf("  %zu clip%s:\n", s->n_clips, s->n_clips == 1 ? "" : "s");
+    for (size_t i = 0; i < s->n_clips; i++) {
+        const double duration = i == s->clip_idx ? s->duration : s->clips[i].duration;
+        printf("    %zu '%s'", i, s->clips[i].name);
+        if (duration > 0) printf(", %.3g s", duration);
+        printf("%s\n", i == s->clip_idx && s->n_clips > 1 ? ", plays" : "");
+    }
+}
+
 static void text_ram(const report *r)
 {
     printf("  RAM with features and capacities for just that:\n");
@@ -330,6 +373,7 @@ static void print_text(const report *r)
     text_objects(&r->counts);
     printf("  %zu lights, %zu with a shadow\n", s->n_lights, r->counts.shadow_lights);
     for (size_t i = 0; i < s->n_lights; i++) text_light(r, i);
+    text_clips(s);
     text_needs(&r->counts);
     printf("  at %dx%d, frame %d: %u visible triangles (%u clipped), %u tile references, %u caster triangles\n",
            o->width, o->height, o->frame, stats->n_triangles, stats->n_clipped, stats->n_tile_refs,
@@ -353,12 +397,13 @@ int tool_info(const tool_options *o)
     unlimited.capacity.max_triangles = unlimited.capacity.max_tile_refs = unlimited.capacity.max_lights = 0;
     unlimited.capacity.surface_lights = unlimited.capacity.max_objects = 0;
     engine_picture p;
-    int failed = remarks_on_lights(&s, error, sizeof error) || remarks_on_shadows(&s, error, sizeof error) ||
+    int failed = remarks_on_lights(&s, error, sizeof error) || remarks_on_dark_colours(&s, error, sizeof error) ||
+                 remarks_on_shadows(&s, error, sizeof error) ||
                  engine_fixed(&p, &s, &unlimited, o->width, o->height, ENGINE_COLOUR_ONLY, error, sizeof error);
     if (!failed) {
         report r = {.options = o, .scene = &s, .picture = &p};
         count(&s, &r.counts);
-        failed = preset_ram(&set, &p.demand, &s, r.ram, error, sizeof error) ||
+        failed = preset_ram(&set, &p.demand, &s, o, r.ram, error, sizeof error) ||
                  info_memory_find(&r.memory, o, error, sizeof error);
         if (!failed && o->json) print_json(&r);
         else if (!failed) print_text(&r);

@@ -32,18 +32,12 @@ static void say_remarks(const tool_options *o, const scene *s, const settings *s
 /* What was drawn, and what the file lacked. */
 static void describe(const scene *s, char *out, size_t bytes)
 {
-    static const char *const names[] = {"ground", "camera", "light"};
-    const bool added[] = {s->added.ground, s->added.camera, s->added.light};
     size_t triangles = 0, n;
     for (size_t i = 0; i < s->n_objects; i++) triangles += s->meshes[s->objects[i].mesh_idx].n_triangles;
     n = (size_t)snprintf(out, bytes, "%zu object%s, %zu triangle%s, %zu light%s", s->n_objects,
                          s->n_objects == 1 ? "" : "s", triangles, triangles == 1 ? "" : "s", s->n_lights,
                          s->n_lights == 1 ? "" : "s");
-    for (int i = 0, first = 1; i < 3; i++) {
-        if (!added[i]) continue;
-        n += (size_t)snprintf(out + n, bytes - n, "%s%s", first ? "; added: " : ", ", names[i]);
-        first = 0;
-    }
+    remarks_list_added(s, out + n, bytes - n);
 }
 
 /* Not where the picture itself may go to stdout. */

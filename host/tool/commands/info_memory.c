@@ -5,19 +5,22 @@
 #include <stdio.h>
 #include <string.h>
 
-/* As if the preset were set last, but for triangle_groups. */
+/* The preset in place of what was chosen; what else is set, and groups of triangles of the file, stay. */
 static void try_preset(info_memory *out, const tool_options *o, int preset, int triangle_groups)
 {
-    static const board m0 = {.core = FLASH_CORTEX_M0, .short_enums = true},
-                       m4 = {.core = FLASH_CORTEX_M4, .short_enums = true};
+    board m0 = {.core = FLASH_CORTEX_M0, .short_enums = true}, m4 = {.core = FLASH_CORTEX_M4, .short_enums = true};
     char set[32], groups[32], error[TOOL_ERROR_BYTES] = "out of memory";
     tool_options with = *o;
     compiled c;
-    if (with.n_sets > TOOL_SETS_MAX - 2) with.n_sets = TOOL_SETS_MAX - 2;
+    board_set_optimisation(&m0, compile_optimisation(o));
+    board_set_optimisation(&m4, compile_optimisation(o));
     snprintf(set, sizeof set, "preset=%s", settings_preset_name[preset]);
     snprintf(groups, sizeof groups, "triangle_groups=%d", triangle_groups);
+    with.n_sets = 0;
     with.sets[with.n_sets++] = set;
     with.sets[with.n_sets++] = groups;
+    for (int i = 0; i < o->n_sets && with.n_sets < TOOL_SETS_MAX; i++)
+        if (strncmp(o->sets[i], "preset=", 7) != 0) with.sets[with.n_sets++] = o->sets[i];
     with.simplify = TOOL_SIMPLIFY_SAFE;
     if (compile_all(&c, &with, error, sizeof error)) {
         snprintf(out->refused[preset], sizeof out->refused[preset], "%.150s", error);
@@ -45,13 +48,14 @@ static int judge(info_memory *out, const tool_options *o, const board *b, char *
     compile_memory m = compile_measure(&c, b);
     out->fits = compile_fits(&m, b);
     if (out->fits) {
-        char ram[40], flash[40];
+        char ram[40], flash[40], core[40] = "";
+        if (!o->board) snprintf(core, sizeof core, " (Cortex-M0, %.10s)", compile_optimisation(o));
         say_limit("ram", o->board || o->ram, b->ram, ram, sizeof ram);
         say_limit("flash", o->board || o->flash, b->flash, flash, sizeof flash);
         snprintf(out->verdict, sizeof out->verdict,
                  "fits %s: %ld bytes of RAM (stack %ld)%s, about %ld of flash%s%s%s%s", b->name,
-                 compile_ram_bytes(&m, b), b->stack, ram, compile_rom_bytes(&m), o->board ? "" : " (Cortex-M0)", flash,
-                 compact ? "; " : "", compact ? remark : "");
+                 compile_ram_bytes(&m, b), b->stack, ram, compile_rom_bytes(&m), core, flash, compact ? "; " : "",
+                 compact ? remark : "");
     } else {
         char much[240], nearest[400];
         compile_say_memory(&m, b, much, sizeof much);
@@ -79,6 +83,7 @@ int info_memory_find(info_memory *out, const tool_options *o, char *error, size_
     tool_options frames = *o;
     board b;
     memset(out, 0, sizeof *out);
+    snprintf(out->optimise, sizeof out->optimise, "%s", compile_optimisation(o));
     if (frames.last_frame < 0) frames.last_frame = frames.frame;
     int triangle_groups;
     if (count_frames(out, o, &triangle_groups, error, error_bytes)) return -1;
@@ -98,7 +103,7 @@ int info_memory_find(info_memory *out, const tool_options *o, char *error, size_
 void info_memory_text(const info_memory *m)
 {
     if (m->frames > 1) printf("  animation: %d frames; --frames 0-%d plays them all\n", m->frames, m->frames - 1);
-    printf("  compiled (gnomon compile leaves out more), on Arm:\n");
+    printf("  compiled (gnomon compile leaves out more), on Arm, with %s:\n", m->optimise);
     for (int i = 0; i < SETTINGS_PRESETS; i++) {
         const compile_memory *a = &m->memory[i][FLASH_CORTEX_M0], *b = &m->memory[i][FLASH_CORTEX_M4];
         if (m->refused[i][0]) {
@@ -124,7 +129,8 @@ void info_memory_json(const info_memory *m)
                gap, settings_preset_name[i], a->renderer, a->state, a->data, a->code, b->code);
         gap = ", ";
     }
-    printf("}");
+    printf("}, \"optimise\": ");
+    tool_json_string(m->optimise);
     if (!m->verdict[0]) return;
     printf(", \"fits\": %s, \"verdict\": ", m->fits ? "true" : "false");
     tool_json_string(m->verdict);

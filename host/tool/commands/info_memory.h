@@ -6,6 +6,7 @@
 
 typedef struct {
     compile_memory memory[SETTINGS_PRESETS][FLASH_CORES]; /* on Arm's cores */
+    char optimise[12];                                    /* how the library is built for these */
     char refused[SETTINGS_PRESETS][160];                  /* why a preset cannot be compiled; empty: it can */
     int frames;                                           /* of the whole animation */
     char verdict[1600]; /* whether the settings fit the board; empty: none was requested */

@@ -153,15 +153,18 @@ static void print_summary(const compiled *c)
     size_t n_triangles = 0;
     for (size_t i = 0; i < c->fixed.n_meshes; i++) n_triangles += c->fixed.meshes[i].n_triangles;
     const gn_scene *s = &c->fixed.scene;
+    char added[60];
+    remarks_list_added(&c->scene, added, sizeof added);
     if (c->options->json) printf("{\"out\": ");
     if (c->options->json) tool_json_string(c->options->out_path);
     printf(c->options->json
                ? ", \"objects\": %" PRIu32 ", \"lights\": %" PRIu32
                  ", \"cameras\": %zu, \"meshes\": %zu, \"triangles\": %zu, \"textures\": %zu, \"data_bytes\": %ld}\n"
                : "%" PRIu32 " objects, %" PRIu32
-                 " lights, %zu cameras, %zu meshes of %zu triangles, %zu textures: %ld bytes of flash\n",
+                 " lights, %zu cameras, %zu meshes of %zu triangles, %zu textures: %ld bytes of flash",
            s->n_objects, s->n_lights, c->n_cameras, c->fixed.n_meshes, n_triangles, c->n_textures,
            compile_flash_bytes(c, true));
+    if (!c->options->json) printf("%s\n", added);
 }
 
 int tool_asset(const tool_options *given)
@@ -179,6 +182,7 @@ int tool_asset(const tool_options *given)
     o.last_frame = o.frame;
     if (compile_all(&c, &o, error, sizeof error)) return tool_fail(o.scene_path, error);
     c.symbol = symbol;
+    if (!o.json) compile_say_kept(&c);
     if (!o.json) remarks_on_settings(&c.scene);
     int failed = write_file(&c, ".h", write_header) || write_file(&c, ".c", write_source);
     if (failed) snprintf(error, sizeof error, "%s", errno ? strerror(errno) : "cannot be written");

@@ -126,6 +126,7 @@ int tool_compile(const tool_options *o)
     if (compile_all(&c, &own, error, sizeof error)) return tool_fail(o->scene_path, error);
     if (compile_try_compact(&c, &own, &b, remark, sizeof remark)) tool_error("%s", remark);
     say_if_beyond(&c);
+    if (!o->json) compile_say_kept(&c);
     if (!o->json) remarks_on_settings(&c.scene);
     const char *about = o->scene_path;
     int failed = check_fit(&c, &b, error, sizeof error);

@@ -98,6 +98,8 @@ typedef struct {
     size_t n_reasons;
     compile_saving savings[COMPILE_SAVINGS_MAX];
     size_t n_savings;
+    bool keeps_whole; /* some mesh has what others could be without: frames would change */
+    int kept_levels;  /* how many steps --simplify was lowered by for the same reason */
     compile_track *tracks;
     size_t n_tracks;
     compile_change narrow_change[2]; /* by compile_narrowed */
@@ -169,12 +171,20 @@ int compile_see(compile_stage *st, const compiled *c, bool **seen);
 /* Shadow tiles that A5 keeps, all frames. */
 int compile_keeps_tiles(compile_stage *st, const compiled *c, size_t *n_kept);
 
-/* compile_simplify.c: takes away what changes no byte of any frame. 0, or -1 with one line in error. */
+/* compile_simplify.c: takes away what changes no byte of any frame. 0, -1 with one line in error, or COMPILE_CHANGED:
+ * frames changed all the same, and it is to be tried with less. */
+enum { COMPILE_CHANGED = 1 };
 int compile_simplify(compiled *c, compile_stage *st, char *error, size_t error_bytes);
 
 /* compile_mesh.c */
-size_t compile_merge_vertices(compiled *c); /* returns how many went */
-size_t compile_drop_degenerate(compiled *c);
+typedef size_t compile_mesh_step(compiled *c, gn_mesh *mesh); /* returns how many went */
+compile_mesh_step compile_merge_vertices, compile_drop_degenerate;
+/* All that belongs to a vertex: of its mesh, and of every object of that mesh. NULL: out of memory; n: how many. */
+typedef struct {
+    uint8_t *at;
+    size_t bytes; /* of one vertex */
+} compile_attribute;
+compile_attribute *compile_attributes_of(const compiled *c, const gn_mesh *mesh, size_t *n);
 void compile_drop_unused(compiled *c); /* vertices, meshes and textures that nothing names any more */
 void compile_drop_objects(compiled *c, const bool *gone);
 void compile_drop_lights(compiled *c, const bool *gone);
@@ -224,6 +234,9 @@ bool compile_try_compact(compiled *c, tool_options *own, const board *b, char *r
 
 /* compile.c: all of it but the files; 1: there is a board, 0: none was requested, -1. */
 int compile_all(compiled *c, const tool_options *o, char *error, size_t error_bytes);
+const char *compile_optimisation(const tool_options *o); /* -O2, -Os: how a library for no named board is built */
+/* One line, where frames kept what else would have gone. */
+void compile_say_kept(const compiled *c);
 int compile_read_board(const tool_options *o, board *out, char *error, size_t error_bytes);
 
 /* How much may go: of what is open, nothing that a program might come to show. */

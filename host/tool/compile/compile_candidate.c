@@ -49,7 +49,6 @@ static void take_from_shadow(gn_shadow_settings *s, candidate_kind what, size_t 
 {
     if (what == FILTER) s->filter = GN_FILTER_HARD;
     if (what == OTHER_FILTER) s->other_filter = GN_FILTER_HARD;
-    if (what == KERNEL) s->kernel = GN_KERNEL_TENT;
     if (what == MIXING) s->mixing = GN_MIXING_NONE;
     if (what == MAIN_LIGHT) s->main_light = 0;
     if (what == BLEND) s->blend = GN_BLEND_HARD;
@@ -125,7 +124,6 @@ static void give_back_to_shadow(gn_shadow_settings *s, const gn_shadow_settings 
 {
     if (what == FILTER) s->filter = was->filter;
     if (what == OTHER_FILTER) s->other_filter = was->other_filter;
-    if (what == KERNEL) s->kernel = was->kernel;
     if (what == MIXING) s->mixing = was->mixing;
     if (what == MAIN_LIGHT) s->main_light = was->main_light;
     if (what == BLEND) s->blend = was->blend;

@@ -200,7 +200,6 @@ static void use_shadows(compiled *c)
     const gn_shadow_settings *s = &c->fixed.scene.shadow;
     use_filter(c, (gn_filter)s->filter, "directional lights");
     use_filter(c, (gn_filter)s->other_filter, "spot and point lights");
-    if (s->kernel == GN_KERNEL_LINEAR) USE(linear_kernels, 1, "%s", "the setting kernel");
     if (s->blend != GN_BLEND_HARD) USE(blended_cascades, 1, "%s", "the setting cascade_blend");
     if (s->main_light) USE(main_light, 1, "%s", "the setting main_light");
     if (s->n_cascades > 1) USE(many_cascades, 1, "%s", "the setting cascades");
@@ -218,7 +217,6 @@ static void use_nothing(compiled *c)
     NOTHING(blended_cascades);
     NOTHING(filter_max);
     NOTHING(disk_filter);
-    NOTHING(linear_kernels);
     NOTHING(punctual_lights);
     NOTHING(main_light);
     NOTHING(many_cascades);
@@ -270,19 +268,15 @@ static void choose_features(compiled *c)
 static void choose_speed(compiled *c)
 {
     settings *s = &c->set;
-    size_t punctual = 0, scheduled = 0;
-    for (uint32_t i = 0; i < c->fixed.scene.n_lights; i++) punctual += c->fixed.lights[i].kind != GN_LIGHT_DIRECTIONAL;
+    size_t scheduled = 0;
     for (int i = 0; i < 4; i++) scheduled += c->fixed.scene.shadow.refresh[i] > 1;
     if (!s->feature.shadows) {
-        s->feature.depth_blocks = s->feature.static_layer = 0;
+        s->feature.static_layer = 0;
         because(c, "static_layer", "no shadows");
     }
-    because(c, "depth_blocks",
-            s->feature.depth_blocks ? "faster shadows, the same picture" : "no shadows, or not wanted");
-    if (punctual < 2) s->feature.tile_lights = 0;
-    because(c, "tile_lights", "%zu spot and point lights", punctual);
+    if (!c->fixed.scene.shadow.caster_culling) because(c, "caster_culling", "the setting caster_culling");
+    else because(c, "caster_culling", "casters left out of larger cascades, all frames: %zu", c->run.culled);
     if (!s->feature.shadows || !c->run.culled) s->feature.caster_culling = 0;
-    because(c, "caster_culling", "casters left out of larger cascades, all frames: %zu", c->run.culled);
     if (!s->feature.shadows || (!c->kept_tiles && !scheduled)) s->feature.incremental = 0;
     if (scheduled && s->feature.shadows) because(c, "incremental", "the setting refresh");
     else because(c, "incremental", "shadow tiles kept from the frame before, all frames: %zu", c->kept_tiles);
@@ -390,6 +384,13 @@ static void write_narrow(FILE *f, const compiled *c)
     }
 }
 
+static long library_bytes(const compiled *c, flash_core core, const char *optimise)
+{
+    board b = {.core = core, .short_enums = true};
+    board_set_optimisation(&b, optimise);
+    return compile_measure(c, &b).code;
+}
+
 static void write_costs(FILE *f, const compiled *c)
 {
     long ram = settings_ram(&c->set).total;
@@ -398,9 +399,12 @@ static void write_costs(FILE *f, const compiled *c)
             "Stack beside "
             "that.\n",
             ram, compile_state_bytes(c, false), ram - compile_short_enums_less(c), compile_state_bytes(c, true));
-    fprintf(f, " * Flash, bytes: scene.c %ld; the library with -Os about %ld on Cortex-M0, %ld on Cortex-M4.\n",
-            compile_flash_bytes(c, true), flash_estimate(&c->set, FLASH_CORTEX_M0),
-            flash_estimate(&c->set, FLASH_CORTEX_M4));
+    fprintf(f,
+            " * Flash, bytes: scene.c %ld; the library with -Os about %ld on Cortex-M0, %ld on Cortex-M4; with -O2, as "
+            "boards build it, %ld and %ld.\n",
+            compile_flash_bytes(c, true), library_bytes(c, FLASH_CORTEX_M0, "-Os"),
+            library_bytes(c, FLASH_CORTEX_M4, "-Os"), library_bytes(c, FLASH_CORTEX_M0, "-O2"),
+            library_bytes(c, FLASH_CORTEX_M4, "-O2"));
     write_narrow(f, c);
     if (c->n_savings) fprintf(f, " *\n * Left out, and every frame is the same picture, byte for byte:\n");
 }

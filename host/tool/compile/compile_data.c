@@ -274,7 +274,6 @@ static const emit_field shadow_fields[] = {EMIT_FIELD(gn_shadow_settings, FIELD_
                                            EMIT_FIELD(gn_shadow_settings, FIELD_U32, cascade_fade_uq16),
                                            EMIT_ENUM(gn_shadow_settings, filter, gn_filter),
                                            EMIT_ENUM(gn_shadow_settings, other_filter, gn_filter),
-                                           EMIT_ENUM(gn_shadow_settings, kernel, gn_kernel),
                                            EMIT_FIELD(gn_shadow_settings, FIELD_U32, penumbra_uq16),
                                            EMIT_FIELD(gn_shadow_settings, FIELD_U32, disk_samples),
                                            EMIT_ENUM(gn_shadow_settings, mixing, gn_mixing),

@@ -12,14 +12,15 @@ static long aligned(long bytes, long to)
 long compile_short_enums_less(const compiled *c)
 {
     const bool fits = c->set.feature.shadows && c->set.feature.tight_fit, groups = c->set.quality.triangle_groups > 0;
-    return c->set.build.compact || fits != groups ? 8 : 16; /* 12, and what aligns the next */
+    if (c->set.build.compact) return aligned(c->set.capacity.max_objects, 4) % 8 ? 16 : 8; /* 12 before the flags */
+    return fits != groups ? 8 : 16; /* 12, and what aligns the next */
 }
 
 compile_memory compile_measure(const compiled *c, const board *b)
 {
     compile_memory m = {.data = compile_flash_bytes(c, true), .state = compile_state_bytes(c, b->short_enums)};
     m.renderer = settings_ram(&c->set).total - (b->short_enums ? compile_short_enums_less(c) : 0);
-    m.code = flash_estimate(&c->set, b->core) * (b->code_percent ? b->code_percent : 100) / 100 + b->own_flash;
+    m.code = flash_estimate(&c->set, b->core) * board_code_percent(b, c->set.build.compact) / 100 + b->own_flash;
     return m;
 }
 

@@ -13,22 +13,15 @@ static void *own(const void *array)
 
 /* ---- Vertices ---------------------------------------------------------------------------------------------------- */
 
-/* All that belongs to a vertex: of its mesh, and of every object of that mesh. */
-typedef struct {
-    uint8_t *at;
-    size_t bytes; /* of one vertex */
-} attribute;
-
-static void add(attribute *all, size_t *n, const void *array, size_t bytes)
+static void add(compile_attribute *all, size_t *n, const void *array, size_t bytes)
 {
-    if (array) all[(*n)++] = (attribute){own(array), bytes};
+    if (array) all[(*n)++] = (compile_attribute){own(array), bytes};
 }
 
-/* NULL: out of memory. */
-static attribute *attributes_of(const compiled *c, const gn_mesh *mesh, size_t *n)
+compile_attribute *compile_attributes_of(const compiled *c, const gn_mesh *mesh, size_t *n)
 {
     const gn_scene *s = &c->fixed.scene;
-    attribute *all = malloc((5 + 4 * (size_t)s->n_objects) * sizeof *all);
+    compile_attribute *all = malloc((5 + 4 * (size_t)s->n_objects) * sizeof *all);
     *n = 0;
     if (!all) return NULL;
     add(all, n, mesh->pos, 3 * sizeof *mesh->pos);
@@ -48,7 +41,7 @@ static attribute *attributes_of(const compiled *c, const gn_mesh *mesh, size_t *
 }
 
 /* Moves each vertex to its place in to[]; vertices of one place are alike, and a place is never behind its vertex. */
-static void move_vertices(gn_mesh *mesh, const attribute *all, size_t n_attributes, const uint16_t *to,
+static void move_vertices(gn_mesh *mesh, const compile_attribute *all, size_t n_attributes, const uint16_t *to,
                           const bool *used, size_t n_left)
 {
     uint16_t *idx = own(mesh->idx);
@@ -59,7 +52,7 @@ static void move_vertices(gn_mesh *mesh, const attribute *all, size_t n_attribut
     mesh->n_vertices = (uint16_t)n_left;
 }
 
-static uint32_t hash_of(const attribute *all, size_t n, size_t vertex)
+static uint32_t hash_of(const compile_attribute *all, size_t n, size_t vertex)
 {
     uint32_t hash = 2166136261U;
     for (size_t k = 0; k < n; k++)
@@ -67,7 +60,7 @@ static uint32_t hash_of(const attribute *all, size_t n, size_t vertex)
     return hash;
 }
 
-static bool alike(const attribute *all, size_t n, size_t a, size_t b)
+static bool alike(const compile_attribute *all, size_t n, size_t a, size_t b)
 {
     for (size_t k = 0; k < n; k++)
         if (memcmp(all[k].at + a * all[k].bytes, all[k].at + b * all[k].bytes, all[k].bytes) != 0) return false;
@@ -95,8 +88,8 @@ static void use_ends(const compiled *c, const gn_mesh *mesh, bool *used)
 }
 
 /* The first vertex like each; merge: else every vertex is its own. Places are given to those that triangles use. */
-static size_t place_vertices(const gn_mesh *mesh, const attribute *all, size_t n_attributes, bool merge, uint16_t *to,
-                             bool *used, uint32_t *bucket, uint32_t *next)
+static size_t place_vertices(const gn_mesh *mesh, const compile_attribute *all, size_t n_attributes, bool merge,
+                             uint16_t *to, bool *used, uint32_t *bucket, uint32_t *next)
 {
     size_t n_left = 0;
     memset(bucket, 0xFF, BUCKETS * sizeof *bucket);
@@ -118,7 +111,7 @@ static size_t place_vertices(const gn_mesh *mesh, const attribute *all, size_t n
 static size_t shrink_mesh(const compiled *c, gn_mesh *mesh, bool merge)
 {
     size_t n_attributes, before = mesh->n_vertices, n_left = before;
-    attribute *all = attributes_of(c, mesh, &n_attributes);
+    compile_attribute *all = compile_attributes_of(c, mesh, &n_attributes);
     uint16_t *to = calloc(before + 1, sizeof *to);
     bool *used = calloc(before + 1, sizeof *used);
     uint32_t *bucket = malloc(BUCKETS * sizeof *bucket), *next = malloc((before + 1) * sizeof *next);
@@ -137,11 +130,9 @@ static size_t shrink_mesh(const compiled *c, gn_mesh *mesh, bool merge)
     return before - n_left;
 }
 
-size_t compile_merge_vertices(compiled *c)
+size_t compile_merge_vertices(compiled *c, gn_mesh *mesh)
 {
-    size_t n = 0;
-    for (size_t i = 0; i < c->fixed.n_meshes; i++) n += shrink_mesh(c, &c->fixed.meshes[i], true);
-    return n;
+    return shrink_mesh(c, mesh, true);
 }
 
 /* ---- Triangles --------------------------------------------------------------------------------------------------- */
@@ -164,26 +155,21 @@ static bool same_position(const gn_mesh *mesh, uint16_t a, uint16_t b)
 }
 
 /* Two corners at one place: no area, from wherever it is seen. */
-size_t compile_drop_degenerate(compiled *c)
+size_t compile_drop_degenerate(compiled *c, gn_mesh *mesh)
 {
-    size_t n_dropped = 0;
-    for (size_t i = 0; i < c->fixed.n_meshes; i++) {
-        gn_mesh *mesh = &c->fixed.meshes[i];
-        size_t n = mesh->n_triangles, n_gone = 0;
-        bool *gone = calloc(n + 1, sizeof *gone);
-        for (size_t t = 0; gone && t < n; t++) {
-            const uint16_t *v = mesh->idx + 3 * t;
-            gone[t] =
-                same_position(mesh, v[0], v[1]) || same_position(mesh, v[1], v[2]) || same_position(mesh, v[2], v[0]);
-            n_gone += gone[t];
-        }
-        if (gone && n_gone < n) { /* a mesh without triangles is refused */
-            compile_keep_triangles(mesh, mesh->idx, n, gone);
-            n_dropped += n_gone;
-        }
-        free(gone);
+    const size_t n = mesh->n_triangles;
+    size_t n_gone = 0;
+    bool *gone = calloc(n + 1, sizeof *gone);
+    (void)c;
+    for (size_t t = 0; gone && t < n; t++) {
+        const uint16_t *v = mesh->idx + 3 * t;
+        gone[t] = same_position(mesh, v[0], v[1]) || same_position(mesh, v[1], v[2]) || same_position(mesh, v[2], v[0]);
+        n_gone += gone[t];
     }
-    return n_dropped;
+    if (n_gone == n) n_gone = 0; /* a mesh without triangles is refused */
+    if (n_gone) compile_keep_triangles(mesh, mesh->idx, n, gone);
+    free(gone);
+    return n_gone;
 }
 
 /* ---- Objects, lights, meshes, textures --------------------------------------------------------------------------- */

@@ -161,6 +161,21 @@ static void write_centre(FILE *f, const compiled *c)
     fprintf(f, "}\n\n");
 }
 
+/* Light falls off with the square of distance: an intensity of the file is scaled by its unit's square. */
+static void write_intensity(FILE *f, const compiled *c)
+{
+    char name[64] = ""; /* cmd_asset.c takes no longer ones */
+    for (size_t i = 0; c->symbol[i] && i + 1 < sizeof name; i++) name[i] = (char)upper(c->symbol[i]);
+    fprintf(
+        f,
+        "/* Spot and point lights of a program's own: colour_uq16[k] = %s_INTENSITY(4), 0 .. 255.99, and colour_exp =\n"
+        " * %s_INTENSITY_EXP light a white surface at a distance of 1 unit of the file by 4; in a glTF file that is 4 "
+        "pi\n"
+        " * candela. A program that sets one of the two must set the other. */\n"
+        "#define %s_INTENSITY(x)  GN_UQ16(x)\n#define %s_INTENSITY_EXP %d\n\n",
+        name, name, name, name, 2 * c->fixed.world_exp);
+}
+
 void open_write_declarations(FILE *f, const compiled *c)
 {
     fprintf(f, "/* Lengths of the file as the library's: ");
@@ -168,10 +183,15 @@ void open_write_declarations(FILE *f, const compiled *c)
     fprintf(f, "_LENGTH(1.5), a constant, is 1.5 units of the file. */\n#define ");
     open_write_upper(f, c->symbol);
     fprintf(f, "_LENGTH(x) GN_Q16((x) * %.17g)\n\n", ldexp(1, c->fixed.world_exp));
+    write_intensity(f, c);
     write_centre(f, c);
     write_all_names(f, c);
     write_state(f, c);
-    fprintf(f, "/* Everything as the file has it. */\nvoid %s_init(%s_state *now);\n\n", c->symbol, c->symbol);
+    fprintf(
+        f,
+        "/* Everything as the file has it. The state must live, and stay where it is, as long as it is drawn: make it "
+        "static. */\nvoid %s_init(%s_state *now);\n\n",
+        c->symbol, c->symbol);
     fprintf(f, "/* The scene as it is now, for gn_render. */\nconst gn_scene *%s_now(%s_state *now);\n\n", c->symbol,
             c->symbol);
     if (!c->rig) return;

@@ -74,7 +74,7 @@ static int check_same(const compiled *c, const fixed_scene *f, int frame, char *
         if (!f->objects[i].skin != !base->objects[i].skin) what = "skins";
     if (!what) return 0;
     snprintf(error, bytes,
-             "frame %d has other %s than frame %d (a transform that mirrors, or a ground that follows): leave one out "
+             "frame %d has other %s than frame %d (a ground that follows): leave one out "
              "with --frames",
              frame, what, c->first_frame);
     return -1;

@@ -105,9 +105,7 @@ static compiled apply(const search *s, const variant *v)
     }
     if (v->lean >= 1 && c.set.capacity.vertex_cache > SMALL_VERTEX_CACHE)
         c.set.capacity.vertex_cache = SMALL_VERTEX_CACHE;
-    if (v->lean >= LEAN_BARE)
-        c.set.feature.depth_blocks = c.set.feature.object_boxes = c.set.feature.incremental =
-            c.set.feature.caster_culling = 0;
+    if (v->lean >= LEAN_BARE) c.set.feature.object_boxes = c.set.feature.incremental = c.set.feature.caster_culling = 0;
     if (v->lean == LEAN_MAX && !q->triangle_groups && !c.set.build.compact) q->triangle_groups = GROUPS;
     return c;
 }
@@ -314,7 +312,6 @@ static void say_variant(const search *s, const variant *v, const compile_memory 
     SAY_(capacity, vertex_cache);
     SAY_(quality, triangle_groups);
     if (v->lean >= LEAN_BARE) {
-        if (on->feature.depth_blocks) say(out, bytes, &n, " --set depth_blocks=0");
         if (on->feature.object_boxes) say(out, bytes, &n, " --set object_boxes=0");
         if (on->feature.incremental) say(out, bytes, &n, " --set incremental=0");
         if (on->feature.caster_culling) say(out, bytes, &n, " --set caster_culling=0");

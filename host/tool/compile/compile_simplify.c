@@ -114,7 +114,6 @@ static void try_features(trial *b)
     if (shadow->mixing != GN_MIXING_NONE) trial_add(b, MIXING, 0);
     if (shadow->main_light) trial_add(b, MAIN_LIGHT, 0);
     if (shadow->blend != GN_BLEND_HARD) trial_add(b, BLEND, 0);
-    if (shadow->kernel != GN_KERNEL_TENT) trial_add(b, KERNEL, 0);
     if (shadow->filter != GN_FILTER_HARD) trial_add(b, FILTER, 0);
     if (shadow->other_filter != GN_FILTER_HARD) trial_add(b, OTHER_FILTER, 0);
     if (shadow->n_cascades > 1) trial_add(b, CASCADES, 0);
@@ -147,10 +146,8 @@ static void try_attributes(trial *b)
 
 static void merge(trial *b)
 {
-    measure before = trial_measure(b);
-    trial_report(b, "triangles without area", compile_drop_degenerate(b->c), &before);
-    before = trial_measure(b);
-    trial_report(b, "vertices that were there twice, or unused", compile_merge_vertices(b->c), &before);
+    trial_step(b, "triangles without area", compile_drop_degenerate);
+    trial_step(b, "vertices that were there twice, or unused", compile_merge_vertices);
 }
 
 /* Vertices in fewer bits. For firmware that moves the camera, only where nothing is rounded. */
@@ -181,7 +178,6 @@ static void choose_samples(trial *b)
 static void simplify_path(trial *b)
 {
     const gn_scene *s = &b->c->fixed.scene;
-    choose_samples(b);
     try_lights(b);
     try_kind(b, "shadows of lights that no frame shows", LIGHT_SHADOW, s->n_lights, 0, false);
     try_cascades(b);
@@ -205,12 +201,6 @@ static int say_refused(const trial *b, char *error, size_t bytes)
     return -1;
 }
 
-static int say_changed(const compiled *c, int frame, char *error, size_t bytes)
-{
-    snprintf(error, bytes, "frame %d changes by what was taken away: use --simplify none", c->first_frame + frame);
-    return -1;
-}
-
 /* The frames as they were, then without what they do not need, then once more as a whole. */
 static int simplify(trial *b, char *error, size_t bytes)
 {
@@ -219,11 +209,12 @@ static int simplify(trial *b, char *error, size_t bytes)
     if (compile_run_all(&b->wanted, b->st, c, NULL)) return say_refused(b, error, bytes);
     b->now = b->wanted;
     b->now.hash = hash;
+    choose_samples(b);
     if (compile_simplifies(c) != TOOL_SIMPLIFY_NONE) merge(b);
     if (compile_simplifies(c) == TOOL_SIMPLIFY_PATH) simplify_path(b);
     if (compile_simplifies(c) != TOOL_SIMPLIFY_NONE) narrow(b);
     if (compile_run_all(&b->now, b->st, c, &b->wanted)) return say_refused(b, error, bytes);
-    if (b->now.differs >= 0) return say_changed(c, b->now.differs, error, bytes);
+    if (b->now.differs >= 0) return COMPILE_CHANGED;
     if (settings_suffice(&c->requested, &b->now.demand, error, bytes)) return -1;
     c->run = b->now;
     if (compile_check_casters(c, error, bytes)) return -1;

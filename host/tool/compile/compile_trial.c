@@ -127,7 +127,7 @@ measure trial_measure(const trial *b)
 static const char *setting_of(candidate_kind k)
 {
     static const char *const names[] = {
-        [FILTER] = "filter",         [OTHER_FILTER] = "other_filter", [KERNEL] = "kernel",    [MIXING] = "mixing",
+        [FILTER] = "filter",         [OTHER_FILTER] = "other_filter", [MIXING] = "mixing",
         [MAIN_LIGHT] = "main_light", [BLEND] = "cascade_blend",       [CASCADES] = "cascades"};
     return (size_t)k < sizeof names / sizeof *names ? names[k] : NULL;
 }

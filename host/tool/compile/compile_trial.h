@@ -25,7 +25,6 @@ typedef enum {
     LIGHT_SOFTNESS,
     FILTER,
     OTHER_FILTER,
-    KERNEL,
     MIXING,
     MAIN_LIGHT,
     BLEND,
@@ -92,6 +91,9 @@ measure trial_measure(const trial *b);
 /* ": 'a', 'b', ..." of what was taken, appended to out */
 void trial_list_names(const trial *b, char *out, size_t bytes);
 void trial_report(trial *b, const char *what, size_t n, const measure *before);
+
+/* compile_merge.c: a step of every mesh; those that change a frame are undone. */
+void trial_step(trial *b, const char *what, compile_mesh_step *step);
 
 /* compile_triangles.c: triangles that no frame shows, and that no shadow needs. */
 void trial_triangles(trial *b);

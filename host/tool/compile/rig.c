@@ -315,19 +315,6 @@ static int add_nodes(fixed_rig *r, const ranked *order, mark *marks, const scene
 
 /* ---- Joints ------------------------------------------------------------------------------------------------------ */
 
-int rig_shift(const scene_affine *a, const gn_affine *fixed)
-{
-    double largest = 0, stored = 0;
-    for (int r = 0; r < 3; r++) {
-        for (int k = 0; k < 3; k++) {
-            if (fabs(a->m[r][k]) <= largest) continue;
-            largest = fabs(a->m[r][k]);
-            stored = ldexp(fabs((double)fixed->m_q30[r][k]), fixed->exp - 30);
-        }
-    }
-    return largest > 0 ? (int)lround(log2(stored / largest)) : 0;
-}
-
 /* A joint's matrix is where its node has been taken, behind the matrix that it was bound by: a fixed node below it. */
 static int add_joint(fixed_rig *r, const mark *marks, const scene_affine *at_rest, const scene_joint *joint, int shift)
 {
@@ -355,9 +342,7 @@ static int add_joints(fixed_rig *r, const mark *marks, const scene_affine *at_re
         r->first_joint[i] = r->fixed.n_nodes;
         r->n_skins++;
         for (size_t k = 0; k < o->n_joints; k++) {
-            if (!add_joint(r, marks, at_rest, &o->joints[k],
-                           rig_shift(&o->joints[0].now, &f->objects[i].skin->joint[0])))
-                continue;
+            if (!add_joint(r, marks, at_rest, &o->joints[k], f->shift[i])) continue;
             snprintf(error, bytes, "object '%s': scale of joint %zu too large", o->name, k);
             return -1;
         }
@@ -379,8 +364,7 @@ static void add_links(fixed_rig *r, const mark *marks, const fixed_scene *f)
     for (size_t i = 0; i < s->n_objects; i++) {
         const size_t node = s->objects[i].node_idx;
         if (node == SCENE_NONE || !marks[node].needed) continue;
-        add_link(r, marks, node, GN_RIG_OBJECT, i,
-                 r->frame_exp[marks[node].idx] + rig_shift(&s->objects[i].to_world, &f->objects[i].to_world));
+        add_link(r, marks, node, GN_RIG_OBJECT, i, r->frame_exp[marks[node].idx] + f->shift[i]);
     }
     for (size_t i = 0; i < s->n_lights; i++) add_link(r, marks, s->lights[i].node_idx, GN_RIG_LIGHT, i, 0);
     for (size_t i = 0; i < s->rig->n_cameras; i++) add_link(r, marks, s->rig->cameras[i].node, GN_RIG_CAMERA, i, 0);

@@ -49,9 +49,6 @@ void rig_quaternion(const double *q, int16_t out[4]);
 /* rig_check.c */
 int rig_measure(fixed_rig *r, const fixed_scene *f, char *error, size_t error_bytes);
 
-/* rig.c: the power of two between a transform of the scene and the library's. */
-int rig_shift(const scene_affine *a, const gn_affine *fixed);
-
 /* rig_emit.c */
 void rig_write_skins(FILE *file, const compiled *c); /* skins of now have the joints of its nodes */
 long rig_flash_bytes(const fixed_rig *r);

@@ -30,7 +30,7 @@ static void check_object(rig_error *e, const fixed_rig *r, const stage *st, cons
     for (int i = 0; i < 3; i++)
         for (int k = 0; k < 3; k++) take(&largest, fabs(exact->m[i][k]));
     for (int i = 0; i < 3; i++)
-        for (int k = 0; k < 3; k++)
+        for (int k = 0; largest > 0 && k < 3; k++)
             take(&e->turned, fabs(ldexp(got->m_q30[i][k], got->exp - 30 - shift) - exact->m[i][k]) / largest);
 }
 
@@ -44,7 +44,7 @@ static void check_place(rig_error *e, const fixed_rig *r, const int32_t t_q16[3]
 static void check_skin(rig_error *e, const fixed_rig *r, const fixed_scene *f, const stage *st, size_t object_idx)
 {
     const scene_object *o = &r->s->objects[object_idx];
-    const int shift = rig_shift(&o->joints[0].now, &f->objects[object_idx].skin->joint[0]);
+    const int shift = f->shift[object_idx];
     for (size_t j = 0; j < o->n_joints; j++) {
         const gn_affine *got = &st->nodes[r->first_joint[object_idx] + j];
         const scene_affine exact = affine_multiply(&st->exact[o->joints[j].node_idx], &o->joints[j].bind);

@@ -73,6 +73,13 @@ void board_set_optimisation(board *b, const char *flag)
     else b->code_percent = small ? 100 : percent_o2[b->core];
 }
 
+int board_code_percent(const board *b, bool compact)
+{
+    static const int compact_o2[FLASH_CORES] = {143, 141}; /* it has fewer loops to unroll */
+    if (!b->code_percent) return 100;
+    return compact && !b->riscv && b->code_percent > 100 ? compact_o2[b->core] : b->code_percent;
+}
+
 static void read_core(board *out, const char *settings_text)
 {
     const char *cpu = settings_text ? strstr(settings_text, "BOARD_CPU") : NULL;

@@ -22,4 +22,7 @@ int board_read(board *out, const char *name, char *error, size_t error_bytes);
 /* flag: -Os, -O2, ... in place of the one that board.mk names. */
 void board_set_optimisation(board *b, const char *flag);
 
+/* Of the library with -Os, what this board's build takes, in general or compact arithmetic. */
+int board_code_percent(const board *b, bool compact);
+
 #endif

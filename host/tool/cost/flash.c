@@ -24,14 +24,12 @@ static long of_filter(const settings *s, flash_core core)
     const int *row = by_max[s->feature.filter_max];
     long bytes = row ? row[core] : 0;
     if (s->feature.disk_filter) bytes += disk_filter_bytes[core];
-    if (s->feature.linear_kernels) bytes += linear_kernels_bytes[core];
     return bytes;
 }
 
 static long of_shadows(const settings *s, flash_core core)
 {
     long bytes = of_filter(s, core);
-    if (!s->feature.depth_blocks) bytes += no_depth_blocks_bytes[core];
     if (s->feature.punctual_lights) bytes += punctual_lights_bytes[core];
     if (s->feature.blended_cascades) bytes += blended_cascades_bytes[core];
     if (s->feature.main_light) bytes += main_light_bytes[core];
@@ -78,7 +76,6 @@ long flash_estimate(const settings *s, flash_core core)
     if (s->feature.validation) bytes += validation_bytes[core];
     if (s->feature.clipping) bytes += clipping_bytes[core];
     if (s->feature.other_formats) bytes += other_formats_bytes[core];
-    if (s->feature.tile_lights) bytes += tile_lights_bytes[core];
     if (!s->quality.srgb) bytes += linear_bytes[core];
     if (s->quality.persp_step == 1 && s->feature.shadows) bytes += preset_accurate_bytes[core];
     return bytes;

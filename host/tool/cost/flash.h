@@ -6,7 +6,8 @@
 
 typedef enum { FLASH_CORTEX_M0, FLASH_CORTEX_M4, FLASH_CORES } flash_core;
 
-/* Bytes of code and constants with -Os, within a tenth of what a build has. */
+/* Bytes of code and constants with -Os (board_set_optimisation has the share that other builds take), within a tenth of
+ * what a build has. */
 long flash_estimate(const settings *s, flash_core core);
 
 #endif

@@ -1,7 +1,6 @@
 /* Made by host/generate/gen_flash.sh with 12.2.1. Bytes of flash: on Cortex-M0, on Cortex-M4. */
-FLASH(typical, 61372, 56348)               /* shadows, depth_blocks, vertex_normals, filter_max 2, preset balanced */
+FLASH(typical, 61372, 56348)               /* shadows, vertex_normals, filter_max 2, preset balanced */
 FLASH(no_shadows, -30152, -28752)          /* without shadows, and what is of shadows */
-FLASH(no_depth_blocks, -792, -740)         /* without */
 FLASH(no_vertex_normals, -3508, -3312)     /* without */
 FLASH(filter_max_0, -2440, -2500)          /* another filter_max */
 FLASH(filter_max_1, -2304, -2380)          /* another filter_max */
@@ -10,10 +9,8 @@ FLASH(filter_max_4, 0, 4)                  /* another filter_max */
 FLASH(punctual_unshadowed, -20504, -19984) /* spot and point lights, no shadows: above no_shadows too */
 FLASH(blended_cascades, 1144, 1148)        /* with */
 FLASH(disk_filter, 1536, 1384)             /* with */
-FLASH(linear_kernels, 312, 156)            /* with */
 FLASH(punctual_lights, 18836, 17488)       /* with */
 FLASH(main_light, 408, 424)                /* with */
-FLASH(tile_lights, 0, 0)                   /* with */
 FLASH(caster_culling, 1696, 1592)          /* with */
 FLASH(caster_alpha, 264, 188)              /* with */
 FLASH(visible_alpha, 660, 620)             /* with */

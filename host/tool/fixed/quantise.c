@@ -16,7 +16,6 @@
 _Static_assert((int)GN_FILTER_DISK == (int)SCENE_FILTER_DISK && (int)GN_FILTER_7X7 == (int)SCENE_FILTER_7X7 &&
                    (int)GN_BLEND_DITHER == (int)SCENE_BLEND_DITHER && (int)GN_BLEND_SOFT == (int)SCENE_BLEND_SOFT &&
                    (int)GN_DISTANCE_RADIUS == (int)SCENE_DISTANCE_RADIUS &&
-                   (int)GN_KERNEL_LINEAR == (int)SCENE_KERNEL_LINEAR &&
                    (int)GN_MIXING_ALWAYS == (int)SCENE_MIX_ALWAYS &&
                    (int)GN_MIXING_DISTANCE == (int)SCENE_MIX_DISTANCE &&
                    (int)GN_TILES_IMPORTANCE == (int)SCENE_TILES_IMPORTANCE &&
@@ -42,16 +41,6 @@ static uint32_t fixed_ratio(double v)
 }
 
 /* ---- Objects ----------------------------------------------------------------------------------------------------- */
-
-/* What the library requires of a transform, at the largest scale that fits: objects too small for their scene are
- * another matter. */
-static int is_flat(const scene_affine *a, int exp)
-{
-    int32_t m[3][3];
-    for (int r = 0; r < 3; r++)
-        for (int c = 0; c < 3; c++) m[r][c] = fixed_unit(a->m[r][c], 30 - exp);
-    return !gn_det_sign(m);
-}
 
 static int exponent_of(const scene_affine *a)
 {
@@ -80,11 +69,6 @@ int quantise_affine(gn_affine *out, const scene_affine *a, int shift, int world_
 static int quantise_transform(gn_affine *out, const scene_object *o, int shift, int world_exp, char *error,
                               size_t error_bytes)
 {
-    if (is_flat(&o->to_world, exponent_of(&o->to_world))) {
-        snprintf(error, error_bytes, "object '%s': a scale of zero or almost zero along an axis cannot be drawn",
-                 o->name);
-        return -1;
-    }
     if (quantise_affine(out, &o->to_world, shift, world_exp)) {
         snprintf(error, error_bytes, "object '%s': scale too large", o->name);
         return -1;
@@ -127,6 +111,7 @@ static int quantise_object(fixed_scene *f, size_t i, const scene *s, const mesh_
     if (o->baked && !out->baked_uq12) return quantise_no_memory(error, error_bytes);
     /* space as stored = true * 2^(pos_bits - pos_frac_bits): a mesh's fraction bits beyond 0..30 are the exponent's */
     const int shift = f->world_exp + out->mesh->pos_frac_bits - plan[o->mesh_idx].pos_bits;
+    f->shift[i] = shift;
     if (o->n_joints) out->skin = &f->skins[i];
     if (o->n_joints && quantise_skin(&f->skins[i], &s->meshes[o->mesh_idx], o, shift, f->world_exp, error, error_bytes))
         return -1;
@@ -226,7 +211,6 @@ static void quantise_shadow(gn_shadow_settings *out, const scene_shadow *shadow,
     out->cascade_fade_uq16 = (uint32_t)fixed(shadow->cascade_fade, 16);
     out->filter = (gn_filter)shadow->filter;
     out->other_filter = (gn_filter)shadow->other_filter;
-    out->kernel = (gn_kernel)shadow->kernel;
     out->penumbra_uq16 = (uint32_t)fixed(shadow->penumbra, 16);
     out->disk_samples = (uint32_t)shadow->disk_samples;
     out->mixing = (gn_mixing)shadow->mixing;
@@ -266,6 +250,7 @@ static int allocate(fixed_scene *f, const scene *s)
     f->meshes = calloc(s->n_meshes + 1, sizeof *f->meshes);
     f->objects = calloc(s->n_objects + 1, sizeof *f->objects);
     f->skins = calloc(s->n_objects + 1, sizeof *f->skins);
+    f->shift = calloc(s->n_objects + 1, sizeof *f->shift);
     f->lights = calloc(s->n_lights + 1, sizeof *f->lights);
     f->textures = calloc(s->n_textures + 1, sizeof *f->textures);
     f->fixed_fits = calloc((size_t)s->n_fixed_fits + 1, sizeof *f->fixed_fits);
@@ -275,7 +260,7 @@ static int allocate(fixed_scene *f, const scene *s)
     f->scene.lights = f->lights;
     f->scene.n_objects = (uint32_t)s->n_objects;
     f->scene.n_lights = (uint32_t)s->n_lights;
-    return f->meshes && f->objects && f->skins && f->lights && f->textures && f->fixed_fits ? 0 : -1;
+    return f->meshes && f->objects && f->skins && f->shift && f->lights && f->textures && f->fixed_fits ? 0 : -1;
 }
 
 int quantise_scene(fixed_scene *out, const scene *s, char *error, size_t error_bytes)
@@ -343,6 +328,7 @@ void quantise_free(fixed_scene *f)
     free(f->meshes);
     free(f->objects);
     free(f->skins);
+    free(f->shift);
     free(f->lights);
     free(f->textures);
     free(f->fixed_fits);

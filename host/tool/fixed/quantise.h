@@ -15,6 +15,7 @@ typedef struct {
     gn_object *objects;
     gn_skin *skins;    /* beside the objects; those of objects without joints are not used */
     bool shares_skins; /* their vertices' joints and weights are another's: quantise_reuse */
+    int *shift;        /* of each object: matrices of its transform, or of its joints, are the scene's times 2^shift */
     gn_light *lights;
     size_t n_textures;
     gn_texture *textures;

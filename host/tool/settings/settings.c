@@ -125,9 +125,27 @@ static const char *as_word(const char *key, const char *value)
     return strcmp(key, "auto_bias") == 0 && strcmp(value, "0") == 0 ? "off" : value;
 }
 
+/* Settings of earlier versions, and why they are gone. */
+static const char *why_gone(const char *key)
+{
+    static const char *const gone[][2] = {
+        {"tile_lights", "lists of lights per screen tile cost more than they saved"},
+        {"depth_blocks", "bounds of depth cost more than they saved, but for the disk filter, which always has them"},
+        {"linear_kernels", "3x3, 5x5 and 7x7 are tents, which are exact and cheaper"},
+        {"kernel", "3x3, 5x5 and 7x7 are tents, which are exact and cheaper"},
+    };
+    for (size_t i = 0; i < sizeof gone / sizeof *gone; i++)
+        if (strcmp(key, gone[i][0]) == 0) return gone[i][1];
+    return NULL;
+}
+
 static int unknown(const char *key, char *error, size_t error_bytes)
 {
     char question[80];
+    if (why_gone(key)) {
+        snprintf(error, error_bytes, "setting '%s' is gone: %s", key, why_gone(key));
+        return -1;
+    }
     nearest n = nearest_to(key);
     settings_near_knobs(&n);
     settings_near_scene(&n);
@@ -140,7 +158,8 @@ int settings_apply(settings *out, scene *s, const char *key, const char *value, 
 {
     scene_options ignored;
     int taken = settings_load_option(&ignored, key, value, error, error_bytes);
-    if (taken) return taken < 0 ? -1 : 0; /* done while loading */
+    if (taken) return taken < 0 ? -1 : 0;                                   /* done while loading */
+    if (strcmp(key, "kernel") == 0 && strcmp(value, "tent") == 0) return 0; /* of earlier files: what is built */
     if ((taken = apply_own(out, s, key, value, error, error_bytes))) return taken < 0 ? -1 : 0;
     const char *at = strchr(key, '@');
     if (at) return apply_to_light(out, s, key, at, value, error, error_bytes);

@@ -84,7 +84,7 @@ void settings_trim(settings *set, const scene *s);
 
 /* Makes the scene what a build with these features and capacities draws, for both engines alike: shadows, vertex
  * normals and vertex colours that are not built go. What a build would refuse (whatever settings_needs names, a picture
- * that does not fit) is refused: -1 with one line in error. depth_blocks, tile_lights, incremental and static_layer
+ * that does not fit) is refused: -1 with one line in error. incremental and static_layer
  * change no picture; raw_views and runtime_knobs are the host tool's own. Other capacities are known once a picture is
  * rendered: settings_suffice. */
 int settings_enforce(const settings *set, scene *s, int width, int height, char *error, size_t error_bytes);

@@ -106,6 +106,7 @@ void settings_init(settings *out)
     *out = defaults;
     for (size_t i = 0; i < groups[FEATURE].n; i++) *field(out, &feature_knobs[i]) = feature_knobs[i].hi;
     out->feature.static_layer = out->feature.raw_views = out->feature.runtime_knobs = 0; /* no picture needs these */
+    out->feature.caster_culling = 0;
     settings_preset(out, SETTINGS_BALANCED);
 }
 

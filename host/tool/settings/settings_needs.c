@@ -56,7 +56,6 @@ static void needs_of_shadows(need_list *list, const scene *s)
 {
     needs_of_filter(list, "filter", s->shadow.filter);
     needs_of_filter(list, "other_filter", s->shadow.other_filter);
-    if (s->shadow.kernel == SCENE_KERNEL_LINEAR) need(list, "linear_kernels", 1, "kernel linear");
     if (s->shadow.blend != SCENE_BLEND_HARD)
         need(list, "blended_cascades", 1, "cascade_blend %s", settings_blend_names[s->shadow.blend]);
     if (s->shadow.main_light) need(list, "main_light", 1, "main_light 1");

@@ -20,13 +20,13 @@ static long put(layout *l, long n, long size, long align)
     return n * size;
 }
 
-/* An atlas with its static layer and depth blocks */
+/* An atlas with its static layer, and bounds of depth for the disk filter */
 static long put_atlas(layout *l, const settings *s, long side, long texels, long depth_bits)
 {
     if (!texels) texels = side * side;
     long bytes = 0, layers = s->feature.static_layer ? 2 : 1;
     for (long i = 0; i < layers; i++) bytes += put(l, texels * depth_bits / 8, 1, 4);
-    if (s->feature.depth_blocks) bytes += put(l, texels / 64, 4, 2);
+    if (s->feature.disk_filter) bytes += put(l, texels / 64, 4, 2);
     return bytes;
 }
 
@@ -42,7 +42,7 @@ static void put_views(layout *l, const settings *s)
 {
     const long views = n_views(s);
     long view =
-        180 + (s->feature.depth_blocks ? 4 : 0) + (s->feature.auto_bias ? 8 : 0) + (s->feature.tight_fit ? 8 : 0);
+        180 + (s->feature.disk_filter ? 4 : 0) + (s->feature.auto_bias ? 8 : 0) + (s->feature.tight_fit ? 8 : 0);
     put(l, views, (view + 7) / 8 * 8, 8);
     if (s->feature.tight_fit) put(l, views, 56, 8); /* seen */
 }
@@ -176,7 +176,7 @@ static void put_work(layout *out, const settings *s)
     put(&surface, s->capacity.surface_lights, s->quality.vertex_light ? 44 : 36, 4);
     pad(&surface, surface.align);
     put(&all, 1, 40, 4);  /* frame to rows */
-    put(&all, 1, 136, 8); /* cache */
+    put(&all, 1, 128, 4); /* cache */
     put(&all, 1, surface.size, 8);
     put(&all, 8, 4, 4); /* tri to radiance_q20 */
     long incident = s->feature.punctual_lights ? s->capacity.surface_lights : 0;
@@ -208,6 +208,7 @@ static settings_ram_parts compact_ram(const settings *s)
     layout all = {0, 8};
     const long tile_px = (long)s->quality.tile_width * s->quality.tile_height, side = s->quality.atlas_size;
     put(&all, 1, 400, 8); /* scene to view */
+    r.objects = put(&all, s->capacity.max_objects, 1, 1);
     r.triangles = put(&all, s->capacity.max_triangles, 56, 4);
     r.atlas = put(&all, side * side, 2, 2);
     pad(&all, 8);
@@ -216,7 +217,7 @@ static settings_ram_parts compact_ram(const settings *s)
     put(&all, 1, 344, 4); /* work */
     pad(&all, 8);
     r.total = all.size;
-    r.rest = r.total - r.atlas - r.triangles - r.cells - r.pixels;
+    r.rest = r.total - r.atlas - r.objects - r.triangles - r.cells - r.pixels;
     return r;
 }
 
@@ -233,7 +234,7 @@ settings_ram_parts settings_ram(const settings *s)
     int punctual = s->feature.punctual_lights;
     const long groups = s->quality.triangle_groups;
     const int fits = s->feature.shadows && s->feature.tight_fit;
-    put(&frame, 1, (s->feature.orthographic ? 252 : 244) + (groups ? 4 : 0) + (fits ? 4 : 0), 8); /* scene to detail */
+    put(&frame, 1, (s->feature.orthographic ? 260 : 252) + (groups ? 4 : 0) + (fits ? 4 : 0), 8); /* scene to detail */
     if (s->feature.shadows) {
         put(&frame, 1, 8, 4);  /* n_cascades to frame_count */
         put(&frame, 4, 40, 8); /* cascade */
@@ -243,6 +244,7 @@ settings_ram_parts settings_ram(const settings *s)
     int boxes = punctual ||
                 (s->feature.shadows && (s->feature.object_boxes || s->feature.caster_culling || s->feature.tight_fit));
     r.objects = boxes ? put(&frame, s->capacity.max_objects, punctual ? 36 : 24, 4) : 0;
+    r.objects += put(&frame, s->capacity.max_objects, 1, 1); /* flags */
     r.triangles = put(&frame, groups ? 1 : s->capacity.max_triangles, wide_coordinates(s) ? 44 : 32, 4);
     r.tiles = put(&frame, tiles + 1, offset, offset);
     r.tile_refs = put(&frame, groups ? 1 : s->capacity.max_tile_refs, 2, 2);

@@ -9,7 +9,6 @@
 
 const char *const settings_filter_names[] = {"hard", "2x2", "3x3", "5x5", "7x7", "disk", NULL};
 const char *const settings_blend_names[] = {"hard", "soft", "dither", NULL};
-static const char *const kernel_names[] = {"tent", "linear", NULL};
 static const char *const distance_names[] = {"depth", "radius", NULL};
 static const char *const mixing_names[] = {"none", "always", "distance", NULL};
 static const char *const tiles_names[] = {"equal", "importance", "worth", NULL};
@@ -81,8 +80,6 @@ static const scene_knob scene_knobs[] = {
      "shadow filter of both atlases (F1-F4)"},
     {"other_filter", OF_SHADOW, WORD, offsetof(scene_shadow, other_filter), 0, 0, settings_filter_names,
      "of the local-light atlas alone; after filter"},
-    {"kernel", OF_SHADOW, WORD, offsetof(scene_shadow, kernel), 0, 0, kernel_names,
-     "weights of 3x3, 5x5 and 7x7 (F3, F6)"},
     {"cascade_blend", OF_SHADOW, WORD, offsetof(scene_shadow, blend), 0, 0, settings_blend_names,
      "from one cascade to the next (D7)"},
     {"distance_mode", OF_SHADOW, WORD, offsetof(scene_shadow, distance_mode), 0, 0, distance_names,

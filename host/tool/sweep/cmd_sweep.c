@@ -298,7 +298,7 @@ static int write_csv(const sweep *w, const char *path, char *error, size_t bytes
 /* Short enough for a plot: "tiny 3x3 64 cascades 4". */
 static void shorten(char *name)
 {
-    static const char *const drop[] = {"preset=", "filter=", "kernel=", "other_atlas_size=", "atlas_size=", "fit="};
+    static const char *const drop[] = {"preset=", "filter=", "other_atlas_size=", "atlas_size=", "fit="};
     static const char *const shrink[][2] = {
         {"other_depth_bits=", "o.depth "}, {"depth_bits=", "depth "},  {"cascades=", "casc. "},
         {"persp_step=", "step "},          {"subpixel_bits=", "sub "}, {"tile_width=", "tw "},

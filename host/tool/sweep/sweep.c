@@ -40,7 +40,7 @@ static bool same_but_schedule(const sweep_row *a, const sweep_row *b)
     return a->static_layer == b->static_layer && a->n_boxes == b->n_boxes && a->shadow.fit == b->shadow.fit &&
            a->shadow.tiles == b->shadow.tiles && memcmp(&a->quality, &b->quality, sizeof a->quality) == 0 &&
            a->shadow.filter == b->shadow.filter && a->shadow.other_filter == b->shadow.other_filter &&
-           a->shadow.kernel == b->shadow.kernel && a->shadow.n_cascades == b->shadow.n_cascades;
+           a->shadow.n_cascades == b->shadow.n_cascades;
 }
 
 /* Configurations that differ in nothing that is varied are one. */

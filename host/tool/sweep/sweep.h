@@ -10,7 +10,6 @@
 typedef enum {
     SWEEP_PRESET,
     SWEEP_FILTER,
-    SWEEP_KERNEL,
     SWEEP_ATLAS,
     SWEEP_OTHER_ATLAS,
     SWEEP_DEPTH_BITS,

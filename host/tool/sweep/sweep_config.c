@@ -11,7 +11,6 @@ static const struct {
 } knobs[SWEEP_KNOBS] = {
     [SWEEP_PRESET] = {"preset", NULL, {"tiny", "fast", "balanced", "accurate"}},
     [SWEEP_FILTER] = {"filter", "other_filter", {"hard", "2x2", "3x3", "5x5", "7x7", "disk"}},
-    [SWEEP_KERNEL] = {"kernel", NULL, {"tent", "linear"}},
     [SWEEP_ATLAS] = {"atlas_size", NULL, {"16", "32", "64", "128", "256", "512", "1024"}},
     [SWEEP_OTHER_ATLAS] = {"other_atlas_size", NULL, {"16", "32", "64", "128", "256", "512", "1024"}},
     [SWEEP_DEPTH_BITS] = {"depth_bits", NULL, {"8", "16", "32"}},
@@ -133,7 +132,6 @@ void sweep_find_levels(sweep_row *row)
     int *level = row->effective.level;
     level[SWEEP_PRESET] = -1;
     level[SWEEP_FILTER] = (int)row->shadow.filter;
-    level[SWEEP_KERNEL] = (int)row->shadow.kernel;
     level[SWEEP_ATLAS] = sweep_level_of_int(SWEEP_ATLAS, q->atlas_size);
     level[SWEEP_OTHER_ATLAS] = sweep_level_of_int(SWEEP_OTHER_ATLAS, q->other_atlas_size);
     level[SWEEP_DEPTH_BITS] = sweep_level_of_int(SWEEP_DEPTH_BITS, q->depth_bits);

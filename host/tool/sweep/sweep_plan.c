@@ -7,7 +7,7 @@
 static bool matters(const sweep *w, sweep_knob k)
 {
     bool shadows = w->directional || w->other;
-    if (k == SWEEP_FILTER || k == SWEEP_KERNEL || k == SWEEP_EDGE) return shadows;
+    if (k == SWEEP_FILTER || k == SWEEP_EDGE) return shadows;
     if (k == SWEEP_ATLAS || k == SWEEP_DEPTH_BITS || k == SWEEP_CASCADES) return w->directional;
     if (k == SWEEP_OTHER_ATLAS || k == SWEEP_OTHER_DEPTH_BITS) return w->other;
     if (k == SWEEP_FIT) return w->directional;
@@ -81,14 +81,11 @@ static void plan_one_at_a_time(sweep_plan *list, sweep_config base)
         {SWEEP_FIT, {"stable"}},
         {SWEEP_TILES, {"equal"}},
     };
-    static const char *const tents[] = {"3x3", "5x5", "7x7"};
     for (size_t i = 0; i < sizeof ones / sizeof *ones; i++) {
         if (ones[i].knob == SWEEP_TILES && list->w->single) continue;
         for (size_t l = 0; matters(list->w, ones[i].knob) && l < SWEEP_LEVELS_MAX && ones[i].levels[l]; l++)
             plan(list, with(base, ones[i].knob, ones[i].levels[l]));
     }
-    for (size_t i = 0; matters(list->w, SWEEP_KERNEL) && i < 3; i++)
-        plan(list, with(with(base, SWEEP_FILTER, tents[i]), SWEEP_KERNEL, "linear"));
 }
 
 /* The same atlas with tight fits and tiles by worth, and without: before the factorial, which may have these by another

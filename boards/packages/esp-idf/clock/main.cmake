@@ -1,1 +1,1 @@
-idf_component_register(SRCS "clock.c" "st7789.c" REQUIRES gnomon driver esp_lcd)
+idf_component_register(SRCS "clock.c" "st7789.c" REQUIRES driver esp_lcd)

@@ -1,6 +1,11 @@
 #include <Arduino.h>
 
-int main()
+HostSerial Serial;
+void (*hostWrite)(int, int);
+void (*hostWait)(unsigned long);
+unsigned long hostMillis;
+
+__attribute__((weak)) int main()
 {
     setup();
     return 0;

@@ -1,0 +1,4 @@
+#include <SPI.h>
+
+HostSPI SPI;
+void (*hostByte)(int);
