@@ -104,15 +104,15 @@ GN_HOT int gn_patch_begin(gn_shading *s, uint32_t id)
 /* ---- Rows of pixels ---------------------------------------------------------------------------------------------- */
 
 /* Adds a light that pixels ask for to n nodes from (x, y) of the picture on. */
-GN_HOT static void add_light_nodes(gn_shading *s, const gn_patch_light *light, const gn_patch_weights ends[2],
-                                   int32_t x, int32_t y, int32_t n)
+GN_HOT static void add_light_nodes(gn_shading *s, const gn_patch_light *light, const gn_patch_span *span, int32_t x,
+                                   int32_t y, int32_t n)
 {
     gn_patch *p = &s->lattice.from.patch;
-    gn_row_value e = gn_patch_row(&light->irradiance_q15, ends, n);
+    gn_row_value e = gn_patch_row(&light->irradiance_q15, span);
     const uint32_t r = light->colour[0], g = light->colour[1], b = light->colour[2], *attenuation = p->attenuation;
     const int32_t down = light->down;
     int32_t(*node)[3] = p->node_q24;
-    if (light->view) gn_patch_attenuation(s, light, ends, x, y, n);
+    if (light->view) gn_patch_attenuation(s, light, span, x, y, n);
     for (int32_t(*end)[3] = node + n; node < end; node++, attenuation++, e.at += e.step) {
         uint32_t irradiance = (uint32_t)gn_max32(0, gn_min32(e.at, 32767));
         if (light->view) irradiance = irradiance * (*attenuation >> 1) >> 15;
@@ -123,10 +123,10 @@ GN_HOT static void add_light_nodes(gn_shading *s, const gn_patch_light *light, c
 }
 
 /* Multiplies n nodes by the vertices' colours. */
-GN_HOT static void tint_nodes(gn_patch *p, const gn_patch_weights ends[2], int32_t n)
+GN_HOT static void tint_nodes(gn_patch *p, const gn_patch_span *span, int32_t n)
 {
     for (int c = 0; c < 3; c++) {
-        gn_row_value tint = gn_patch_row(&p->tint_q16[c], ends, n);
+        gn_row_value tint = gn_patch_row(&p->tint_q16[c], span);
         for (int32_t i = 0; i < n; i++, tint.at += tint.step)
             p->node_q24[i][c] = (int32_t)((int64_t)p->node_q24[i][c] * tint.at >> 16);
     }
@@ -134,9 +134,9 @@ GN_HOT static void tint_nodes(gn_patch *p, const gn_patch_weights ends[2], int32
 
 #if GN_TEXTURES
 /* Texels of a row. */
-GN_HOT static void find_row_texels(gn_patch *p, const gn_patch_weights ends[2], int32_t n)
+GN_HOT static void find_row_texels(gn_patch *p, const gn_patch_span *span, int32_t n)
 {
-    const gn_row_value u = gn_patch_row(&p->texel_q17[0], ends, n), v = gn_patch_row(&p->texel_q17[1], ends, n);
+    const gn_row_value u = gn_patch_row(&p->texel_q17[0], span), v = gn_patch_row(&p->texel_q17[1], span);
     const gn_texture_line texels = {{u.at, v.at}, {u.step, v.step}, {0, 0}};
     gn_texture_row(p->texture, &texels, (1U << n) - 1, p->texel);
 }
@@ -151,33 +151,33 @@ GN_HOT static uint32_t nodes_beyond(const int32_t (*node)[3], int32_t n)
 }
 
 /* Textured pixels under linear light: two nodes, 16 pixels apart, of which the second may lie beyond 32 bits. */
-GN_HOT static void draw_textured(gn_shading *s, const int32_t from[3], const int32_t step[3],
-                                 const gn_patch_weights ends[2], int32_t x, int32_t y, int32_t n)
+GN_HOT static void draw_textured(gn_shading *s, const int32_t from[3], const int32_t step[3], const gn_patch_span *span,
+                                 int32_t x, int32_t y, int32_t n)
 {
     gn_patch *p = &s->lattice.from.patch;
     gn_pixel_line line = {.node = (const int32_t(*)[3])p->node_q24, .spacing_log2 = 4, .texel = p->texel};
     for (int c = 0; c < 3; c++) p->node_q24[0][c] = from[c], p->node_q24[1][c] = from[c] + step[c] * (n - 1);
     line.inside = !(nodes_beyond(line.node, 2) >> 24);
     for (int c = 0; c < 3; c++) p->node_q24[1][c] = (int32_t)((uint32_t)from[c] + 16U * (uint32_t)step[c]);
-    find_row_texels(p, ends, n);
+    find_row_texels(p, span, n);
     gn_pixel_store_line(s->frame, &s->rows, x, y, (1U << n) - 1, &line);
 }
 #endif
 
 /* Pixels that are not linear, a node each. */
 GN_HOT static void draw_patch_nodes(gn_shading *s, const int32_t from[3], const int32_t step[3],
-                                    const gn_patch_weights ends[2], int32_t x, int32_t y, int32_t n)
+                                    const gn_patch_span *span, int32_t x, int32_t y, int32_t n)
 {
     gn_patch *p = &s->lattice.from.patch;
     gn_pixel_line line = {.node = (const int32_t(*)[3])p->node_q24};
     int32_t r = from[0], g = from[1], b = from[2], (*node)[3] = p->node_q24;
     for (int32_t(*end)[3] = node + n; node < end; node++, r += step[0], g += step[1], b += step[2])
         (*node)[0] = r, (*node)[1] = g, (*node)[2] = b;
-    for (int32_t i = 0; i < p->n_lights; i++) add_light_nodes(s, &p->light[i], ends, x, y, n);
-    if (p->tinted) tint_nodes(p, ends, n);
+    for (int32_t i = 0; i < p->n_lights; i++) add_light_nodes(s, &p->light[i], span, x, y, n);
+    if (p->tinted) tint_nodes(p, span, n);
 #if GN_TEXTURES
     if (p->textured) {
-        find_row_texels(p, ends, n);
+        find_row_texels(p, span, n);
         line.texel = p->texel;
         line.inside = !(nodes_beyond(line.node, n) >> 24);
     }
@@ -185,22 +185,19 @@ GN_HOT static void draw_patch_nodes(gn_shading *s, const int32_t from[3], const 
     gn_pixel_store_line(s->frame, &s->rows, x, y, (1U << n) - 1, &line);
 }
 
-GN_HOT static void draw_patch_row(gn_shading *s, int32_t x, int32_t y, int32_t n)
+GN_HOT static void draw_patch_row(gn_shading *s, const gn_patch_span *span, int32_t x, int32_t y, int32_t n)
 {
     gn_patch *p = &s->lattice.from.patch;
-    gn_patch_weights ends[2];
     int32_t from[3], step[3] = {0, 0, 0};
-    ends[0] = gn_record_weights(&p->record, s->frame, x, y);
-    if (n > 1) ends[1] = gn_record_weights(&p->record, s->frame, x + n - 1, y);
     for (int c = 0; c < 3; c++) {
         from[c] = p->colour_q24[c][0];
         if (!p->graded) continue;
-        const gn_row_value row = gn_patch_row(&p->colour[c], ends, n);
+        const gn_row_value row = gn_patch_row(&p->colour[c], span);
         from[c] = row.at, step[c] = row.step;
     }
-    if (p->n_lights | p->tinted) draw_patch_nodes(s, from, step, ends, x, y, n);
+    if (p->n_lights | p->tinted) draw_patch_nodes(s, from, step, span, x, y, n);
 #if GN_TEXTURES
-    else if (p->textured) draw_textured(s, from, step, ends, x, y, n);
+    else if (p->textured) draw_textured(s, from, step, span, x, y, n);
 #endif
     else gn_pixel_store_run(s->frame, &s->rows, x, y, n, from, step);
 }
@@ -210,6 +207,7 @@ GN_HOT void gn_patch_draw(gn_shading *s, gn_run_taker *taker)
     const uint32_t stride = (uint32_t)GN_K(s->frame, tile_width);
     gn_patch *p = &s->lattice.from.patch;
     uint32_t packed = 0, q20[3];
+    gn_patch_span span;
     const int raw = GN_RAW_VIEWS && s->frame->picture.format == GN_FORMAT_RAW32;
     for (int c = 0; c < 3; c++) q20[c] = (uint32_t)gn_max32(p->colour_q24[c][0], 0) >> 4;
     if (!p->varies && !raw) packed = gn_exact_pack(s, q20);
@@ -222,8 +220,9 @@ GN_HOT void gn_patch_draw(gn_shading *s, gn_run_taker *taker)
             gn_pixel_fill(s->frame, &s->rows, x, y, left, packed);
             continue;
         }
-        for (; left > 0; left -= GN_PATCH_ROW_PX, x += GN_PATCH_ROW_PX)
-            draw_patch_row(s, x, y, gn_min32(left, GN_PATCH_ROW_PX));
+        gn_record_span(&p->record, s->frame, x, y, left, &span);
+        for (; left > 0; left -= GN_PATCH_ROW_PX, x += GN_PATCH_ROW_PX, span.at += GN_PATCH_ROW_PX)
+            draw_patch_row(s, &span, x, y, gn_min32(left, GN_PATCH_ROW_PX));
     } while (gn_runs_take(taker, stride));
 }
 

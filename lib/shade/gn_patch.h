@@ -37,8 +37,8 @@ void gn_patch_begin_reach(gn_shading *s);
 const int32_t *gn_patch_face(gn_shading *s);
 
 /* Attenuation of n pixels of a row, into patch.attenuation. */
-void gn_patch_attenuation(gn_shading *s, const gn_patch_light *light, const gn_patch_weights ends[2], int32_t x,
-                          int32_t y, int32_t n);
+void gn_patch_attenuation(gn_shading *s, const gn_patch_light *light, const gn_patch_span *span, int32_t x, int32_t y,
+                          int32_t n);
 
 #if GN_TEXTURES
 /* The level of the texture and its coordinates. Returns 0 if they do not fit. */

@@ -307,10 +307,10 @@ GN_HOT static void attenuation_by_words(gn_patch *p, const gn_patch_light *light
 }
 
 /* The same by the filter. */
-GN_HOT static void attenuation_by_filter(gn_shading *s, const gn_patch_light *light, const gn_patch_weights ends[2],
+GN_HOT static void attenuation_by_filter(gn_shading *s, const gn_patch_light *light, const gn_patch_span *span,
                                          gn_receiver *r, int32_t u_step, int32_t v_step, int32_t n)
 {
-    gn_row_value depth = gn_patch_row(&light->depth_q30, ends, n);
+    gn_row_value depth = gn_patch_row(&light->depth_q30, span);
     for (uint32_t *out = s->lattice.from.patch.attenuation, *end = out + n; out < end; out++, depth.at += depth.step) {
         r->depth_q32 = (uint32_t)gn_max32(0, gn_min32(depth.at, (1 << 30) - 1)) << 2;
         *out = gn_filter_attenuation(s->frame, light->view, r);
@@ -320,19 +320,19 @@ GN_HOT static void attenuation_by_filter(gn_shading *s, const gn_patch_light *li
     }
 }
 
-GN_HOT void gn_patch_attenuation(gn_shading *s, const gn_patch_light *light, const gn_patch_weights ends[2], int32_t x,
+GN_HOT void gn_patch_attenuation(gn_shading *s, const gn_patch_light *light, const gn_patch_span *span, int32_t x,
                                  int32_t y, int32_t n)
 {
-    const gn_row_value u = gn_patch_row(&light->u_q16, ends, n), v = gn_patch_row(&light->v_q16, ends, n);
+    const gn_row_value u = gn_patch_row(&light->u_q16, span), v = gn_patch_row(&light->v_q16, span);
     uint32_t *out = s->lattice.from.patch.attenuation;
     GN_COUNT(edge_lookups, n);
     if (light->has_words) attenuation_by_words(&s->lattice.from.patch, light, u, v, n);
     else {
         gn_receiver r = {u.at, v.at, 0, {0, 0}, x, y};
-        attenuation_by_filter(s, light, ends, &r, u.step, v.step, n);
+        attenuation_by_filter(s, light, span, &r, u.step, v.step, n);
     }
     if (!light->fades) return;
-    gn_row_value strength = gn_patch_row(&light->strength_q16, ends, n);
+    gn_row_value strength = gn_patch_row(&light->strength_q16, span);
     for (int32_t i = 0; i < n; i++, strength.at += strength.step)
         out[i] = 65536U - gn_mul_uq16(65536U - out[i], (uint32_t)gn_max32(0, gn_min32(strength.at, 65536)));
 }
@@ -348,10 +348,10 @@ GN_HOT int gn_patch_find_shadow(gn_shading *s, uint32_t light_idx, gn_patch_ligh
     return GN_SHADOWS && gn_shadow_is_realtime(&s->frame->light[light_idx], 65536) ? GN_PATCH_UNEVEN : GN_PATCH_LIT;
 }
 
-GN_HOT void gn_patch_attenuation(gn_shading *s, const gn_patch_light *light, const gn_patch_weights ends[2], int32_t x,
+GN_HOT void gn_patch_attenuation(gn_shading *s, const gn_patch_light *light, const gn_patch_span *span, int32_t x,
                                  int32_t y, int32_t n)
 {
-    (void)light, (void)ends, (void)x, (void)y;
+    (void)light, (void)span, (void)x, (void)y;
     for (int32_t i = 0; i < n; i++) s->lattice.from.patch.attenuation[i] = 65536;
 }
 #endif

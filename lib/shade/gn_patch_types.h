@@ -8,12 +8,23 @@
 
 #if GN_INTERPOLATES
 
-enum { GN_PATCH_PX = 32 /* the largest box, each way */, GN_PATCH_ROW_PX = 16 /* pixels that are drawn at a time */ };
+enum {
+    GN_PATCH_PX = 32 /* the largest box, each way */,
+    GN_PATCH_ROW_PX = 16 /* pixels that are drawn at a time */,
+    GN_PATCH_COVERS = GN_PATCH_PX + 2 /* pixels of a row at most */
+};
 
 /* Pixels are interpolated with weights of the corners 1 and 2, Q15, at least 0 and at most 1 in all. */
 typedef struct {
     int32_t of[2];
 } gn_patch_weights;
+
+/* A row of a triangle: weights at the first and the last pixel whose centre it covers, n from the one to the other.
+ * They do not depend on what is visible. `at`: the first pixel that is drawn. */
+typedef struct {
+    gn_patch_weights ends[2];
+    int32_t n, at;
+} gn_patch_span;
 
 /* Linear over the triangle: the value at corner 0, and what it changes by to corners 1 and 2, in units of 2^shift,
  * within +-2^15. */

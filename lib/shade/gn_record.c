@@ -9,10 +9,9 @@
 
 #if GN_INTERPOLATES
 
-#define PART(n) (0xFFFFFFFFU / (n))
-const uint32_t gn_patch_parts_q32[GN_PATCH_ROW_PX] = {0,        PART(1),  PART(2),  PART(3), PART(4),  PART(5),
-                                                      PART(6),  PART(7),  PART(8),  PART(9), PART(10), PART(11),
-                                                      PART(12), PART(13), PART(14), PART(15)};
+#define PARTS_(n) 0x7FFFFFFF / (n), 0x7FFFFFFF / ((n) + 1), 0x7FFFFFFF / ((n) + 2), 0x7FFFFFFF / ((n) + 3)
+const int32_t gn_patch_parts_q31[GN_PATCH_COVERS] = {0,          PARTS_(1),  PARTS_(5),  PARTS_(9),  PARTS_(13),
+                                                     PARTS_(17), PARTS_(21), PARTS_(25), PARTS_(29), 0x7FFFFFFF / 33};
 
 /* 2^47 / m of m in 2^31 .. 2^32, 15 to 16 bits: relative error below 2^-14.9, never more than 2^16 - 1. */
 GN_HOT static inline uint32_t recip_16(uint32_t m)
@@ -122,7 +121,8 @@ GN_HOT int gn_record_places(const gn_patch_record *r, const gn_frame *frame, con
 {
     const int32_t bits = GN_K(frame, subpixel_bits), up = 32 - ray_shift - r->z_up, most = 1 << 29;
     const int32_t px = 2 * r->x0 + 1 - frame->picture.width, py = frame->picture.height - 1 - 2 * r->y0;
-    /* rays are of half pixels, and their sums below 2^31: those of corners from that of the record's pixel, modulo 2^32 */
+    /* rays are of half pixels, and their sums below 2^31: those of corners from that of the record's pixel, modulo 2^32
+     */
     const uint32_t ray = (uint32_t)plane->a0 + (uint32_t)plane->ax * (uint32_t)px + (uint32_t)plane->ay * (uint32_t)py;
     const uint32_t right = (uint32_t)(plane->ax >> (bits - 1)), below = 0U - (uint32_t)(plane->ay >> (bits - 1));
     const uint32_t from = ray - right * (uint32_t)r->off[0] - below * (uint32_t)r->off[1];
@@ -209,6 +209,23 @@ GN_HOT gn_patch_weights gn_record_weights(const gn_patch_record *r, const gn_fra
     w.of[0] = (int32_t)(w1 * recip >> (32 - clz));
     w.of[1] = (int32_t)(w2 * recip >> (32 - clz));
     return w;
+}
+
+GN_HOT void gn_record_span(const gn_patch_record *r, const gn_frame *frame, int32_t x, int32_t y, int32_t n,
+                           gn_patch_span *out)
+{
+    const int32_t bits = GN_K(frame, subpixel_bits), one = 1 << bits, qx = (x - r->x0) * one + r->off[0],
+                  qy = (y - r->y0) * one + r->off[1];
+    /* edge functions, the area in all, and their steps to the right */
+    int32_t e1 = r->b[0] * qy - r->b[1] * qx, e2 = r->a[1] * qx - r->a[0] * qy, e0 = (int32_t)r->area - e1 - e2;
+    const int32_t d1 = -r->b[1] * one, d2 = r->a[1] * one, d0 = -d1 - d2;
+    int32_t k1 = e1 + (n - 1) * d1, k2 = e2 + (n - 1) * d2, k0 = e0 + (n - 1) * d0, first = x, last = x + n - 1;
+    while ((e0 -= d0, e1 -= d1, e2 -= d2, e0 | e1 | e2) >= 0) first--;
+    while ((k0 += d0, k1 += d1, k2 += d2, k0 | k1 | k2) >= 0) last++;
+    out->n = last - first + 1;
+    out->at = x - first;
+    out->ends[0] = gn_record_weights(r, frame, first, y);
+    if (out->n > 1) out->ends[1] = gn_record_weights(r, frame, last, y);
 }
 
 #endif

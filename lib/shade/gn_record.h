@@ -34,6 +34,10 @@ int gn_record_places(const gn_patch_record *r, const gn_frame *frame, const gn_r
 /* The weights at the centre of pixel (x, y), which the triangle covers. */
 gn_patch_weights gn_record_weights(const gn_patch_record *r, const gn_frame *frame, int32_t x, int32_t y);
 
+/* The row of n pixels from (x, y) on, all of which it covers. */
+void gn_record_span(const gn_patch_record *r, const gn_frame *frame, int32_t x, int32_t y, int32_t n,
+                    gn_patch_span *out);
+
 /* floor(log2 of how many texels there are to a pixel where it is stretched most): twice the triangle's area in texels
  * is texels * 2^log2. */
 int32_t gn_record_level2(const gn_patch_record *r, const gn_frame *frame, const int32_t view_q14[3], uint64_t texels,
@@ -57,16 +61,17 @@ GN_HOT static inline int32_t gn_patch_at(const gn_patch_value *v, gn_patch_weigh
     return v->at + ((w.of[0] * v->to[0] + w.of[1] * v->to[1]) >> 15) * (1 << v->shift); /* 2^15 * 2^15 */
 }
 
-/* 2^32 / n, rounded down */
-extern const uint32_t gn_patch_parts_q32[GN_PATCH_ROW_PX];
+/* 2^31 / n, rounded down */
+extern const int32_t gn_patch_parts_q31[GN_PATCH_COVERS];
 
-/* Along n pixels of a row, from its first to its last. */
-GN_HOT static inline gn_row_value gn_patch_row(const gn_patch_value *v, const gn_patch_weights ends[2], int32_t n)
+/* Along a row, from the first pixel that is drawn on. */
+GN_HOT static inline gn_row_value gn_patch_row(const gn_patch_value *v, const gn_patch_span *span)
 {
-    gn_row_value row = {gn_patch_at(v, ends[0]), 0};
-    if (n < 2) return row;
-    const int32_t change = gn_patch_at(v, ends[1]) - row.at;
-    row.step = n == 2 ? change : gn_mul_high(change, (int32_t)(gn_patch_parts_q32[n - 1] >> 1)) * 2;
+    gn_row_value row = {gn_patch_at(v, span->ends[0]), 0};
+    if (span->n < 2) return row;
+    const int32_t change = gn_patch_at(v, span->ends[1]) - row.at;
+    row.step = span->n == 2 ? change : gn_mul_high(change, gn_patch_parts_q31[span->n - 1]) * 2;
+    row.at += row.step * span->at;
     return row;
 }
 

@@ -360,9 +360,10 @@ static void test_values(void)
 {
     tally at = {0}, row = {0};
     for (int i = 0; i < 10 * CASES; i++) {
-        const int32_t most = rng_range(&random_state, 0, 29), n = rng_range(&random_state, 1, GN_PATCH_ROW_PX),
+        const int32_t most = rng_range(&random_state, 0, 29), n = rng_range(&random_state, 1, GN_PATCH_COVERS - 1),
                       v0 = any_value(most), v1 = any_value(most), v2 = any_value(most);
-        const gn_patch_weights ends[2] = {any_weights(), any_weights()};
+        gn_patch_span span = {{any_weights(), any_weights()}, n, 0};
+        const gn_patch_weights *ends = span.ends;
         gn_patch_value value;
         gn_patch_set(&value, v0, v1, v2);
         const double unit = fmax(1, fmax(fabs((double)v1 - v0), fabs((double)v2 - v0)) / 16384),
@@ -370,9 +371,12 @@ static void test_values(void)
         /* differences of 15 bits and a sign lose less than a unit each, times weights; the sum another */
         const double e = gn_patch_at(&value, ends[0]) - exact;
         HOLDS(&at, e <= 0 && e > -2 * unit, "%d, %d, %d: off by %g", (int)v0, (int)v1, (int)v2, e);
-        const gn_row_value got = gn_patch_row(&value, ends, n);
+        const gn_row_value got = gn_patch_row(&value, &span);
         const double first = gn_patch_at(&value, ends[0]), change = gn_patch_at(&value, ends[1]) - first;
         HOLDS(&row, got.at == first, "a row begins with %d, not %g", (int)got.at, first);
+        span.at = n / 2;
+        HOLDS(&row, gn_patch_row(&value, &span).at == got.at + got.step * span.at,
+              "pixel %d of %d differs where a run begins", (int)span.at, (int)n);
         /* a step is even and rounded down: 2 for each; the part of a row is off by n / 2^30 */
         for (int k = 1; k < n; k++)
             HOLDS(&row,

@@ -46,8 +46,8 @@ COST(cells_split, 1760) /* cell that is split */
 COST(cells_judged, 1840) /* cell whose shadow bounds of depth are asked for */
 COST(cells_plain, 0) /* cell of one colour */
 COST(cells_drawn, 1.11e+04) /* cell of several colours */
-COST(patches, 900) /* small triangle that is shaded from its record */
-COST(patch_pixels, 60) /* pixel of one */
+COST(patches, 2500) /* small triangle that is shaded from its record */
+COST(patch_pixels, 190) /* pixel of one */
 COST(parts, 4277) /* part of a surface of one colour */
 COST(windows, 0) /* window of texels for several cells */
 COST(window_texels, 15.95) /* texel compared with a plane */
