@@ -142,7 +142,7 @@ typedef struct {
 /* Rotations are exact to 8 units of Q1.30. Results are rounded to nearest; translations saturate at the Q15.16 range.
  * Products of many rotations drift by about one unit each: turn by absolute angles, or orthonormalise now and then. */
 void gn_affine_identity(gn_affine *out);
-/* Y, then X, then Z */
+/* Ry * Rx * Rz: roll acts first, yaw last. */
 void gn_affine_rotation(gn_affine *out, uint16_t yaw_turn, uint16_t pitch_turn, uint16_t roll_turn);
 void gn_affine_scale(gn_affine *inout, int32_t scale_q16); /* object space, |scale| < 8192; negative: mirrors */
 void gn_affine_mul(gn_affine *out, const gn_affine *a, const gn_affine *b); /* out = a * b; out may be a or b */
@@ -151,7 +151,8 @@ void gn_affine_orthonormalise(gn_affine *inout);
 /* +Y up. Eye and target must differ: else *out is no rotation, and gn_begin refuses it (GN_ERR_CAMERA_TRANSFORM). */
 void gn_camera_look_at(gn_affine *out, const int32_t eye_q16[3], const int32_t target_q16[3]);
 uint32_t gn_focal_from_fov_q24(uint16_t vertical_fov_turn); /* 1 / tan(fov / 2), Q8.24, saturates */
-int32_t gn_sin_q30(uint16_t angle_turn);                    /* |error| <= 2 LSB */
+/* |error| <= 2 LSB. Times a radius r_q16: (int32_t)((int64_t)gn_sin_q30(a) * r_q16 >> 30). */
+int32_t gn_sin_q30(uint16_t angle_turn);
 int32_t gn_cos_q30(uint16_t angle_turn);
 
 /* ---- Scene: described by the caller ------------------------------------------------------------------------------
@@ -340,6 +341,8 @@ typedef struct {
 } gn_panel;
 gn_status gn_screen_tile_if_changed(const gn_frame *frame, gn_scratch *scratch, uint32_t tile_idx, gn_panel *panel,
                                     gn_flush_fn flush, void *user, uint32_t *flushed);
+/* A whole frame like that. *n_flushed counts flushed tiles; n_flushed may be NULL. What draw_behind and draw_over draw
+ * counts as pixels. */
 gn_status gn_render_changes(gn_renderer *r, const gn_scene *scene, gn_panel *panel, gn_flush_fn flush, void *user,
                             uint32_t *n_flushed);
 

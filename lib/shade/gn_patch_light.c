@@ -107,7 +107,7 @@ GN_HOT static GN_NOINLINE void make_patch_joint(const gn_shading *s, const gn_af
         const int32_t *row = of->to_world_q30[k / 3];
         int64_t sum = 0;
         for (int i = 0; i < 3; i++) sum += (int64_t)row[i] * posed[i][k % 3];
-        out->m_q14[k] = (int16_t)gn_clamp64(gn_shr64(sum, 46), -16384, 16384);
+        out->m_q14[k] = (int16_t)gn_clamp64(gn_shr64(sum, 47), -32767, 32767);
     }
 }
 
@@ -123,7 +123,10 @@ GN_HOT static void turn_by_joints(gn_shading *s, uint32_t vertex_idx, const int3
             make_patch_joint(s, &of.joint[idx], joint);
             joint->tag = (uint16_t)(idx + 1);
         }
-        add_turned(out, joint->m_q14, n, of.weight_u8[i]);
+        int32_t one[3] = {0, 0, 0};
+        add_turned(one, joint->m_q14, n, 1);
+        gn_patch_unit(one);
+        for (int k = 0; k < 3; k++) out[k] += one[k] * of.weight_u8[i];
     }
 }
 #endif
@@ -243,7 +246,8 @@ GN_HOT static int lamp_irradiance(gn_shading *s, const gn_light_state *light, co
         if (facing <= 0 || !gn_punctual_at(s->frame, light, from[k], &point)) continue;
         GN_COUNT(lights_punctual, 1);
         const int32_t cosine = gn_punctual_cosine_q30(&point, (int32_t)gn_clamp64(facing, 0, INT32_MAX));
-        e_q24[k] = gn_min32((int32_t)gn_punctual_irradiance_q24(&point, cosine), 1 << 27);
+        e_q24[k] = (int32_t)gn_punctual_irradiance_q24(&point, cosine);
+        if (e_q24[k] > 1 << 27) return 0;
     }
     return lamp_is_even((const int32_t(*)[3])from, e_q24);
 }

@@ -32,13 +32,16 @@ GN_HOT void gn_patch_begin_reach(gn_shading *s)
     uint64_t most = 1;
     for (int32_t i = 0; i < GN_N_CASCADES(s->frame); i++)
         if (s->frame->cascade[i].radius2_q32 > most) most = s->frame->cascade[i].radius2_q32;
+    shared->coarse = 0;
     shared->sphere_down = gn_max32((65 - gn_clz64(most)) / 2 - 15, 0);
     for (int32_t i = 0; i < GN_N_CASCADES(s->frame); i++) {
         const gn_cascade_state *c = &s->frame->cascade[i];
         gn_patch_sphere *sphere = &shared->sphere[i];
         sphere->centre = c->centre_q16 >> shared->sphere_down;
         sphere->radius2 = (uint32_t)(c->radius2_q32 >> 2 * shared->sphere_down);
-        sphere->inner2 = (uint32_t)(c->inner2_q32 >> 2 * shared->sphere_down);
+        sphere->inner2 =
+            c->radius2_q32 ? (uint32_t)(c->inner2_q32 >> 2 * shared->sphere_down) : 0; /* else of any frame */
+        shared->coarse |= c->radius2_q32 && sphere->radius2 >> 20 == 0; /* 10 bits: beside a far larger one */
         sphere->per_fade = 0xFFFFFFFFU / (sphere->radius2 - sphere->inner2 + 1);
     }
 }
@@ -51,7 +54,7 @@ GN_HOT static int32_t cascade_of_corner(const gn_shading *s, int k, uint32_t *fa
     const gn_tri *tri = p->record.tri;
     const int32_t bits = GN_K(frame, subpixel_bits) - 1, x = tri->x[k] >> bits, y = tri->y[k] >> bits; /* half pixels */
     const uint32_t z = (uint32_t)gn_record_depth(&p->record, k) >> p->shared->sphere_down;
-    const uint32_t tan2_q24 = (uint32_t)((uint64_t)(uint32_t)(x * x + y * y) * (uint32_t)frame->tan2_per_px2_q44 >> 20);
+    const uint32_t tan2_q24 = (uint32_t)((uint64_t)(uint32_t)(x * x + y * y) * (uint64_t)frame->tan2_per_px2_q44 >> 20);
     const uint64_t across = ((uint64_t)z * z >> 8) * tan2_q24 >> 16; /* 2^34 * 2^26, see find_patch_reach() */
     for (int32_t i = 0; i < GN_N_CASCADES(frame); i++) {
         const gn_patch_sphere *c = &p->shared->sphere[i];
@@ -83,6 +86,7 @@ GN_HOT static int find_patch_reach(gn_shading *s)
     const int blends = GN_BLENDED_CASCADES && frame->scene->shadow.blend != GN_BLEND_HARD;
     if (p->reach != GN_REACH_UNKNOWN) return p->reach == GN_REACH_EVEN;
     p->reach = GN_REACH_UNEVEN;
+    if (p->shared->coarse) return 0;
     if (frame->scene->shadow.distance_mode == GN_DISTANCE_RADIUS || frame->tan2_q24 >> 26) return 0; /* tan < 2 */
     gn_record_find_depths(&p->record, frame);
     p->cascade = 0;
@@ -122,6 +126,7 @@ GN_HOT static int place_in_ortho(gn_shading *s, const gn_light_view *view, gn_au
     gn_bias_auto_face(view, form, gn_patch_face(s), face);
     gn_bias_auto_ortho(view, form, face, offset);
     if (offset[2] <= -TOO_FAR) return GN_PATCH_LIT;
+    if ((gn_abs32(offset[0]) | gn_abs32(offset[1]) | gn_abs32(offset[2])) >> 29) return GN_PATCH_UNEVEN;
     if (!gn_record_places(&s->lattice.from.patch.record, s->frame, &fit->ray[0], fit->ray_shift, out->u) ||
         !gn_record_places(&s->lattice.from.patch.record, s->frame, &fit->ray[1], fit->ray_shift, out->v) ||
         !gn_record_places(&s->lattice.from.patch.record, s->frame, &fit->ray[2], fit->ray_shift, out->depth))
@@ -247,10 +252,11 @@ GN_HOT int gn_patch_find_shadow(gn_shading *s, uint32_t light_idx, gn_patch_ligh
     const gn_frame *frame = s->frame;
     const gn_light_state *state = &frame->light[light_idx];
     gn_patch *p = &s->lattice.from.patch;
-    const gn_light_view *view = &frame->view[state->view_idx];
+    const gn_light_view *view;
     uint32_t k[3], any = 0;
     patch_places at;
     if (!gn_shadow_is_realtime(state, 65536)) return GN_PATCH_LIT;
+    view = &frame->view[state->view_idx];
     if (!state->auto_bias || gn_shadow_has_plane(frame, view) || !find_patch_reach(s)) return GN_PATCH_UNEVEN;
     for (int i = 0; i < 3; i++) any |= k[i] = gn_mul_uq16(state->strength_uq16, p->strength_uq16[i]);
     if (!any) return GN_PATCH_LIT;

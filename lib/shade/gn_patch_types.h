@@ -124,6 +124,7 @@ typedef struct {
 #endif
 #if GN_SHADOWS && GN_AUTO_BIAS
     int32_t sphere_down;
+    int32_t coarse; /* some sphere has too few bits */
     gn_patch_sphere sphere[4];
 #endif
 } gn_patch_shared;

@@ -32,8 +32,7 @@ GN_HOT static inline uint32_t nearness_at(const gn_tri *tri, int32_t x, int32_t 
 {
     const int32_t one = 1 << bits, part_x = x & (one - 1), part_y = y & (one - 1);
     const uint32_t whole = (uint32_t)tri->iz_dx * (uint32_t)(x >> bits) + (uint32_t)tri->iz_dy * (uint32_t)(y >> bits);
-    const int32_t dx = tri->iz_dx >> bits, dy = tri->iz_dy >> bits;
-    return tri->iz_ref + whole + (uint32_t)(dx * part_x) + (uint32_t)(dy * part_y);
+    return tri->iz_ref + whole + (uint32_t)(((int64_t)tri->iz_dx * part_x + (int64_t)tri->iz_dy * part_y) >> bits);
 }
 
 static const uint8_t vertex_of[7][3] = {{0, 1, 2}, {0, 1, 2}, {1, 2, 0}, {2, 0, 1}, {0, 2, 1}, {2, 1, 0}, {1, 0, 2}};
@@ -70,6 +69,7 @@ GN_HOT int gn_record_begin(gn_patch_record *r, const gn_frame *frame, const gn_t
     const int32_t bits = GN_K(frame, subpixel_bits), one = 1 << bits;
     const int32_t x0 = tri->x[0], y0 = tri->y[0];
     if (order == GN_TRI_CUT || order == GN_TRI_STEEP || gn_tri_is_bounded(tri)) return 0;
+    if (frame->picture.width < 64 || frame->picture.height < 64) return 0; /* rays beyond the picture may not fit */
     const int32_t ax = tri->x[1] - x0, ay = tri->y[1] - y0, bx = tri->x[2] - x0, by = tri->y[2] - y0;
     const int32_t w = gn_max32(gn_max32(ax, bx), 0) - gn_min32(gn_min32(ax, bx), 0),
                   h = gn_max32(ay, by); /* 0 is top */
@@ -134,7 +134,7 @@ GN_HOT int gn_record_places(const gn_patch_record *r, const gn_frame *frame, con
     for (int k = 0; k < 3; k++) {
         const int32_t v = gn_mul_high(r->z[k], (int32_t)at[k]); /* 2^29 */
         any |= gn_abs32(v);
-        out_q16[k] = record_scaled(v, up) + (int32_t)plane->d_q16;
+        out_q16[k] = (int32_t)((uint32_t)record_scaled(v, up) + (uint32_t)(int32_t)plane->d_q16);
     }
     return up <= 0 || (up < 29 && !(any >> (29 - up)));
 }
@@ -161,7 +161,9 @@ GN_HOT void gn_record_face(const gn_patch_record *r, const gn_frame *frame, int3
     const int32_t x = 2 * r->x0 + 1 - frame->picture.width, y = 2 * r->y0 + 1 - frame->picture.height;
     out[0] = -((int64_t)tri->iz_dx * focal); /* 2^62 */
     out[1] = (int64_t)tri->iz_dy * focal;
-    out[2] = ((int64_t)tri->iz_dx * x + (int64_t)tri->iz_dy * y - (int64_t)tri->iz_ref * 2) * 32768;
+    /* its bits above 32 are those of corner 0 */
+    const int64_t iz = (int64_t)r->iz_q32[0] + (int32_t)(tri->iz_ref - r->iz_q32[0]);
+    out[2] = ((int64_t)tri->iz_dx * x + (int64_t)tri->iz_dy * y - iz * 2) * 32768;
     const uint32_t any = (uint32_t)(out[0] >> 32 ^ out[0] >> 63) | (uint32_t)(out[1] >> 32 ^ out[1] >> 63) |
                          (uint32_t)(out[2] >> 32 ^ out[2] >> 63) | 1U;
     for (int i = 0; i < 3; i++) view_q14[i] = (int32_t)(out[i] >> (34 - gn_clz32(any))); /* 30 bits */

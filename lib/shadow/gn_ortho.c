@@ -226,9 +226,10 @@ static GN_NOINLINE int32_t box_texels(const gn_light_view *view, const caster_bo
                     clz = gn_clz32((uint32_t)area);
                     recip = gn_recip_norm2((uint32_t)area << clz);
                 }
-                const int32_t of_a = (int32_t)gn_umul_high((uint32_t)(second + rule_b) << clz, recip), /* Q31 */
-                    of_b = (int32_t)gn_umul_high((uint32_t)(third + rule_a) << clz, recip);
-                const int64_t more = (int64_t)of_a * box->az + (int64_t)of_b * box->bz;
+                uint32_t of_a = gn_umul_high((uint32_t)(second + rule_b) << clz, recip), /* Q31, up to 1 */
+                    of_b = gn_umul_high((uint32_t)(third + rule_a) << clz, recip);
+                of_a -= of_a >> 31, of_b -= of_b >> 31;
+                const int64_t more = (int64_t)(int32_t)of_a * box->az + (int64_t)(int32_t)of_b * box->bz;
                 store_nearer(view->depth, bits, row + u, box->z + (int32_t)(more >> 31));
             }
             third += ay * one, second -= by * one, first += (by - ay) * one;
@@ -332,8 +333,7 @@ int32_t gn_ortho_triangle(const gn_frame *frame, const gn_light_view *view, gn_c
         const int32_t n_texels = general_box(frame, view, casting);
         if (n_texels != GN_NO_BOX) return n_texels;
     }
-    if (misses_tile(view, polygon->p) || !wide_caster_begin(&caster, view, polygon->p, casting->job.sides))
-        return -1;
+    if (misses_tile(view, polygon->p) || !wide_caster_begin(&caster, view, polygon->p, casting->job.sides)) return -1;
     if (GN_CASTER_ALPHA && GN_TEXTURES && alpha && alpha->textured) alpha_plane(frame, view, alpha, polygon->p);
     if (GN_CASTER_CLIPPING) clip_to_reach(polygon, &casting->with.uncut);
     else if (!within_reach(polygon->p)) return GN_ORTHO_TOO_FAR;
@@ -356,8 +356,7 @@ int32_t gn_ortho_small_triangle(const gn_frame *frame, const gn_light_view *view
                                 const gn_caster_corner *const c[3])
 {
     const uint32_t sides = casting->job.sides;
-    const int32_t in_box =
-        box_caster(frame, view, sides, c[0]->vertex.v_q16, c[1]->vertex.v_q16, c[2]->vertex.v_q16);
+    const int32_t in_box = box_caster(frame, view, sides, c[0]->vertex.v_q16, c[1]->vertex.v_q16, c[2]->vertex.v_q16);
     if (in_box != GN_NO_BOX) return in_box;
     const int32_t ends[2] = {view->tile_texels << 16, GN_TILE_ROWS(view) << 16};
     int32_t sub = 16 - GN_K(frame, shadow_subpixel_bits), half = (1 << sub) >> 1, x[3], y[3];

@@ -290,7 +290,8 @@ static inline void fill_record(const gn_screen_job *job, gn_tri *tri, const grid
 {
     fill_triangle(job, tri, &t->a, &t->b, &t->c, walk, triangle_idx);
     uint32_t order = triangle_idx & GN_TRI_PART ? GN_TRI_CUT : t->order;
-    if (!(tri->iz_dx | tri->iz_dy) && tri->iz_ref != t->a.at->iz_q32) order = GN_TRI_STEEP;
+    const uint32_t iz = t->a.at->iz_q32;
+    if (!(tri->iz_dx | tri->iz_dy) && (t->b.at->iz_q32 != iz || t->c.at->iz_q32 != iz)) order = GN_TRI_STEEP;
     tri->iz_ref = (tri->iz_ref & ~7U) | order;
 }
 

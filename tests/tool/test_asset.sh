@@ -82,9 +82,10 @@ same coiled docs/scenes/snake.gltf $how
 poses coiled docs/scenes/snake.gltf 300 11 66
 how=
 
-# a lamp of the program's own is as bright as the file's: the robot's torch is of 40 candela
+# a lamp of the program's own is as bright as the file's: the robot's torch is of 40 candela. NAME_now sets the camera alone
 cat >"$tmp/lamp.c" <<'E_C'
 #include <math.h>
+#include <string.h>
 #include "robot.h"
 static robot_state robot;
 int main(void)
@@ -94,6 +95,14 @@ int main(void)
     gn_light own = gn_light_point(file->position_q16);
     own.colour_uq16[0] = ROBOT_INTENSITY(CANDELA / 3.14159265358979);
     own.colour_exp = ROBOT_INTENSITY_EXP;
+    robot.scene.lights = &own, robot.scene.n_lights = 1; /* lights and objects of its own stay */
+    robot.scene.objects = robot.objects + 1, robot.scene.n_objects--;
+    robot.camera = ROBOT_CAMERA_ABOVE;
+    const gn_scene *now = robot_now(&robot);
+    if (now->lights != &own || now->n_lights != 1 || now->objects != robot.objects + 1) return 2;
+    if (memcmp(&now->camera, &robot.cameras[ROBOT_CAMERA_ABOVE], sizeof now->camera)) return 3;
+    robot_init(&robot);
+    if (now->lights != robot.lights || now->objects != robot.objects || now->n_lights != ROBOT_LIGHTS) return 4;
     return !(fabs(ldexp(own.colour_uq16[0], own.colour_exp) / ldexp(file->colour_uq16[0], file->colour_exp) - 1) < 1e-3);
 }
 E_C

@@ -56,7 +56,9 @@ static void write_knobs(FILE *f, const compiled *c)
     const settings_demand *d = &c->run.demand;
     fprintf(f,
             " *\n * From its own camera at %dx%d it takes GN_MAX_TRIANGLES %zu, GN_MAX_TILE_REFS %zu, "
-            "GN_SURFACE_LIGHTS %zu,\n * GN_MAX_SHADOW_TILES %zu, GN_MAX_OTHER_TILES %zu.\n",
+            "GN_SURFACE_LIGHTS %zu,\n * GN_MAX_SHADOW_TILES %zu, GN_MAX_OTHER_TILES %zu, as the file stands. Posed, "
+            "turned or seen from elsewhere\n"
+            " * it may take more; a spot of the program's own takes 1 more of GN_MAX_OTHER_TILES, a point 6.\n",
             c->options->width, c->options->height, d->triangles, d->tile_refs, d->surface_lights, d->shadow_tiles,
             d->other_tiles);
 }

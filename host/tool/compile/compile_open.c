@@ -133,10 +133,12 @@ static void write_state(FILE *f, const compiled *c)
 {
     fprintf(f,
             "\n/* All that a program may change, in RAM: places, colours, flags, meshes. */\ntypedef struct {\n"
-            "    gn_scene scene; /* ambient light, background, shadow settings; its camera is set by %s_now */\n"
+            "    /* Ambient light, background, shadow settings. %s_init sets all of it, %s_now its camera alone. */\n"
+            "    gn_scene scene;\n"
             "    gn_object objects[%zu];\n    gn_light lights[%zu];\n    gn_camera cameras[%zu];\n"
             "    uint32_t camera; /* which of them is looked through */\n",
-            c->symbol, at_least_one(c->fixed.scene.n_objects), at_least_one(c->fixed.scene.n_lights), c->n_cameras);
+            c->symbol, c->symbol, at_least_one(c->fixed.scene.n_objects), at_least_one(c->fixed.scene.n_lights),
+            c->n_cameras);
     const size_t n_skins = compile_count_skins(c, c->fixed.scene.n_objects);
     if (n_skins) fprintf(f, "    gn_skin skins[%zu]; /* their joints may be the program's own */\n", n_skins);
     if (c->rig) fprintf(f, "    gn_affine nodes[%u]; /* of %s_pose */\n", c->rig->fixed.n_nodes, c->symbol);
@@ -154,7 +156,11 @@ static void write_centre(FILE *f, const compiled *c)
 {
     bounds b = {.radius = 1};
     if (!bounds_of_scene(&b, &c->scene, casts)) bounds_of_scene(&b, &c->scene, NULL);
-    fprintf(f, "/* The middle of what casts shadows, as the file has it: x, y and z in 16.16. */\n#define ");
+    fprintf(f, "/* The middle of what casts shadows, as the file has it: x, y and z in the library's unit, as "
+               "to_world.t_q16:\n"
+               " * not for ");
+    open_write_upper(f, c->symbol);
+    fprintf(f, "_LENGTH. */\n#define ");
     open_write_upper(f, c->symbol);
     fprintf(f, "_CENTRE");
     for (int k = 0; k < 3; k++) fprintf(f, "%s%.0f", k ? ", " : " {", ldexp(b.centre[k], c->fixed.world_exp + 16));
@@ -171,9 +177,14 @@ static void write_intensity(FILE *f, const compiled *c)
         "/* Spot and point lights of a program's own: colour_uq16[k] = %s_INTENSITY(4), 0 .. 255.99, and colour_exp =\n"
         " * %s_INTENSITY_EXP light a white surface at a distance of 1 unit of the file by 4; in a glTF file that is 4 "
         "pi\n"
-        " * candela. A program that sets one of the two must set the other. */\n"
+        " * candela. A program that sets one of the two must set the other. An irradiance E at a distance of d units "
+        "of\n"
+        " * the file takes E * d * d; where that is above 255, add to the exponent: %s_INTENSITY(160) with\n"
+        " * %s_INTENSITY_EXP + 9 is 160 * 2^9. gn_light_spot and gn_light_point alone (irradiance 1 at 4 of the "
+        "library's\n"
+        " * units) are too dark for a model of hundreds of units. */\n"
         "#define %s_INTENSITY(x)  GN_UQ16(x)\n#define %s_INTENSITY_EXP %d\n\n",
-        name, name, name, name, 2 * c->fixed.world_exp);
+        name, name, name, name, name, name, 2 * c->fixed.world_exp);
 }
 
 void open_write_declarations(FILE *f, const compiled *c)
@@ -214,12 +225,11 @@ void open_write_functions(FILE *f, const compiled *c)
     if (s->n_objects) fprintf(f, "    memcpy(now->objects, objects, sizeof objects);\n");
     if (compile_count_skins(c, s->n_objects)) fprintf(f, "    memcpy(now->skins, skins, sizeof skins);\n");
     if (s->n_lights) fprintf(f, "    memcpy(now->lights, lights, sizeof lights);\n");
-    fprintf(f, "    memcpy(now->cameras, cameras, sizeof cameras);\n}\n");
-    fprintf(f, "\nconst gn_scene *%s_now(%s_state *now)\n{\n", name, name);
+    fprintf(f, "    memcpy(now->cameras, cameras, sizeof cameras);\n");
     compile_write_skin_use(f, c);
+    fprintf(f, "    now->scene.objects = now->objects;\n    now->scene.lights = now->lights;\n}\n");
+    fprintf(f, "\nconst gn_scene *%s_now(%s_state *now)\n{\n", name, name);
     fprintf(f,
-            "    now->scene.objects = now->objects;\n"
-            "    now->scene.lights = now->lights;\n"
             "    now->scene.camera = now->cameras[now->camera < %zu ? now->camera : 0];\n"
             "    return &now->scene;\n}\n",
             c->n_cameras);
