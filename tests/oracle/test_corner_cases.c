@@ -242,6 +242,7 @@ static void test_edge_on(void)
 static void add_scaled(const double scale[3])
 {
     static const double corner[4][3] = {{-2, -1.5, 0.2}, {2, -1.5, -0.3}, {2, 1.5, 0.1}, {-2, 1.5, 0.4}};
+    static uint32_t turned[6] = {0, 2, 1, 0, 3, 2};
     static const double normal[4][3] = {{-0.6, -0.3, 0.7}, {0.5, -0.2, 0.8}, {0.4, 0.6, 0.7}, {-0.1, 0.5, 0.9}};
     double object_space[12];
     for (int i = 0; i < 12; i++) object_space[i] = corner[i / 3][i % 3] / scale[i % 3];
@@ -252,6 +253,7 @@ static void add_scaled(const double scale[3])
         for (int k = 0; k < 3; k++) f.nrm[0][3 * i + k] = normal[i][k] * scale[k] / sqrt(length);
     }
     f.mesh[0].nrm = f.nrm[0];
+    if (scale[0] * scale[1] * scale[2] < 0) f.mesh[0].idx = turned; /* what the mirror turns back */
     for (int k = 0; k < 3; k++) o->to_world.m[k][k] = scale[k];
     o->to_world.m[2][3] = -4;
 }
@@ -272,8 +274,8 @@ static void compare_pictures(const engine_picture *a, const engine_picture *b, l
     }
 }
 
-/* A mirroring matrix turns a triangle's winding but not its normals: the picture is that of the mesh which needs no
- * mirror. */
+/* A mirroring matrix turns a triangle's winding but not its normals: a mesh turned the other way gives the picture of
+ * the mesh which needs no mirror. */
 static void test_mirrored(void)
 {
     static const double scales[][3] = {{-1, 1, 1},     {1, -1, 1},    {1, 1, -1}, {-1, -1, -1},
