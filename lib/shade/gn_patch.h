@@ -5,8 +5,6 @@
 #include "gnomon.h"
 #include "visible/gn_runs.h"
 
-#if GN_INTERPOLATES
-
 /* Begins a screen tile. */
 void gn_patch_begin_tile(gn_shading *s);
 
@@ -40,11 +38,7 @@ const int32_t *gn_patch_face(gn_shading *s);
 void gn_patch_attenuation(gn_shading *s, const gn_patch_light *light, const gn_patch_span *span, int32_t x, int32_t y,
                           int32_t n);
 
-#if GN_TEXTURES
 /* The level of the texture and its coordinates. Returns 0 if they do not fit. */
 int gn_patch_find_texture(gn_shading *s);
-#endif
-
-#endif
 
 #endif

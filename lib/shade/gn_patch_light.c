@@ -57,9 +57,8 @@ GN_HOT void gn_patch_use_object(gn_shading *s, const gn_object *object)
     const int unlit = (object->flags & GN_OBJECT_UNLIT) != 0;
     of->object = object;
     of->patched = (uint8_t)(is_patched(s->frame, object) && find_base(s->frame, of));
-#if GN_MASKS
-    if (s->frame->scene->shadow.mixing != GN_MIXING_NONE && (object->mask_u8 || object->mask_image)) of->patched = 0;
-#endif
+    if (GN_MASKS && s->frame->scene->shadow.mixing != GN_MIXING_NONE && (object->mask_u8 || object->mask_image))
+        of->patched = 0;
     of->lit = (uint8_t)(!unlit || shows_shadow(s->frame));
     of->receives = (uint8_t)(object->flags & GN_OBJECT_RECEIVES && !unlit);
     for (int c = 0; shows_shadow(s->frame) && c < 3; c++) of->base_q24[c] = 0;

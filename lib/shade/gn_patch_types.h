@@ -6,8 +6,6 @@
 #include "shadow/gn_shadow_types.h"
 #include "visible/gn_visible_types.h"
 
-#if GN_INTERPOLATES
-
 enum {
     GN_PATCH_PX = 32 /* the largest box, each way */,
     GN_PATCH_ROW_PX = 16 /* pixels that are drawn at a time */,
@@ -86,14 +84,12 @@ typedef struct {
     uint32_t packed;
 } gn_patch_normal;
 
-#if GN_VERTEX_JOINTS
 /* From a mesh's normals to the world, by a joint of the object's skin, Q14. */
 typedef struct {
     uint16_t tag; /* the joint's index + 1, 0: none */
     int16_t m_q14[9];
 } gn_patch_joint;
 enum { GN_PATCH_JOINTS = 16 /* a power of two */ };
-#endif
 
 /* What an object's triangles have in common. */
 typedef struct {
@@ -104,14 +100,12 @@ typedef struct {
     int32_t base_q24[3];        /* albedo times ambient, and light of its own that nothing dims; at most 2^27 */
 } gn_patch_object;
 
-#if GN_SHADOWS && GN_AUTO_BIAS
 /* A cascade's sphere in units of 2^down of Q16, in which it has 15 bits: depth of its centre, squares of its radius and
  * of where it begins to fade, and 2^32 over their difference. */
 typedef struct {
     int32_t centre;
     uint32_t radius2, inner2, per_fade;
 } gn_patch_sphere;
-#endif
 
 /* What lasts while a screen tile is shaded. */
 typedef struct {
@@ -161,7 +155,5 @@ typedef struct {
     int32_t node_q24[GN_PATCH_ROW_PX][3];
     gn_texel_rgb texel[GN_PATCH_ROW_PX];
 } gn_patch;
-
-#endif
 
 #endif

@@ -6,8 +6,6 @@
 #include "base/gn_q.h"
 #include "gnomon.h"
 
-#if GN_INTERPOLATES
-
 /* Returns 0 if its box is larger than GN_PATCH_PX, it was cut, its plane of near / Z is not known, or depth doubles
  * over it. */
 int gn_record_begin(gn_patch_record *r, const gn_frame *frame, const gn_tri *tri);
@@ -74,7 +72,5 @@ GN_HOT static inline gn_row_value gn_patch_row(const gn_patch_value *v, const gn
     row.at += row.step * span->at;
     return row;
 }
-
-#endif
 
 #endif

@@ -52,10 +52,8 @@ void gn_screen_object(gn_screen_job *job);
 void gn_screen_triangle(const gn_screen_job *job, const gn_projected *p0, const gn_projected *p1,
                         const gn_projected *p2, uint32_t triangle_idx);
 
-#if GN_GROUPS
 /* The record of such a triangle, made again. Returns 0 if it faces away. */
 int gn_screen_record(const gn_screen_job *job, const gn_projected *p0, const gn_projected *p1, const gn_projected *p2,
                      uint32_t triangle_idx, gn_tri *out);
-#endif
 
 #endif

@@ -20,11 +20,9 @@ int gn_setup_vertex(int32_t out_q16[3], gn_vertex_entry *cache, const gn_xform *
 /* Sets up and draws the triangles of a screen tile, the scene's last first. Pixel memory holds a vertex cache. */
 void gn_setup_tile(const gn_frame *frame, gn_scratch *scratch, uint32_t tile_idx, const gn_raster_target *target);
 
-#if GN_GROUPS
 /* The record of a triangle whose tile draws groups, made again: work.clipping is not used. Returns 0 for one that is
  * cut. */
 int gn_setup_record(const gn_frame *frame, gn_scratch *scratch, const gn_tri_source *source, gn_tri *out);
-#endif
 
 /* Screen coordinates of the corners from the picture's top left corner, subpixel_bits fraction bits. */
 void gn_setup_corners(const gn_frame *frame, const gn_tri *tri, int32_t x[3], int32_t y[3]);
