@@ -3,13 +3,13 @@
 
 #include "base/gn_count.h"
 #include "base/gn_q.h"
-#include "base/gn_tables.h"
 #include "light/gn_bias.h"
 #include "shade/gn_patch.h"
 #include "shade/gn_record.h"
 #include "shade/gn_shadow.h"
 #include "shadow/gn_filter.h"
 #include "shadow/gn_persp.h"
+#include "shadow/gn_tent.h"
 #include "shadow/gn_texel_rows.h"
 
 #if GN_INTERPOLATES
@@ -68,15 +68,6 @@ GN_HOT static int32_t cascade_of_corner(const gn_shading *s, int k, uint32_t *fa
     return GN_CASCADE_NONE;
 }
 
-/* 65536 up to the start of the fade, 0 from the largest distance on. [D5] */
-GN_HOT static uint32_t distance_strength(const gn_frame *frame, int32_t z_q16)
-{
-    if ((uint32_t)z_q16 <= frame->fade_start_q16 || frame->scene->shadow.distance_mode != GN_DISTANCE_DEPTH)
-        return 65536;
-    const int32_t left = frame->scene->shadow.max_distance_q16 - z_q16;
-    return left <= 0 ? 0 : (uint32_t)gn_clamp64(gn_bf_apply(left, frame->fade_scale, 32), 0, 65536);
-}
-
 /* The cascade of all three corners, and the strength of shadows at each. Returns 0 if the corners differ, or cascades
  * are blended, or distance is measured from the camera. Found once. */
 GN_HOT static int find_patch_reach(gn_shading *s)
@@ -92,7 +83,7 @@ GN_HOT static int find_patch_reach(gn_shading *s)
     p->cascade = 0;
     for (int k = 0; k < 3; k++) {
         uint32_t fade = 65536;
-        p->strength_uq16[k] = distance_strength(frame, gn_record_depth(&p->record, k));
+        p->strength_uq16[k] = gn_shadow_distance_fade(frame, gn_record_depth(&p->record, k));
         if (!frame->has_cascades) continue;
         if (gn_record_depth(&p->record, k) >> p->shared->sphere_down >> 21)
             return 0; /* many times as far as the spheres reach */
@@ -175,6 +166,7 @@ GN_HOT static int place_in_persp(gn_shading *s, const gn_light_view **view, cons
 
 /* ---- Texels before the triangle's plane -------------------------------------------------------------------------- */
 
+enum { ROUND_3X3 = 1024 /* half of 1/32 texel, Q16 */ };
 enum { ASK_PX = 4 /* smaller triangles are looked up at once */, FAR_Q30 = 0xFFFF << 14 };
 enum { TEXELS_UNKNOWN, TEXELS_LIT, TEXELS_DARK, TEXELS_EDGE };
 
@@ -191,7 +183,7 @@ GN_HOT static inline int32_t largest(const int32_t v[3])
 /* Sets the texels that pixels may read. Returns 0 if they are many, or beyond the tile. */
 GN_HOT static int find_texels_read(const gn_light_view *view, const patch_places *at, gn_patch_texels *out)
 {
-    const int32_t k = view->filter_idx, part = 1 << 10; /* roundings of places between the corners */
+    const int32_t k = view->filter_idx, part = ROUND_3X3 + 1024; /* and roundings of places between the corners */
     out->u = ((smallest(at->u) - part + 32768) >> 16) - (k + 1);
     out->v = ((smallest(at->v) - part + 32768) >> 16) - (k + 1);
     out->w = ((largest(at->u) + part + 32768) >> 16) + k + 1 - out->u;
@@ -275,44 +267,38 @@ GN_HOT int gn_patch_find_shadow(gn_shading *s, uint32_t light_idx, gn_patch_ligh
     return set_places(s, view, &at, light);
 }
 
-/* What a filter makes of its taps, a bit each that is dark, rows from the lowest on; u and v of the first. */
-GN_HOT static inline uint32_t taps_say(int32_t filter, uint32_t mask, int32_t u_q16, int32_t v_q16)
-{
-#if GN_FILTER_MAX >= 2
-    if (filter == GN_FILTER_3X3) {
-        const uint16_t *across = gn_tent_sums[u_q16 >> 11 & 31], *down = gn_tent_sums[v_q16 >> 11 & 31];
-        const uint32_t dark = (uint32_t)across[mask & 15U] * down[1] + (uint32_t)across[mask >> 4 & 15U] * down[2] +
-                              (uint32_t)across[mask >> 8 & 15U] * down[4] + (uint32_t)across[mask >> 12] * down[8];
-        return 65536U - (dark >> 8); /* 2^12 * 2^12 */
-    }
-#endif
-    if (filter == GN_FILTER_HARD) /* of 2x2 taps the nearest */
-        return mask >> ((u_q16 >> 15 & 1) + 2 * (v_q16 >> 15 & 1)) & 1U ? 0 : 65536U;
-    const uint32_t wu = (uint32_t)u_q16 >> 8 & 255U, wv = (uint32_t)v_q16 >> 8 & 255U;
-    const uint32_t upper = (mask & 1U ? 256 - wu : 0) + (mask & 2U ? wu : 0),
-                   lower = (mask & 4U ? 256 - wu : 0) + (mask & 8U ? wu : 0);
-    return 65536U - (upper * (256 - wv) + lower * wv);
-}
-
-/* Attenuations by the words of texels. */
-GN_HOT static void attenuation_by_words(gn_patch *p, const gn_patch_light *light, gn_row_value u, gn_row_value v,
+/* Attenuations by the words of texels: 1, 2x2 or 4x4 of them a pixel. */
+GN_HOT static void attenuation_by_words(gn_shading *s, const gn_patch_light *light, gn_row_value u, gn_row_value v,
                                         int32_t n)
 {
     const gn_patch_texels *t = &light->texels;
-    const int32_t filter = light->view->filter, taps = filter == GN_FILTER_3X3 ? 4 : 2;
-    const uint32_t ones = (1U << taps) - 1, full = (1U << taps * taps) - 1;
-    u.at += 32768 - taps * 32768 - t->u * 65536, v.at += 32768 - taps * 32768 - t->v * 65536; /* of the first tap */
-    for (uint32_t *out = p->attenuation, *end = out + n; out < end; out++, u.at += u.step, v.at += v.step) {
+    const int32_t filter = light->view->filter,
+                  taps = filter == GN_FILTER_HARD  ? 1
+                         : filter == GN_FILTER_3X3 ? 4
+                                                   : 2,
+                  bits = GN_K(s->frame, weight_bits);
+    const int32_t first = (taps == 4 ? ROUND_3X3 : 0) + 32768 - taps * 32768; /* of the first tap */
+    const uint32_t ones = (1U << taps) - 1;
+    u.at += first - t->u * 65536, v.at += first - t->v * 65536;
+    for (uint32_t *out = s->lattice.from.patch.attenuation, *end = out + n; out < end;
+         out++, u.at += u.step, v.at += v.step) {
         const int32_t left = gn_max32(0, gn_min32(u.at >> 16, t->w - taps)), /* roundings: up to a texel beyond */
             top = gn_max32(0, gn_min32(v.at >> 16, t->h - taps));
         const uint32_t *word = t->word + top;
-        uint32_t mask = (word[0] >> left & ones) | (word[1] >> left & ones) << taps;
-        if (taps == 4) mask |= (word[2] >> left & ones) << 8 | (word[3] >> left & ones) << 12;
-        *out = !mask ? 65536U : mask == full ? 0 : taps_say(filter, mask, u.at, v.at);
+        const uint32_t upper = word[0] >> left & ones, lower = word[taps - 1] >> left & ones;
+        uint32_t any = upper | lower, all = upper & lower, b = 0, c = 0;
+        if (GN_FILTER_MAX >= 2 && taps == 4) {
+            b = word[1] >> left & ones, c = word[2] >> left & ones;
+            any |= b | c, all &= b & c;
+        }
+        if (!any) *out = 65536U;
+        else if (all == ones) *out = 0;
+        else if (GN_FILTER_MAX >= 2 && taps == 4) *out = gn_tent_of_4x4(upper, b, c, lower, u.at, v.at);
+        else *out = gn_tent_of_2x2(upper, lower, u.at, v.at, bits);
     }
 }
 
-/* The same by the filter. */
+/* Attenuations by the filter, of n receivers from r on. */
 GN_HOT static void attenuation_by_filter(gn_shading *s, const gn_patch_light *light, const gn_patch_span *span,
                                          gn_receiver *r, int32_t u_step, int32_t v_step, int32_t n)
 {
@@ -332,7 +318,7 @@ GN_HOT void gn_patch_attenuation(gn_shading *s, const gn_patch_light *light, con
     const gn_row_value u = gn_patch_row(&light->u_q16, span), v = gn_patch_row(&light->v_q16, span);
     uint32_t *out = s->lattice.from.patch.attenuation;
     GN_COUNT(edge_lookups, n);
-    if (light->has_words) attenuation_by_words(&s->lattice.from.patch, light, u, v, n);
+    if (light->has_words) attenuation_by_words(s, light, u, v, n);
     else {
         gn_receiver r = {u.at, v.at, 0, {0, 0}, x, y};
         attenuation_by_filter(s, light, span, &r, u.step, v.step, n);

@@ -19,10 +19,10 @@ GN_HOT static uint32_t faded(uint32_t x_uq16, uint32_t k_uq16)
 }
 
 #if GN_SHADOWS
-/* 65536 up to the start of the fade, 0 from the max distance on. [D5] */
-GN_HOT static uint32_t distance_fade_at(const gn_frame *frame, int32_t z_q16)
+GN_HOT uint32_t gn_shadow_distance_fade(const gn_frame *frame, int32_t z_q16)
 {
-    if ((uint32_t)z_q16 <= frame->fade_start_q16) return GN_ONE_UQ16;
+    if (frame->scene->shadow.distance_mode != GN_DISTANCE_DEPTH || (uint32_t)z_q16 <= frame->fade_start_q16)
+        return GN_ONE_UQ16;
     int64_t left_q16 = (int64_t)frame->scene->shadow.max_distance_q16 - z_q16;
     if (left_q16 <= 0) return 0;
     return (uint32_t)gn_clamp64(gn_bf_apply(left_q16, frame->fade_scale, 32), 0, GN_ONE_UQ16);
@@ -32,8 +32,7 @@ GN_HOT static uint32_t distance_fade_at(const gn_frame *frame, int32_t z_q16)
 GN_HOT uint32_t gn_shadow_distance(const gn_frame *frame, const gn_surface *surface, const gn_sample *sample)
 {
     if (!surface->shadowed || !sample->in_reach) return 0;
-    uint32_t g = GN_ONE_UQ16;
-    if (frame->scene->shadow.distance_mode == GN_DISTANCE_DEPTH) g = distance_fade_at(frame, sample->value[GN_VALUE_Z]);
+    const uint32_t g = gn_shadow_distance_fade(frame, sample->value[GN_VALUE_Z]);
     if (!frame->has_cascades) return g;
     if (sample->cascade == GN_CASCADE_NONE) return 0;
     return sample->cascade == GN_LAST_CASCADE(frame) ? gn_mul_uq16(g, (uint32_t)sample->value[GN_VALUE_FADE]) : g;

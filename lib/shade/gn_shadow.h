@@ -5,6 +5,10 @@
 #include "shade/gn_sample.h"
 #include "shadow/gn_filter.h"
 
+/* 65536 up to the start of the fade at view depth z > 0, 0 from the largest distance on; 65536 where distance is not
+ * depth. [D5] */
+uint32_t gn_shadow_distance_fade(const gn_frame *frame, int32_t z_q16);
+
 /* g of MODEL 4: the strength of realtime shadows at this distance, 0..65536; the same for every light. */
 uint32_t gn_shadow_distance(const gn_frame *frame, const gn_surface *surface, const gn_sample *sample);
 

@@ -44,28 +44,22 @@ GN_HOT static uint32_t bilinear(const gn_lookup *l, int32_t bits)
 {
     int32_t cu = l->u_q16 + 32768, cv = l->v_q16 + 32768;
     int32_t u = (cu >> 16) - 1, v = (cv >> 16) - 1;
-    uint32_t l00, l01, l10, l11;
+    uint32_t upper, lower;
     GN_COUNT(lookups_2x2, 1);
     if (gn_lookup_is_plain(l, u, v, 2)) {
         int32_t depth_bits = GN_VIEW_BITS(l->view);
         gn_texels top = gn_view_texels(l->view, u, v), bottom = gn_texels_at(top, depth_bits, l->view->tile_texels);
-        l00 = gn_texel_load(top, depth_bits, 0) >= l->least;
-        l01 = gn_texel_load(top, depth_bits, 1) >= l->least;
-        l10 = gn_texel_load(bottom, depth_bits, 0) >= l->least;
-        l11 = gn_texel_load(bottom, depth_bits, 1) >= l->least;
+        upper = (uint32_t)(gn_texel_load(top, depth_bits, 0) < l->least) |
+                (uint32_t)(gn_texel_load(top, depth_bits, 1) < l->least) << 1;
+        lower = (uint32_t)(gn_texel_load(bottom, depth_bits, 0) < l->least) |
+                (uint32_t)(gn_texel_load(bottom, depth_bits, 1) < l->least) << 1;
     } else {
-        uint32_t dark = gn_lookup_dark(l, u, v, 2) | gn_lookup_dark(l, u, v + 1, 2) << 2;
-        l00 = ~dark & 1U;
-        l01 = ~dark >> 1 & 1U;
-        l10 = ~dark >> 2 & 1U;
-        l11 = ~dark >> 3 & 1U;
+        upper = gn_lookup_dark(l, u, v, 2);
+        lower = gn_lookup_dark(l, u, v + 1, 2);
     }
-    if (l00 + l01 + l10 + l11 == 4) return 65536;
-    if (l00 + l01 + l10 + l11 == 0) return 0;
-    uint32_t wu = gn_filter_fraction(cu, bits), wv = gn_filter_fraction(cv, bits), one = 1U << bits;
-    uint32_t upper = (one - wu) * l00 + wu * l01, lower = (one - wu) * l10 + wu * l11;
-    uint32_t sum = (one - wv) * upper + wv * lower; /* <= F^2 <= 2^24 */
-    return bits <= 8 ? sum << (16 - 2 * bits) : (sum + ((1U << (2 * bits - 16)) >> 1)) >> (2 * bits - 16);
+    if (!(upper | lower)) return 65536;
+    if ((upper & lower) == 3) return 0;
+    return gn_tent_of_2x2(upper, lower, cu, cv, bits);
 }
 
 /* A coordinate may lie far outside after a steep offset. There every tap reads the border, but the fraction still gives

@@ -5,6 +5,7 @@
 
 #include "base/gn_count.h"
 #include "base/gn_kernel.h"
+#include "base/gn_tables.h"
 #include "shadow/gn_lookup.h"
 
 #define GN_TENT_TAPS_MAX 8
@@ -134,6 +135,25 @@ GN_HOT static inline uint32_t gn_tent_of_dark(const uint8_t *dark, int32_t k, in
 {
     if (k == 1 && !GN_SIZE_FIRST) return gn_tent_of_dark_inline(dark, 1, cu, cv, bits); /* without its loops */
     return gn_tent_of_dark_inline(dark, k, cu, cv, bits);
+}
+
+/* Attenuation by the 3x3 filter of four rows of four texels, a bit each that is dark, to 1/32 texel: u, v in Q16, half
+ * a texel down and right, and rounded: 1024 more. */
+GN_HOT static inline uint32_t gn_tent_of_4x4(uint32_t a, uint32_t b, uint32_t c, uint32_t d, int32_t u, int32_t v)
+{
+    const uint16_t *across = gn_tent_sums[u >> 11 & 31], *down = gn_tent_sums[v >> 11 & 31];
+    const uint32_t sum = across[a] * (uint32_t)down[1] + across[b] * (uint32_t)down[2] + across[c] * (uint32_t)down[4];
+    return 65536 - ((sum + across[d] * (uint32_t)down[8]) >> 8); /* 2^12 * 2^12 */
+}
+
+/* Attenuation by 2x2 texels, a bit each that is dark; u, v as gn_tent_of_dark() has them. */
+GN_HOT static inline uint32_t gn_tent_of_2x2(uint32_t upper, uint32_t lower, int32_t u, int32_t v, int32_t bits)
+{
+    const uint32_t wu = gn_filter_fraction(u, bits), wv = gn_filter_fraction(v, bits), one = 1U << bits;
+    const uint32_t above = (upper & 1U ? one - wu : 0) + (upper & 2U ? wu : 0),
+                   below = (lower & 1U ? one - wu : 0) + (lower & 2U ? wu : 0),
+                   lit = (one << bits) - (one - wv) * above - wv * below; /* <= F^2 <= 2^24 */
+    return bits <= 8 ? lit << (16 - 2 * bits) : (lit + ((1U << (2 * bits - 16)) >> 1)) >> (2 * bits - 16);
 }
 
 /* gn_tent_dark() on the receiver's plane. Returns 0 if gn_lookup_on_plane() does not tell. */

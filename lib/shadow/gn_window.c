@@ -4,7 +4,6 @@
 #include "base/gn_count.h"
 #include "base/gn_kernel.h"
 #include "base/gn_q.h"
-#include "base/gn_tables.h"
 #include "shadow/gn_edge.h"
 #include "shadow/gn_lookup.h"
 #include "shadow/gn_tent.h"
@@ -336,23 +335,11 @@ GN_HOT static void row_3x3(const gn_frame *frame, const window_rows *rows, int32
         }
         *out = 0;
         if ((a & b & c & d) == 15U) continue;
-        const uint16_t *across = gn_tent_sums[u >> 11 & 31], *down = gn_tent_sums[v >> 11 & 31];
-        uint32_t sum = across[a] * (uint32_t)down[1] + across[b] * (uint32_t)down[2] + across[c] * (uint32_t)down[4];
-        *out = 65536 - ((sum + across[d] * (uint32_t)down[8]) >> 8);
+        *out = gn_tent_of_4x4(a, b, c, d, u, v);
     }
 }
 
 #endif
-
-/* Four texels. */
-GN_HOT static uint32_t by_2x2(const uint8_t dark[2], int32_t u, int32_t v, int32_t bits)
-{
-    uint32_t wu = gn_filter_fraction(u, bits), wv = gn_filter_fraction(v, bits), one = 1U << bits;
-    uint32_t upper = (dark[0] & 1U ? one - wu : 0) + (dark[0] & 2U ? wu : 0),
-             lower = (dark[1] & 1U ? one - wu : 0) + (dark[1] & 2U ? wu : 0);
-    uint32_t sum = (one - wv) * upper + wv * lower;
-    return 65536 - (bits <= 8 ? sum << (16 - 2 * bits) : sum >> (2 * bits - 16));
-}
 
 /* The hard filter's texel, or four by their weights: n_across texels each way. */
 GN_HOT static inline void row_small(const gn_frame *frame, const window_rows *rows, int32_t u, int32_t v,
@@ -369,7 +356,7 @@ GN_HOT static inline void row_small(const gn_frame *frame, const window_rows *ro
         *out = 65536;
         if (!(dark[0] | dark[1])) continue;
         if (doubts >> s & mask && !(dark_texels(frame, rows, s, v >> 16, n_across, depth_q30, dark) & mask)) continue;
-        *out = (dark[0] & dark[1]) == mask ? 0 : by_2x2(dark, u, v, bits);
+        *out = (dark[0] & dark[1]) == mask ? 0 : gn_tent_of_2x2(dark[0], dark[1], u, v, bits);
     }
 }
 

@@ -69,7 +69,7 @@ static void planes(void)
 {
     double worst = 0;
     for (int n = 0; n < 50000; n++) {
-        gn_compact_view view = {.size = {256, 256}, .two_sided = 1};
+        gn_compact_view view = {.size = {256, 256}};
         gn_compact_corner c[3];
         gn_tri tri;
         double reach = any_size(1, 1400);
@@ -78,7 +78,7 @@ static void planes(void)
                 c[i].at_q16[k] = (int32_t)((128 + uniform(-reach, reach)) * 65536) & ~255; /* on the subpixel grid */
             c[i].key = (int32_t)any_size(1, 1 << 30);
         }
-        if (!setup(&tri, c, &view, 1)) continue;
+        if (!setup(&tri, c, &view, GN_SIDES_BOTH)) continue;
         double x[3], y[3], k[3];
         for (int i = 0; i < 3; i++) x[i] = c[i].at_q16[0] / 65536.0, y[i] = c[i].at_q16[1] / 65536.0, k[i] = c[i].key;
         double area = (x[1] - x[0]) * (y[2] - y[0]) - (x[2] - x[0]) * (y[1] - y[0]);
@@ -262,7 +262,7 @@ static void shadows(void)
             if (c[i].key <= 0) c[i].key = 1 << 30;
             tri->normal_q14[i] = (int16_t)uniform(-9000, 9000);
         }
-        if (!setup(tri, c, &frame->cam, GN_OBJECT_TWO_SIDED)) continue;
+        if (!setup(tri, c, &frame->cam, GN_SIDES_BOTH)) continue;
         for (int i = 0; i < GN_ATLAS_SIZE * GN_ATLAS_SIZE; i++)
             frame->atlas[i] = (uint16_t)(rnd() % 4 == 0 ? rnd() : rnd() % 3 == 0 ? 65535 : 0);
         move_receiver(frame, &s, tri);

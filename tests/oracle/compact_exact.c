@@ -189,7 +189,7 @@ static int cut_as_defined(double out[9][3], int32_t (*in)[3], int n, const gn_co
 
 static gn_compact_view random_raster(void)
 {
-    gn_compact_view view = {.guard = (int32_t)any_size(1, 1 << 29), .two_sided = GN_OBJECT_TWO_SIDED};
+    gn_compact_view view = {.guard = (int32_t)any_size(1, 1 << 29)};
     if (rnd() % 2) {
         view.near_q16 = (int32_t)any_size(256, 1 << 27);
         view.near_norm = (uint32_t)view.near_q16 << gn_clz32((uint32_t)view.near_q16);
@@ -285,9 +285,9 @@ static void setups(void)
         gn_tri t, given;
         random_corners(c, &view, ldexp(1, 30));
         for (int i = 0; i < 3; i++) given.x[i] = (c[i].at_q16[0] + 128) >> 8, given.y[i] = (c[i].at_q16[1] + 128) >> 8;
-        const uint32_t flags = rnd() % 2 ? GN_OBJECT_TWO_SIDED : GN_OBJECT_CASTS;
+        const uint32_t sides = rnd() % 2 ? GN_SIDES_BOTH : GN_SIDE_CCW;
         const int64_t area = area_of(&given);
-        int drawn = setup(&t, c, &view, flags), empty = 0;
+        int drawn = setup(&t, c, &view, sides), empty = 0;
         for (int axis = 0; axis < 2; axis++) {
             const int32_t *at = axis ? given.y : given.x;
             int lo = at[0] < at[1] ? at[0] : at[1], hi = at[0] > at[1] ? at[0] : at[1], begin = 0,
@@ -298,7 +298,7 @@ static void setups(void)
             empty |= begin >= end;
             if (drawn) wrong += t.begin[axis] != begin || t.end[axis] != end;
         }
-        wrong += drawn != (!empty && (area < 0 || (area > 0 && flags == GN_OBJECT_TWO_SIDED)));
+        wrong += drawn != (!empty && (area < 0 || (area > 0 && sides == GN_SIDES_BOTH)));
         if (!drawn) continue;
         wrong += area_of(&t) != -llabs(area) || t.x[0] != given.x[0] || t.y[0] != given.y[0];
         for (int i = 1; i < 3; i++)
@@ -339,7 +339,7 @@ static void drawings(void)
         gn_tri t;
         const int light = (int)(rnd() % 2), bits = 1 + (int)(rnd() % 12);
         random_corners(c, &view, light ? ldexp(1, 1 + rnd() % 27) : ldexp(1, 30));
-        if (!setup(&t, c, &view, GN_OBJECT_TWO_SIDED)) continue;
+        if (!setup(&t, c, &view, GN_SIDES_BOTH)) continue;
         gn_compact_raster raster = {
             .rect = {(int32_t)(rnd() % (uint32_t)view.size[0]), (int32_t)(rnd() % (uint32_t)view.size[1]), 0, 0},
             .cell = light ? NULL : cell,

@@ -162,15 +162,17 @@ fi
 
 # ---- ESP-IDF and Zephyr: their build files, on stand-ins of what an SDK gives them, with the defaults of Kconfig ------------------
 
+# Capacities and features of lib/gn_knobs.h and the preset, without two atlases by their texels and two switches of the build.
+n_options=$(awk '/^#define GN_[A-Z]*_KNOBS\(/ { on = /CAPACITY|FEATURE/ } on && /^ *X\(/ { n++ } END { print n + 1 - 4 }' lib/gn_knobs.h)
 # A header of what menuconfig would write. Each option: a kind with a text, a range unless it is a switch, a default in it.
 defaults() {
-    awk '
+    awk -v all="$n_options" '
         $1 == "config" { name = $2; n++ }
         $1 == "bool" || $1 == "int" { kind = $1; kinds++ }
         $1 == "range" { lo = $2; hi = $3 }
         $1 == "default" && kind == "bool" { if ($2 == "y") print "#define CONFIG_" name " 1"; good += $2 == "y" || $2 == "n" }
         $1 == "default" && kind == "int" { print "#define CONFIG_" name " " $2; good += $2 >= lo && $2 <= hi }
-        END { if (n < 50 || kinds != n || good != n) exit 1 }' "$1"
+        END { if (n != all || kinds != n || good != n) exit 1 }' "$1"
 }
 mkdir -p "$tmp/sdk"
 for options in esp-idf/gnomon/Kconfig.knobs zephyr/gnomon/zephyr/Kconfig.knobs; do
@@ -414,14 +416,14 @@ done <"$tmp/pdsc.files"
 if command -v xmllint >/dev/null 2>&1; then ok xmllint --noout ${PACK_XSD:+--schema "$PACK_XSD"} "$pdsc"; fi
 # Each knob has its line for the wizard before it: a switch, or a range that its value lies in.
 wizard() {
-    awk '
+    awk -v all="$n_options" '
         /<<< Use Configuration Wizard/ { begins = NR }
         /^\/\/ <[oq]> / { items++; rest = substr($0, 7) }
         /^\/\/ <o> / { if (!match(rest, /<[0-9]+-[0-9]+>$/)) exit 1; split(substr(rest, RSTART + 1, RLENGTH - 2), range, "-"); rest = substr(rest, 1, RSTART - 1) }
         /^\/\/ <q> / { range[1] = 0; range[2] = 1 }
         /^\/\/ <[oq]> / { if (rest ~ /[<>]/) exit 1 }
         /^#define/ { n++; if (n != items || $3 < range[1] + 0 || $3 > range[2] + 0) exit 1 }
-        END { exit !(n >= 50 && n == items && begins > 0 && begins <= 100) }' "$1"
+        END { exit !(n == all && n == items && begins > 0 && begins <= 100) }' "$1"
 }
 ok wizard "$package/cmsis/config/gnomon_config.h"
 pre_include=$(sed -n '/<Pre_Include_Global_h>/,/<\/Pre_Include_Global_h>/s/^ *#define \([A-Z_]*\) \(.*\)/-D\1=\2/p' "$pdsc")

@@ -114,9 +114,9 @@ static bool to_number(obj_text *t, const char *word, double *out)
 {
     char *end;
     *out = strtod(word, &end);
-    if (t->any_number && is_not_finite(word)) return *out = NAN, true;
+    if (t->any_number && is_not_finite(word)) return *out = (double)NAN, true;
     if (*end || strspn(word, "+-.0123456789eE") != strlen(word)) return obj_fail(t, "'%.40s' is not a number", word);
-    if (t->any_number && !(fabs(*out) <= LOADER_MAX_COORDINATE)) *out = NAN;
+    if (t->any_number && !(fabs(*out) <= LOADER_MAX_COORDINATE)) *out = (double)NAN;
     return t->any_number || fabs(*out) <= LOADER_MAX_COORDINATE || obj_fail(t, "%.40s is out of range", word);
 }
 

@@ -124,7 +124,7 @@ static long patch_shared_bytes(const settings *s)
     put(&all, 1, 56, 4); /* of */
     if (s->feature.vertex_normals) put(&all, 32, 8, 4);
     if (s->feature.vertex_normals && s->feature.vertex_joints) put(&all, 16, 20, 4);
-    if (s->feature.shadows && s->feature.auto_bias) put(&all, 1, 68, 4);
+    if (s->feature.shadows && s->feature.auto_bias) put(&all, 1, 72, 4);
     return all.size;
 }
 
