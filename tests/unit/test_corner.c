@@ -961,7 +961,7 @@ static void check_scene(const gn_knobs *knobs)
         for (int i = 0; has_plane && surface.n_punctual && i < 6; i++)
             check_light(&lattice, &surface, (int)uniform(r.x0 - 12, r.x1 + 2), (int)uniform(r.y0 - 12, r.y1 + 2),
                         3 + i % 2);
-        for (int i = 0; has_plane && surface.shadowed && i < 9; i++)
+        for (int i = 0; has_plane && surface.shadowed && i < 15; i++)
             check_fade(&lattice, &surface, (int)uniform(r.x0 - 12, r.x1 + 2), (int)uniform(r.y0 - 12, r.y1 + 2),
                        2 + i % 3);
         for (int i = 0; has_plane && surface.textured && i < 6; i++)
