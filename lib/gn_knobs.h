@@ -15,20 +15,13 @@
       "12 more bytes per triangle where 16 bits are too few: at 8, or at 7 above 490 pixels")                          \
     X(persp_step, PERSP_STEP, 1, 16,                                                                                   \
       "coarseness of shading (1, 4, 8 or 16): cells of up to 16 pixels at 16 and 8, with wider tolerances at 16, of "  \
-      "up to 8 at 4; 1: every pixel for itself",                                                                       \
+      "up to 8 at 4; 1: every pixel for itself, with finer casters and filters",                                       \
       "1: a divide and all attributes per pixel; no memory for cells")                                                 \
-    X(newton_steps, NEWTON_STEPS, 1, 2, "Newton steps of per-pixel reciprocals: 2^-17 or 2^-30 relative",              \
-      "two multiplications per divide")                                                                                \
-    X(shadow_subpixel_bits, SHADOW_SUBPIXEL_BITS, 4, 12, "fraction bits of caster coordinates in texels", "none")      \
-    X(shadow_depth_frac, SHADOW_DEPTH_FRAC, 0, 4, "fraction bits of the receiver's depth below one depth step",        \
-      "none")                                                                                                          \
-    X(weight_bits, WEIGHT_BITS, 4, 12, "fraction bits of filter positions", "none")                                    \
     X(edge, EDGE, 0, 8,                                                                                                \
       "edges finer than a texel, of the hard filter and 2x2: texels along which outlines are followed each way; 0: "   \
       "edges are those of texels",                                                                                     \
       "2.7 KB of flash, 15 to 30 % of the instructions; taps compare with the receiver's plane, which darkens the "    \
       "foot of lit walls")                                                                                             \
-    X(atten_bits, ATTEN_BITS, 8, 16, "bits of attenuation (8 or 16)", "none")                                          \
     X(atlas_size, ATLAS_SIZE, 16, 1024, "texels per side of the directional atlas, a power of two",                    \
       "depth_bits / 8 bytes per texel of RAM, and the time to fill them")                                              \
     X(other_atlas_size, OTHER_ATLAS_SIZE, 16, 1024,                                                                    \
@@ -170,5 +163,12 @@
 enum { GN_QUALITY_KNOBS(GN_KNOB_CONSTANT_) gn_knob_end };
 #define GN_K(frame, name)                                     ((void)(frame), (int32_t)gn_knob_##name)
 #endif
+
+/* Where every pixel is exact, so are its parts: reciprocals take a second Newton step (2^-29 relative in place of
+ * 2^-17), filter positions have 12 fraction bits in place of 8, coordinates of casters in texels 12 in place of 10. */
+#define GN_EXACT_PIXELS(frame) (GN_K(frame, persp_step) == 1)
+#define GN_RECIP_STEPS(frame)  (GN_EXACT_PIXELS(frame) ? 2 : 1)
+#define GN_FILTER_BITS(frame)  (GN_EXACT_PIXELS(frame) ? 12 : 8)
+#define GN_CASTER_BITS(frame)  (GN_EXACT_PIXELS(frame) ? 12 : 10)
 
 #endif

@@ -15,14 +15,15 @@ GN_FEATURE_KNOBS(GN_CHECK_RANGE_)
 GN_BUILD_KNOBS(GN_CHECK_RANGE_)
 
 /* Knobs that are gone: docs/CHANGELOG.md says what to do instead. */
-#if defined(GN_TILE_LIGHTS) || defined(GN_LINEAR_KERNELS) || defined(GN_DEPTH_BLOCKS)
-#error "the configuration sets a knob that is gone: GN_TILE_LIGHTS, GN_LINEAR_KERNELS or GN_DEPTH_BLOCKS"
+#if defined(GN_TILE_LIGHTS) || defined(GN_LINEAR_KERNELS) || defined(GN_DEPTH_BLOCKS) || defined(GN_ATTEN_BITS) ||     \
+    defined(GN_NEWTON_STEPS) || defined(GN_SHADOW_DEPTH_FRAC) || defined(GN_SHADOW_SUBPIXEL_BITS) ||                   \
+    defined(GN_WEIGHT_BITS)
+#error "the configuration sets a knob that is gone"
 #endif
 
 GN_STATIC_ASSERT(preset_unknown, GN_PRESET >= GN_PRESET_TINY && GN_PRESET <= GN_PRESET_ACCURATE);
 GN_STATIC_ASSERT(persp_step_not_1_4_8_16,
                  GN_PERSP_STEP == 1 || GN_PERSP_STEP == 4 || GN_PERSP_STEP == 8 || GN_PERSP_STEP == 16);
-GN_STATIC_ASSERT(atten_bits_not_8_or_16, GN_ATTEN_BITS == 8 || GN_ATTEN_BITS == 16);
 GN_STATIC_ASSERT(atlas_size_not_power_of_two, GN_IS_POWER_OF_TWO(GN_ATLAS_SIZE));
 GN_STATIC_ASSERT(other_atlas_size_not_power_of_two, GN_IS_POWER_OF_TWO(GN_OTHER_ATLAS_SIZE));
 GN_STATIC_ASSERT(atlas_texels_not_multiple_of_64, GN_ATLAS_TEXELS % 64 == 0);

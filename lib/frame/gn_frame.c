@@ -54,7 +54,7 @@ static int knobs_ok(const gn_frame *frame)
     GN_QUALITY_KNOBS(GN_KNOB_IN_RANGE_)
     const gn_knobs *k = &frame->knobs;
     ok = ok && (k->persp_step == 1 || k->persp_step == 4 || k->persp_step == 8 || k->persp_step == 16);
-    ok = ok && (k->atten_bits == 8 || k->atten_bits == 16) && k->atlas_size <= GN_ATLAS_SIZE;
+    ok = ok && k->atlas_size <= GN_ATLAS_SIZE;
     ok = ok && (k->atlas_size & (k->atlas_size - 1)) == 0 && k->tile_width % 8 == 0;
     ok = ok && (k->other_atlas_size & (k->other_atlas_size - 1)) == 0 && k->other_atlas_size <= GN_OTHER_ATLAS_SIZE;
     ok = ok && (k->depth_bits & (k->depth_bits - 1)) == 0 && (k->other_depth_bits & (k->other_depth_bits - 1)) == 0;

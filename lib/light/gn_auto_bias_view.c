@@ -16,13 +16,11 @@ static int32_t taps_q16(const gn_light_view *view)
 
 /* Stored depth, rounded to half a step after up to T rounded ones, and the receiver's, rounded to half of its own finer
  * step, as a fraction of the depth range: 2^-(bits + 1) + 2^-(bits + frac + 1) + (T + 2) 2^-32 + 2^-29, Q32 */
-static int64_t depth_step_q32(const gn_frame *frame, const gn_light_view *view)
+static int64_t depth_step_q32(const gn_light_view *view)
 {
     const int64_t half = (int64_t)1 << 31;
     int32_t bits = GN_VIEW_BITS(view);
-    (void)frame;
-    return (half >> bits) + (bits == 32 ? 0 : half >> (bits + GN_K(frame, shadow_depth_frac))) + GN_TILE_SIDE(view) +
-           11;
+    return (half >> bits) + (bits == 32 ? 0 : half >> (bits + GN_DEPTH_FRAC_BITS)) + GN_TILE_SIDE(view) + 11;
 }
 
 /* sqrt(1 + k^2) times the relative error of view depths, and of a pixel's ray, whose three coefficients are rounded in
@@ -31,7 +29,7 @@ static int32_t ray_error_q40(const gn_frame *frame)
 {
     uint64_t ray2_q48 = (((uint64_t)1 << 24) + (uint64_t)gn_cascade_tan2_q24(frame)) << 24; /* <= (2^24 + 2^38) 2^24 */
     uint64_t ray_q24 = gn_isqrt64(ray2_q48), pixels = (uint64_t)frame->picture.width + frame->picture.height;
-    return gn_sat32((int64_t)((ray_q24 >> (GN_K(frame, newton_steps) == 1 ? 1 : 12)) + (ray_q24 * pixels >> 12) + 2));
+    return gn_sat32((int64_t)((ray_q24 >> (GN_RECIP_STEPS(frame) == 1 ? 1 : 12)) + (ray_q24 * pixels >> 12) + 2));
 }
 
 /* Position error of a receiver at the far end of the view's cascade, texels, Q16. */
@@ -56,18 +54,17 @@ void gn_bias_auto_view(const gn_frame *frame, gn_light_view *view)
     view->offset_q16 = taps_q16(view) + gn_bias_auto_delta_q16(frame);
     if (view->perspective) {
         /* coordinates and n / z have the reciprocal's error: 2^-17 of half a tile, or 2^-29 */
-        int one_step = GN_K(frame, newton_steps) == 1;
+        int one_step = GN_RECIP_STEPS(frame) == 1;
         view->offset_q16 += one_step ? (view->tile_texels + 3) >> 2 : 1;
         view->offset_q16 +=
             (int32_t)(((view->fit.persp.focal2_q16 >> 29) + 1) >> 1); /* x / z is rounded to 2^-30 of T / t */
         /* the caster's plane is rounded to 2^-27, its position to 2^-28 */
-        view->auto_step = (int32_t)(depth_step_q32(frame, view) + (one_step ? 32768 : 8) + 64);
+        view->auto_step = (int32_t)(depth_step_q32(view) + (one_step ? 32768 : 8) + 64);
         view->auto_place = ray_error_q40(frame);
         return;
     }
     int32_t place_q16 = place_error_q16(frame, view);
-    int64_t step_q16 =
-        gn_scale64(depth_step_q32(frame, view), 16 - view->tile_log2 - view->depth_log2) + 1; /* 2^25 * 2^4 */
+    int64_t step_q16 = gn_scale64(depth_step_q32(view), 16 - view->tile_log2 - view->depth_log2) + 1; /* 2^25 * 2^4 */
     view->offset_q16 += place_q16;
     view->auto_step = (int32_t)gn_clamp64(step_q16 + 3 + place_q16, 0, INT32_MAX);
 }

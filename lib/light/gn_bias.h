@@ -27,7 +27,7 @@ void gn_bias_punctual(const gn_frame *frame, const gn_light_state *light, const 
 GN_HOT static inline int32_t gn_bias_auto_delta_q16(const gn_frame *frame)
 {
     (void)frame;
-    return (1 << (15 - GN_K(frame, shadow_subpixel_bits))) + (1 << (15 - GN_K(frame, weight_bits))) + 2;
+    return (1 << (15 - GN_CASTER_BITS(frame))) + (1 << (15 - GN_FILTER_BITS(frame))) + 2;
 }
 
 /* Once per view, after its fit and filter. */

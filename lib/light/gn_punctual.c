@@ -104,7 +104,7 @@ GN_HOT static uint32_t angle_q30(const gn_light_state *light, int32_t cosine_q30
 
 GN_HOT static int32_t root_steps(const gn_frame *frame, const gn_light_state *light)
 {
-    return light->kind == GN_LIGHT_SPOT && light->angle_scale.exp >= GN_NARROW_EXP ? 2 : GN_K(frame, newton_steps);
+    return light->kind == GN_LIGHT_SPOT && light->angle_scale.exp >= GN_NARROW_EXP ? 2 : GN_RECIP_STEPS(frame);
 }
 
 /* Distance and cone together. [P2] [P3] */

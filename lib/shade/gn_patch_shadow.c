@@ -276,7 +276,7 @@ GN_HOT static void attenuation_by_words(gn_shading *s, const gn_patch_light *lig
                   taps = filter == GN_FILTER_HARD  ? 1
                          : filter == GN_FILTER_3X3 ? 4
                                                    : 2,
-                  bits = GN_K(s->frame, weight_bits);
+                  bits = GN_FILTER_BITS(s->frame);
     const int32_t first = (taps == 4 ? ROUND_3X3 : 0) + 32768 - taps * 32768; /* of the first tap */
     const uint32_t ones = (1U << taps) - 1;
     u.at += first - t->u * 65536, v.at += first - t->v * 65536;

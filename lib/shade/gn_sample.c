@@ -55,7 +55,7 @@ GN_HOT static void intersect(const gn_frame *frame, const gn_surface *s, int32_t
         return;
     }
 #endif
-    if (!gn_plane_recip(&r, &s->plane, px, py, frame->cam.focal2_px_q16, GN_K(frame, newton_steps))) {
+    if (!gn_plane_recip(&r, &s->plane, px, py, frame->cam.focal2_px_q16, GN_RECIP_STEPS(frame))) {
         h->z_q16 = s->z_min_q16; /* edge on: any point of the triangle will do */
         h->b_q30[0] = h->b_q30[1] = GN_ONE_Q30 / 3;
         return;
@@ -317,7 +317,7 @@ GN_HOT static void light_values(const gn_frame *frame, const gn_surface *s, cons
     int needs_length = !GN_K(frame, vertex_light) || s->n_punctual || s->specular;
     int32_t unit_q30[3] = {n_q30[0], n_q30[1], n_q30[2]};
     if (GN_SMOOTH(s) && needs_length) {
-        length = gn_length_of(GN_K(frame, newton_steps), n_q30);
+        length = gn_length_of(GN_RECIP_STEPS(frame), n_q30);
         if (GN_PUNCTUAL_LIGHTS || GN_SPECULAR) gn_length_unit(length, n_q30, unit_q30);
     }
     for (uint32_t i = 0; i < s->n_lights; i++) {
@@ -423,7 +423,7 @@ GN_HOT int gn_sample_on_plane(const gn_frame *frame, const gn_surface *s, int32_
     int32_t px = 2 * x + 1 - frame->picture.width, py = frame->picture.height - 1 - 2 * y;
     gn_ray_recip r;
     hit h;
-    if (!gn_plane_recip(&r, &s->plane, px, py, frame->cam.focal2_px_q16, GN_K(frame, newton_steps))) return 0;
+    if (!gn_plane_recip(&r, &s->plane, px, py, frame->cam.focal2_px_q16, GN_RECIP_STEPS(frame))) return 0;
     uint64_t z = depth_at(s, &r);
     if (z < (uint64_t)(s->z_min_q16 >> 1) || z > 2 * (uint64_t)s->z_max_q16 || z > INT32_MAX || !z) return 0;
     h.z_q16 = (int32_t)z;

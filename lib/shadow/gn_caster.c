@@ -123,7 +123,7 @@ GN_HOT static GN_NOINLINE void span(const gn_light_view *view, const gn_caster *
 GN_HOT int32_t gn_caster_begin(const gn_frame *frame, const gn_light_view *view, gn_walk *walk, const int32_t x[3],
                                const int32_t y[3])
 {
-    int32_t bits = GN_K(frame, shadow_subpixel_bits), size = view->tile_texels;
+    int32_t bits = GN_CASTER_BITS(frame), size = view->tile_texels;
     GN_COUNT(caster_walks, 1);
     if (!GN_SIZE_FIRST && gn_first_px(gn_min32(x[0], gn_min32(x[1], x[2])), bits) >=
                               gn_min32(gn_first_px(gn_max32(x[0], gn_max32(x[1], x[2])), bits), size))

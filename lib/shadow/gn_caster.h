@@ -20,7 +20,7 @@ typedef struct {
     int64_t bias;   /* added after limiting to that range */
 } gn_caster;
 
-/* Corners in texels with shadow_subpixel_bits fraction bits, within 2^26. The walk is scratch; `alpha` may be NULL.
+/* Corners in texels with GN_CASTER_BITS fraction bits, within 2^26. The walk is scratch; `alpha` may be NULL.
  * Returns the number of texels covered. */
 int32_t gn_caster_draw(const gn_frame *frame, const gn_light_view *view, const gn_caster *caster, gn_walk *walk,
                        const int32_t x[3], const int32_t y[3], gn_alpha_cut *alpha);

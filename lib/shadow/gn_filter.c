@@ -122,22 +122,21 @@ GN_HOT static uint32_t filtered(const gn_frame *frame, const gn_lookup *l, const
 #if GN_EDGE_BUILT
     if (GN_VIEW_EDGE(frame, l->view)) return edge_attenuation(frame, l);
 #endif
-    if (GN_FILTER_MAX >= 1 && filter == GN_FILTER_2X2) return bilinear(l, GN_K(frame, weight_bits));
+    if (GN_FILTER_MAX >= 1 && filter == GN_FILTER_2X2) return bilinear(l, GN_FILTER_BITS(frame));
     if (GN_DISK_FILTER && filter == GN_FILTER_DISK) return gn_disk_attenuation(frame, l, receiver);
     if (GN_FILTER_MAX >= 2 && filter > GN_FILTER_2X2)
-        return gn_tent_attenuation(l, filter - GN_FILTER_2X2, GN_K(frame, weight_bits));
+        return gn_tent_attenuation(l, filter - GN_FILTER_2X2, GN_FILTER_BITS(frame));
     return gn_lookup_tap(l, l->u_q16 >> 16, l->v_q16 >> 16) << 16;
 }
 
 GN_HOT uint32_t gn_filter_attenuation(const gn_frame *frame, const gn_light_view *view, const gn_receiver *receiver)
 {
     gn_lookup l;
-    int32_t dropped = gn_dropped_bits(frame, view);
+    int32_t dropped = gn_dropped_bits(view);
     l.view = view;
     l.u_q16 = near_tile(receiver->u_q16);
     l.v_q16 = near_tile(receiver->v_q16);
     l.least = gn_rounded_depth(receiver->depth_q32, dropped, gn_texel_far(GN_VIEW_BITS(view)));
     if (GN_PLANES) start_plane(&l, receiver, dropped, GN_VIEW_EDGE(frame, view));
-    uint32_t attenuation = filtered(frame, &l, receiver);
-    return GN_K(frame, atten_bits) == 8 ? (attenuation + 128) & ~255U : attenuation;
+    return filtered(frame, &l, receiver);
 }

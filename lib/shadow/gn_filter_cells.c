@@ -14,10 +14,10 @@ GN_HOT static void reads(const gn_frame *frame, const gn_light_view *view, int32
     *last = ((gn_max32(a_q16, b_q16) + 32768) >> 16) + k;
 }
 
-GN_HOT static uint32_t min_passing_depth(const gn_frame *frame, const gn_light_view *view, int32_t depth_q31)
+GN_HOT static uint32_t min_passing_depth(const gn_light_view *view, int32_t depth_q31)
 {
     uint32_t depth_q32 = depth_q31 < 0 ? 0 : (uint32_t)depth_q31 << 1;
-    return gn_rounded_depth(depth_q32, gn_dropped_bits(frame, view), gn_texel_far(GN_VIEW_BITS(view)));
+    return gn_rounded_depth(depth_q32, gn_dropped_bits(view), gn_texel_far(GN_VIEW_BITS(view)));
 }
 
 /* Along an axis: more are dearer to compare than lookups. */
@@ -51,8 +51,8 @@ GN_HOT int gn_filter_decides(const gn_frame *frame, const gn_light_view *view, c
     reads(frame, view, a->v_q16, b->v_q16, &first[1], &last[1]);
     int32_t n = gn_max32(last[0] - first[0], last[1] - first[1]) + 1, beyond = 0;
     const int32_t end[2] = {view->tile_texels - 1, GN_TILE_ROWS(view) - 1};
-    uint32_t least = min_passing_depth(frame, view, gn_min32(a->depth_q31, b->depth_q31));
-    uint32_t most = min_passing_depth(frame, view, gn_max32(a->depth_q31, b->depth_q31));
+    uint32_t least = min_passing_depth(view, gn_min32(a->depth_q31, b->depth_q31));
+    uint32_t most = min_passing_depth(view, gn_max32(a->depth_q31, b->depth_q31));
     if (n > MOST_TEXELS) return 0;
     GN_UNROLL
     for (int i = 0; i < 2; i++) { /* beyond the border texels repeat it, or are lit */

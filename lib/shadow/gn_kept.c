@@ -11,7 +11,7 @@ static uint64_t view_signature(const gn_frame *frame, const gn_light_view *view)
     const gn_light *light = &frame->scene->lights[view->light_idx];
     uint64_t s = gn_signature_words(GN_SIGNATURE_SEED, &view->axis_q30[0][0], 9);
     const int32_t biases[4] = {view->bias_constant_q16, view->bias_slope_q16, light->bias_caster_q16,
-                               GN_K(frame, shadow_subpixel_bits)};
+                               GN_CASTER_BITS(frame)};
     s = gn_signature_words(s, biases, 4);
     s = gn_signature_add(s, (uint64_t)view->first_texel << 8 | (uint64_t)GN_HAS_BLOCKS(view) << 2 |
                                 (uint64_t)view->in_other << 1 | view->perspective);

@@ -8,7 +8,7 @@
 #include "shadow/gn_texel.h"
 
 /* A receiver prepared for its taps. A texel, in the upper bits of 32, is lit if it is not below `least`: the
- * receiver's depth rounded to the bits of the view and depth_frac, at most that of an empty texel. */
+ * receiver's depth rounded to the bits of the view and GN_DEPTH_FRAC_BITS, at most that of an empty texel. */
 typedef struct {
     const gn_light_view *view;
     int32_t u_q16, v_q16;
@@ -19,10 +19,9 @@ typedef struct {
 } gn_lookup;
 
 /* Bits of depth_q32 that rounding drops: 0, or at least 12. */
-GN_HOT static inline int32_t gn_dropped_bits(const gn_frame *frame, const gn_light_view *view)
+GN_HOT static inline int32_t gn_dropped_bits(const gn_light_view *view)
 {
-    (void)frame;
-    return GN_VIEW_BITS(view) == 32 ? 0 : 32 - GN_VIEW_BITS(view) - GN_K(frame, shadow_depth_frac);
+    return GN_VIEW_BITS(view) == 32 ? 0 : 32 - GN_VIEW_BITS(view) - GN_DEPTH_FRAC_BITS;
 }
 
 /* The far value is a multiple of 2^dropped, so that no smaller depth rounds beyond it. */

@@ -280,7 +280,7 @@ static inline int box_bounds(caster_box *box, const gn_light_view *view, int32_t
 static inline int32_t box_caster(const gn_frame *frame, const gn_light_view *view, uint32_t sides, const int32_t *p,
                                  const int32_t *q, const int32_t *r)
 {
-    const int32_t bits = GN_K(frame, shadow_subpixel_bits), x = on_grid_q16(p[0], bits), y = on_grid_q16(p[1], bits);
+    const int32_t bits = GN_CASTER_BITS(frame), x = on_grid_q16(p[0], bits), y = on_grid_q16(p[1], bits);
     const uint32_t side = GN_BOX_SIDE;
     const int32_t *swap;
     int32_t n;
@@ -339,7 +339,7 @@ int32_t gn_ortho_triangle(const gn_frame *frame, const gn_light_view *view, gn_c
     else if (!within_reach(polygon->p)) return GN_ORTHO_TOO_FAR;
     if (polygon->n >= 3)
         caster.z_corner = depth_at_corner(view, &caster, polygon->p[0][0], polygon->p[0][1], polygon->p[0][2]);
-    int32_t bits = GN_K(frame, shadow_subpixel_bits), n_texels = 0;
+    int32_t bits = GN_CASTER_BITS(frame), n_texels = 0;
     for (int i = 1; i + 1 < polygon->n; i++) {
         const int64_t *p[3] = {polygon->p[0], polygon->p[i], polygon->p[i + 1]};
         int32_t x[3], y[3];
@@ -359,7 +359,7 @@ int32_t gn_ortho_small_triangle(const gn_frame *frame, const gn_light_view *view
     const int32_t in_box = box_caster(frame, view, sides, c[0]->vertex.v_q16, c[1]->vertex.v_q16, c[2]->vertex.v_q16);
     if (in_box != GN_NO_BOX) return in_box;
     const int32_t ends[2] = {view->tile_texels << 16, GN_TILE_ROWS(view) << 16};
-    int32_t sub = 16 - GN_K(frame, shadow_subpixel_bits), half = (1 << sub) >> 1, x[3], y[3];
+    int32_t sub = 16 - GN_CASTER_BITS(frame), half = (1 << sub) >> 1, x[3], y[3];
     for (int axis = 0; axis < 2; axis++) { /* misses the tile: a sign of all three */
         int32_t end = ends[axis];
         if (((c[0]->vertex.v_q16[axis] & c[1]->vertex.v_q16[axis] & c[2]->vertex.v_q16[axis]) |

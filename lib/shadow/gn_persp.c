@@ -130,7 +130,7 @@ GN_HOT int gn_persp_find_place(const gn_frame *frame, const gn_light_view *view,
     if (far <= view->fit.persp.near_q16) return 0;
     const uint32_t z = far > UINT32_MAX ? UINT32_MAX : (uint32_t)far;
     const int32_t clz = gn_clz32(z);
-    const uint32_t recip = gn_recip_norm(z << clz, GN_K(frame, newton_steps));
+    const uint32_t recip = gn_recip_norm(z << clz, GN_RECIP_STEPS(frame));
     /* 1 - n / z: n * recip * 2^(clz - 31) */
     const uint64_t inverse = (uint64_t)(uint32_t)view->fit.persp.near_q16 * recip >> (31 - clz);
     out->u_q16 = persp_coord(view, gn_dot_q30(from_q16, view->axis_q30[0]), recip, clz);
@@ -198,8 +198,7 @@ GN_HOT static int persp_caster(gn_caster *caster, gn_plane *plane, const gn_ligh
 GN_HOT static void project_corner(const gn_frame *frame, const gn_light_view *view, const int32_t v_q16[3], int32_t *x,
                                   int32_t *y)
 {
-    int32_t bits = GN_K(frame, shadow_subpixel_bits), clz = gn_clz32((uint32_t)v_q16[2]),
-            centre = (view->tile_texels << bits) >> 1;
+    int32_t bits = GN_CASTER_BITS(frame), clz = gn_clz32((uint32_t)v_q16[2]), centre = (view->tile_texels << bits) >> 1;
     const int64_t most = (int64_t)(2 * GN_GUARD_TEXELS) << bits;
     uint32_t recip = gn_recip_norm((uint32_t)v_q16[2] << clz, 2);
     int64_t texel[2];
@@ -248,7 +247,7 @@ GN_HOT void gn_persp_corner(const gn_frame *frame, const gn_light_view *view, gn
     const int32_t side_q16 = fit->side_q16[0];
     c->out = outcode(c->vertex.v_q16, fit->clip_q16, side_q16);
     if (side_q16 >> 19 || fit->focal2_q16 >> 31) c->out |= OUT_OF_BITS;
-    if (!c->out) project_inner(view, GN_K(frame, shadow_subpixel_bits), c->vertex.v_q16, &c->x, &c->y);
+    if (!c->out) project_inner(view, GN_CASTER_BITS(frame), c->vertex.v_q16, &c->x, &c->y);
 }
 
 GN_HOT static inline void copy_corners(int32_t out[3][3], const gn_caster_corner *const c[3])

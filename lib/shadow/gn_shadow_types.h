@@ -4,6 +4,8 @@
 
 #include "light/gn_light_types.h"
 
+#define GN_DEPTH_FRAC_BITS 4 /* of a receiver's depth below one step of its map */
+
 #define GN_OTHER_ATLAS (GN_PUNCTUAL_LIGHTS || GN_MAIN_LIGHT) /* whether there is one */
 /* Rows of a view's tile, and the longer of its sides. */
 #if GN_TIGHT_FIT
@@ -203,7 +205,7 @@ typedef union {
 typedef struct {
     gn_vertex_entry vertex; /* within 2^29 */
 #if GN_PUNCTUAL_LIGHTS      /* of perspective views: gn_persp_corner */
-    int32_t x, y;           /* texels with shadow_subpixel_bits fraction bits, if `out` is 0 */
+    int32_t x, y;           /* texels with GN_CASTER_BITS fraction bits, if `out` is 0 */
     uint32_t out;           /* planes that it lies beyond */
 #endif
 } gn_caster_corner;

@@ -11,18 +11,18 @@
 #define GN_TENT_TAPS_MAX 8
 
 /* Weights of the 2 (k + 1) texels of a tent along one axis, k = 1, 2, 3: exact rationals over (2k + 1)^2 F^2, which
- * they sum to. u = F * frac(centre + 1/2), 0 <= u <= F, F = 2^weight_bits <= 4096: everything stays below 2^30. */
-void gn_tent_weights(uint32_t *w, int32_t k, uint32_t u, int32_t weight_bits);
+ * they sum to. u = F * frac(centre + 1/2), 0 <= u <= F, F = 2^bits <= 4096: everything stays below 2^30. */
+void gn_tent_weights(uint32_t *w, int32_t k, uint32_t u, int32_t bits);
 
-/* round to weight_bits; F itself is allowed: the weights are continuous there */
-GN_HOT static inline uint32_t gn_filter_fraction(int32_t c_q16, int32_t weight_bits)
+/* Rounded to `bits`; F itself is allowed: the weights are continuous there */
+GN_HOT static inline uint32_t gn_filter_fraction(int32_t c_q16, int32_t bits)
 {
-    return (((uint32_t)c_q16 & 0xFFFFU) + (0x8000U >> weight_bits)) >> (16 - weight_bits);
+    return (((uint32_t)c_q16 & 0xFFFFU) + (0x8000U >> bits)) >> (16 - bits);
 }
 
-GN_HOT static inline void gn_tent_weights_inline(uint32_t *w, int32_t k, uint32_t u, int32_t weight_bits)
+GN_HOT static inline void gn_tent_weights_inline(uint32_t *w, int32_t k, uint32_t u, int32_t bits)
 {
-    uint32_t f = 1U << weight_bits, ff = f * f, uf4 = 4 * u * f, h = 2 * u;
+    uint32_t f = 1U << bits, ff = f * f, uf4 = 4 * u * f, h = 2 * u;
     uint32_t m = h < f ? f - h : 0, p = h > f ? h - f : 0; /* |2u - F| left and right of the texel's centre */
     int32_t n = 2 * (k + 1);
     w[0] = 2 * (f - u) * (f - u);

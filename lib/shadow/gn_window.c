@@ -28,7 +28,7 @@ GN_HOT int gn_window_begin(gn_window *window, const gn_frame *frame, const gn_li
                            const int32_t slope_q28[2], int64_t own_q30, int on_plane)
 {
     uint32_t steep = gn_abs32(slope_q28[0]) | gn_abs32(slope_q28[1]);
-    int32_t dropped = gn_dropped_bits(frame, view);
+    int32_t dropped = gn_dropped_bits(view);
     window->view = view;
     window->w = 0;
     window->planar = view->filter != GN_FILTER_DISK && !(steep >> gn_min32(25, GN_SLOPE_LIMIT_LOG2(view)));
@@ -231,10 +231,10 @@ GN_HOT int gn_window_says(const gn_window *window, int32_t u0, int32_t v0, int32
 }
 
 /* The least depth, Q32, of texels that leave a receiver lit. */
-GN_HOT static uint32_t least_depth(const gn_frame *frame, const gn_light_view *view, int32_t depth_q30)
+GN_HOT static uint32_t least_depth(const gn_light_view *view, int32_t depth_q30)
 {
     uint32_t depth_q32 = depth_q30 < 0 ? 0 : depth_q30 >> 30 ? UINT32_MAX : (uint32_t)depth_q30 << 2;
-    return gn_rounded_depth(depth_q32, gn_dropped_bits(frame, view), gn_texel_far(GN_VIEW_BITS(view)));
+    return gn_rounded_depth(depth_q32, gn_dropped_bits(view), gn_texel_far(GN_VIEW_BITS(view)));
 }
 
 /* Of texels in doubt, from texel 0 of row j on, those before `least`. */
@@ -265,8 +265,8 @@ typedef struct {
 
 /* Which of n x n texels from texel s of row j on keep a receiver dark, a byte per row. Returns the OR of all rows, and
  * in the upper half their AND. */
-GN_HOT static uint32_t dark_texels(const gn_frame *frame, const window_rows *rows, int32_t s, int32_t j, int32_t n,
-                                   int32_t depth_q30, uint8_t *dark)
+GN_HOT static uint32_t dark_texels(const window_rows *rows, int32_t s, int32_t j, int32_t n, int32_t depth_q30,
+                                   uint8_t *dark)
 {
     const gn_window *window = rows->window;
     uint32_t mask = (1U << (uint32_t)n) - 1U, any = 0, all = mask, doubts = 0;
@@ -279,7 +279,7 @@ GN_HOT static uint32_t dark_texels(const gn_frame *frame, const window_rows *row
         all &= bits;
     }
     if (!doubts) return any | all << 16;
-    uint32_t least = least_depth(frame, window->view, depth_q30);
+    uint32_t least = least_depth(window->view, depth_q30);
     if (window->plain && n > 2)
         return gn_kernel_dark_texels16(gn_view_texels(window->view, window->u0 + s, window->v0 + j).d16,
                                        (size_t)window->view->tile_texels, least, n, dark);
@@ -305,7 +305,7 @@ GN_HOT static inline uint32_t in_doubt_3x3(const gn_window *window, int32_t j, i
 }
 
 /* 3x3, positions to 1/32 texel. */
-GN_HOT static void row_3x3(const gn_frame *frame, const window_rows *rows, int32_t u, int32_t v, int32_t depth_q30,
+GN_HOT static void row_3x3(const window_rows *rows, int32_t u, int32_t v, int32_t depth_q30,
                            const gn_receiver_step *step, int32_t n, uint32_t *out)
 {
     const gn_window *window = rows->window;
@@ -324,10 +324,10 @@ GN_HOT static void row_3x3(const gn_frame *frame, const window_rows *rows, int32
         if (doubts >> s & 15U && in_doubt_3x3(window, v >> 16, s)) {
             uint8_t near[4], dark[4]; /* the one in registers */
             if (GN_SIZE_FIRST || !texels) {
-                if (!(dark_texels(frame, rows, s, v >> 16, 4, depth_q30, dark) & 15U)) continue;
+                if (!(dark_texels(rows, s, v >> 16, 4, depth_q30, dark) & 15U)) continue;
                 a = dark[0], b = dark[1], c = dark[2], d = dark[3];
             } else {
-                uint32_t least = least_depth(frame, window->view, depth_q30);
+                uint32_t least = least_depth(window->view, depth_q30);
                 if (!(gn_kernel_dark_texels16(texels + (uint32_t)(v >> 16) * pitch + s, pitch, least, 4, near) & 15U))
                     continue;
                 a = near[0], b = near[1], c = near[2], d = near[3];
@@ -347,7 +347,7 @@ GN_HOT static inline void row_small(const gn_frame *frame, const window_rows *ro
                                     uint32_t *out)
 {
     const uint32_t *first = rows->dark - rows->v0, doubts = rows->doubts, mask = (1U << n_across) - 1;
-    const int32_t bits = GN_K(frame, weight_bits);
+    const int32_t bits = GN_FILTER_BITS(frame);
     for (uint32_t *end = out + n; out < end; out++, u += step->u_q16, v += step->v_q16,
                   depth_q30 = (int32_t)((uint32_t)depth_q30 + (uint32_t)step->depth_q31)) {
         const uint32_t *row = &first[v >> 16];
@@ -355,7 +355,7 @@ GN_HOT static inline void row_small(const gn_frame *frame, const window_rows *ro
         uint8_t dark[2] = {(uint8_t)(row[0] >> s & mask), (uint8_t)(row[n_across - 1] >> s & mask)};
         *out = 65536;
         if (!(dark[0] | dark[1])) continue;
-        if (doubts >> s & mask && !(dark_texels(frame, rows, s, v >> 16, n_across, depth_q30, dark) & mask)) continue;
+        if (doubts >> s & mask && !(dark_texels(rows, s, v >> 16, n_across, depth_q30, dark) & mask)) continue;
         *out = (dark[0] & dark[1]) == mask ? 0 : gn_tent_of_2x2(dark[0], dark[1], u, v, bits);
     }
 }
@@ -367,10 +367,10 @@ GN_HOT static GN_NOINLINE uint32_t by_weights(const gn_frame *frame, const windo
 {
     int32_t k = rows->window->view->filter - GN_FILTER_2X2, n = 2 * (k + 1);
     uint8_t dark[GN_TENT_TAPS_MAX];
-    uint32_t found = dark_texels(frame, rows, u >> 16, v >> 16, n, depth_q30, dark);
+    uint32_t found = dark_texels(rows, u >> 16, v >> 16, n, depth_q30, dark);
     if (!(found & 0xFFFFU)) return 65536;
     if (found >> 16 == (1U << n) - 1) return 0;
-    return gn_tent_of_dark(dark, k, u, v, GN_K(frame, weight_bits));
+    return gn_tent_of_dark(dark, k, u, v, GN_FILTER_BITS(frame));
 }
 #endif
 
@@ -447,7 +447,7 @@ GN_HOT int gn_window_row(const gn_frame *frame, const gn_window *window, const g
     GN_COUNT(window_lookups, n);
 #if GN_FILTER_MAX >= 2
     if (view->filter == GN_FILTER_3X3) {
-        row_3x3(frame, &rows, u, v, depth_q30, &across, n, attenuation);
+        row_3x3(&rows, u, v, depth_q30, &across, n, attenuation);
         return said;
     }
 #endif

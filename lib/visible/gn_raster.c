@@ -169,7 +169,7 @@ GN_HOT static inline void cut_plane(const gn_frame *frame, gn_scratch *scratch, 
     gn_xform_compose(&to_view, frame->cam.axis_q30, frame->cam.eye_q16, object);
     for (int i = 0; i < 3; i++) gn_setup_vertex(v[i], scratch->vertex, &to_view, object, object_idx, idx[i]);
     for (int i = 0; GN_FLAT_Q16(frame) && i < 3; i++) v[i][2] = GN_FLAT_Q16(frame);
-    gn_alpha_plane(cut, frame, v, frame->cam.focal2_px_q16, frame->picture.width, GN_K(frame, newton_steps));
+    gn_alpha_plane(cut, frame, v, frame->cam.focal2_px_q16, frame->picture.width, GN_RECIP_STEPS(frame));
 }
 
 /* Pixels that alpha cuts have no surface. [M8] */

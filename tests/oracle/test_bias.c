@@ -51,9 +51,9 @@ static void light_frame_of(light_frame *l, const fixture *f, const cell *c, cons
     l->range = ortho ? ldexp(view->tile_texels, view->depth_log2) : 1;
     l->reach[1] = c->filter < SCENE_FILTER_3X3 ? 1 : c->filter;
     l->reach[0] = c->filter == SCENE_FILTER_HARD ? 0.5 : l->reach[1];
-    l->reach[2] = ldexp(1, -renderer.frame.knobs.weight_bits - 1);
+    l->reach[2] = ldexp(1, -GN_FILTER_BITS(&renderer.frame) - 1);
     l->lsb = ldexp(l->range, -c->bits);
-    l->relative = renderer.frame.knobs.newton_steps == 1 ? ldexp(1, -17) : ldexp(1, -28);
+    l->relative = GN_RECIP_STEPS(&renderer.frame) == 1 ? ldexp(1, -17) : ldexp(1, -28);
     l->near = f->lights[0].near;
 }
 
@@ -96,7 +96,7 @@ static balance balance_ortho(const light_frame *l, const cell *c, const bias *b,
     out.more = out.supply > l->range / 8; /* what is stored is limited to the far end, which lets all be lit */
     for (int i = 0; i < 2; i++) out.demand += l->reach[0] * left_by_plane(l, b, g[i], c->texels);
     out.error = off_plane(l, h) / l->texel / n[2] + coordinate + (coordinate + l->reach[2]) * (g[0] + g[1]);
-    out.error += l->lsb * (c->bits == 32 ? 4 : 0.52 + ldexp(0.5, -renderer.frame.knobs.shadow_depth_frac));
+    out.error += l->lsb * (c->bits == 32 ? 4 : 0.52 + ldexp(0.5, -GN_DEPTH_FRAC_BITS));
     return out;
 }
 
@@ -125,7 +125,7 @@ static balance balance_persp(const light_frame *l, const cell *c, const bias *b,
         out.error += ldexp(out.supply, -8); /* its chords: 1/512 of the light's distance */
     out.error += per_h * off_plane(l, h) / z_moved + l->near / z_moved * l->relative * 2 +
                  (coordinate + l->reach[2]) * (g[0] + g[1]);
-    out.error += l->lsb * (c->bits == 32 ? 8 : 0.52 + ldexp(0.5, -renderer.frame.knobs.shadow_depth_frac));
+    out.error += l->lsb * (c->bits == 32 ? 8 : 0.52 + ldexp(0.5, -GN_DEPTH_FRAC_BITS));
     return out;
 }
 

@@ -127,7 +127,7 @@ static void test_reference(void)
                                          .atlas_size = 64,
                                          .other_atlas_size = kind == SCENE_LIGHT_POINT ? 256 : 64,
                                          .shadow_subpixel_bits = 12,
-                                         .shadow_depth_frac = 4,
+                                         .shadow_depth_frac = GN_DEPTH_FRAC_BITS,
                                          .weight_bits = 12,
                                          .depth_bits = 16,
                                          .other_depth_bits = 16,

@@ -157,7 +157,7 @@ static double tile_difference(const double *a, const double *b, const int size[2
 {
     long differing = 0;
     const int texels = size[0] * size[1];
-    const double step = 2.0 / (bits == 8 ? 255 : 65535), grid = ldexp(1, -set->quality.shadow_subpixel_bits);
+    const double step = 2.0 / (bits == 8 ? 255 : 65535), grid = ldexp(1, set->quality.persp_step == 1 ? -12 : -10);
     for (int i = 0; i < texels; i++) {
         const double least = step + grid * steepness(b, i, size[0], texels);
         differing += !(culls && a[i] > b[i]) && ((a[i] < 1) != (b[i] < 1) || fabs(a[i] - b[i]) > least);

@@ -207,7 +207,6 @@ done <"$tmp/knobs"
 refused preset_unknown -DGN_PRESET=4
 refused preset_unknown -DGN_PRESET=-1
 refused persp_step -DGN_PERSP_STEP=2
-refused atten_bits -DGN_ATTEN_BITS=12
 refused atlas_size -DGN_ATLAS_SIZE=96
 refused other_atlas_size -DGN_OTHER_ATLAS_SIZE=96
 refused depth_bits -DGN_DEPTH_BITS=24
@@ -216,7 +215,7 @@ refused vertex_cache -DGN_VERTEX_CACHE=33
 refused tile_width -DGN_TILE_WIDTH=68
 refused triangle_groups_have_tiles "-DGN_TRIANGLE_GROUPS=1 -DGN_TILE_WIDTH=8 -DGN_TILE_HEIGHT=1 -DGN_MAX_HEIGHT=100"
 refused triangle_groups_have_up_to_128 "-DGN_TRIANGLE_GROUPS=1 -DGN_TILE_HEIGHT=1"
-for gone in TILE_LIGHTS LINEAR_KERNELS DEPTH_BLOCKS; do refused "knob that is gone" "-DGN_$gone=0"; done
+for gone in TILE_LIGHTS LINEAR_KERNELS DEPTH_BLOCKS ATTEN_BITS NEWTON_STEPS SHADOW_DEPTH_FRAC SHADOW_SUBPIXEL_BITS WEIGHT_BITS; do refused "knob that is gone" "-DGN_$gone=0"; done
 refused transparent_layers_need_visible_alpha "-DGN_TRANSPARENT_LAYERS=1 -DGN_VISIBLE_ALPHA=0"
 
 # ---- The user's own header; C++ --------------------------------------------------------------------------------------------
@@ -228,7 +227,7 @@ cat >"$tmp/my_config.h" <<'EOF_C'
 EOF_C
 cat >"$tmp/user.c" <<'EOF_C'
 #include "gnomon.h"
-typedef char tiny_tile[GN_TILE_HEIGHT == 16 && GN_WEIGHT_BITS == 6 ? 1 : -1];
+typedef char tiny_tile[GN_TILE_HEIGHT == 16 && GN_DEPTH_BITS == 8 ? 1 : -1];
 typedef char own_capacity[GN_MAX_TRIANGLES == 77 && sizeof(((gn_frame *)0)->tri) == 77 * sizeof(gn_tri) ? 1 : -1];
 typedef char no_shadows[GN_SHADOWS == 0 ? 1 : -1];
 EOF_C

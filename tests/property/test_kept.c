@@ -295,8 +295,8 @@ static const char *change_meshes(uint32_t n, int *free_of_charge)
         ls.object[1].mesh = &other.demo.ball;
         return "another mesh";
     case 1:
-        SET_KNOB(&kept.frame, shadow_subpixel_bits, 12);
-        return "finer casters";
+        SET_KNOB(&kept.frame, persp_step, 1);
+        return "finer casters, every pixel exact";
     case 2:
         SET_KNOB(&kept.frame, depth_bits, 32);
         return "deeper texels";

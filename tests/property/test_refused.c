@@ -894,10 +894,9 @@ static void odd_knobs(void)
         int32_t value;
     } odd[] = {
 #define ODD_(name, value) {offsetof(gn_knobs, name), value}
-        ODD_(persp_step, 2),   ODD_(persp_step, 5),        ODD_(persp_step, 15),       ODD_(atten_bits, 9),
-        ODD_(atten_bits, 15),  ODD_(atlas_size, 96),       ODD_(other_atlas_size, 96), ODD_(depth_bits, 24),
-        ODD_(depth_bits, 9),   ODD_(other_depth_bits, 24), ODD_(other_depth_bits, 31), ODD_(tile_width, 65),
-        ODD_(tile_width, 2044)};
+        ODD_(persp_step, 2),        ODD_(persp_step, 5),  ODD_(persp_step, 15),  ODD_(atlas_size, 96),
+        ODD_(other_atlas_size, 96), ODD_(depth_bits, 24), ODD_(depth_bits, 9),   ODD_(other_depth_bits, 24),
+        ODD_(other_depth_bits, 31), ODD_(tile_width, 65), ODD_(tile_width, 2044)};
     for (size_t i = 0; i < sizeof odd / sizeof *odd; i++) {
         gn_init(&one, &p);
         memcpy((char *)&one.frame.knobs + odd[i].offset, &odd[i].value, sizeof odd[i].value);

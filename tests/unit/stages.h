@@ -210,7 +210,7 @@ static inline void cross_at(crossing *c, const plane *p, int x, int y)
 /* NUMERICS 4.3: how far barycentrics may be off. */
 static inline double bary_bound(const gn_frame *frame, const crossing *c)
 {
-    return ldexp(c->kappa_b + c->kappa, -29) + (frame->knobs.newton_steps == 1 ? ldexp(1, -17) : ldexp(1, -29)) +
+    return ldexp(c->kappa_b + c->kappa, -29) + (GN_RECIP_STEPS(frame) == 1 ? ldexp(1, -17) : ldexp(1, -29)) +
            ldexp(1, -29);
 }
 
@@ -228,7 +228,7 @@ static inline double normal_at(const gn_surface *s, const crossing *c, double n[
 /* NUMERICS 4.5: how far n . L may be off. */
 static inline double cosine_bound(const gn_frame *frame, const crossing *c, const double n[3], double change)
 {
-    double steps = frame->knobs.newton_steps == 1 ? ldexp(1, -15) : ldexp(1, -28);
+    double steps = GN_RECIP_STEPS(frame) == 1 ? ldexp(1, -15) : ldexp(1, -28);
     double dn = sqrt(3.0) * (change * bary_bound(frame, c) + ldexp(2, -30));
     return ldexp(1, -24) + steps + 2 * dn / sqrt(dot(n, n));
 }

@@ -54,7 +54,7 @@ static void begin_light(rng *r, int auto_bias)
     light->near_q16 = rng_range(r, 2000, GN_Q16(0.5));
     light->range_q16 = (uint32_t)rng_range(r, GN_Q16(4), GN_Q16(30));
     CHECK_EQ_INT(gn_init(&fresh, &picture), GN_OK);
-    SET_KNOB(&fresh.frame, newton_steps, 2);
+    SET_KNOB(&fresh.frame, persp_step, 1);
     SET_KNOB(&fresh.frame, other_atlas_size, light->kind == GN_LIGHT_POINT ? 512 : 128); /* 128 texels a tile */
     CHECK_EQ_INT(gn_begin(&fresh, &ls.scene), GN_OK);
 }

@@ -60,12 +60,12 @@ static int one_in(int n)
 
 static double relative_root(void)
 {
-    return renderer.frame.knobs.newton_steps == 1 ? ldexp(1, -15) : ldexp(1, -28);
+    return GN_RECIP_STEPS(&renderer.frame) == 1 ? ldexp(1, -15) : ldexp(1, -28);
 }
 
 static double relative_divide(void)
 {
-    return renderer.frame.knobs.newton_steps == 1 ? ldexp(1, -17) : ldexp(1, -29);
+    return GN_RECIP_STEPS(&renderer.frame) == 1 ? ldexp(1, -17) : ldexp(1, -29);
 }
 
 /* ---- The scene --------------------------------------------------------------------------------------------------- */

@@ -117,7 +117,7 @@ static double delta_root(void)
     const gn_light *light = &ls.light[0];
     const double edge = cos(light->inner_turn * turn / 2) - cos(light->outer_turn * turn / 2);
     if (light->kind == GN_LIGHT_SPOT && edge < 0x1p-6) return 0x1p-28;
-    return GN_K(&fresh.frame, newton_steps) == 1 ? 0x1p-15 : 0x1p-28;
+    return GN_RECIP_STEPS(&fresh.frame) == 1 ? 0x1p-15 : 0x1p-28;
 }
 
 /* P2 attenuates by no less than 10^-4 world units squared. least2: that in the scene's units; delta_least2: relative
@@ -217,7 +217,7 @@ static const gn_light_state *any_light(rng *r, int newton_steps, int32_t unit_lo
     if (rng_below(r, 5) == 0) light->inner_turn = light->outer_turn; /* the edge is 10^-4 wide */
     ls.scene.unit_log2 = unit_log2;
     if (!fresh.frame.picture.width) CHECK_EQ_INT(gn_init(&fresh, &p), GN_OK);
-    SET_KNOB(&fresh.frame, newton_steps, newton_steps);
+    SET_KNOB(&fresh.frame, persp_step, newton_steps == 2 ? 1 : 8);
     CHECK_EQ_INT(gn_begin(&fresh, &ls.scene), GN_OK);
     return &fresh.frame.light[0];
 }
@@ -483,10 +483,6 @@ static void test_kept_fields(void)
         ls.light[0].near_offset_q16 += GN_Q16(3);
         check_changed(0, "near_offset");
     }
-    for (uint32_t l = 0; l < 3; l++) {
-        if (TAKES_KNOB(&kept.frame, shadow_subpixel_bits, l & 1 ? 12 : 4) && GN_RUNTIME_KNOBS)
-            check_changed(l, "shadow_subpixel_bits");
-    }
 }
 
 /* ---- D8: a shadow that leaves its cascade ---------------------------------------------------------------------- */
@@ -595,14 +591,15 @@ static void check_coords(gn_light_view *view, const gn_surface *surface, const g
     const int is_point =
         ls.light[0].kind == GN_LIGHT_POINT; /* whose axes are the world's: nothing is rounded along them */
     double z_q16 = at[2] * 65536, t = view->tile_texels, half = is_point ? 0 : 0.5,
-           delta = GN_K(&fresh.frame, newton_steps) == 1 ? 0x1p-17 : 0x1p-29;
+           delta = GN_RECIP_STEPS(&fresh.frame) == 1 ? 0x1p-17 : 0x1p-29;
     for (int axis = 0; axis < 2; axis++) {
         double beside = focal.v / 2 * at[axis] / at[2], u = t / 2 + beside;
         double bound = (fabs(beside) * (delta + focal.e + half / z_q16) + half * focal.v / 2 / z_q16) * 1.004 +
                        focal.v * q30 + 0x1p-17;
         double first = floor(u - 0.5);
         double got = first + 0.5 + probe(view, axis, (uint32_t)first + 1, 0, UINT32_MAX, surface, sample) / 65536.0;
-        CHECK(ratio_of(fabs(got - u), bound + 0x1p-13, &receiver_seen[0][is_point]) <= 1); /* 12 bits of weight */
+        CHECK(ratio_of(fabs(got - u), bound + ldexp(1, -GN_FILTER_BITS(&fresh.frame) - 1),
+                       &receiver_seen[0][is_point]) <= 1);
     }
     uint32_t lo = 0, hi = UINT32_MAX; /* the depth of the receiver: the smallest stored one that leaves it lit */
     while (lo < hi) {
@@ -625,9 +622,7 @@ static void begin_shadowed(rng *r, gn_light_kind kind, int newton_steps)
     CHECK_EQ_INT(gn_init(&fresh, &p), GN_OK);
     SET_KNOB(&fresh.frame, other_atlas_size, kind == GN_LIGHT_POINT ? 32 : 16);
     SET_KNOB(&fresh.frame, other_depth_bits, 32);
-    SET_KNOB(&fresh.frame, weight_bits, 12);
-    SET_KNOB(&fresh.frame, atten_bits, 16);
-    SET_KNOB(&fresh.frame, newton_steps, newton_steps);
+    SET_KNOB(&fresh.frame, persp_step, newton_steps == 2 ? 1 : 8);
     CHECK_EQ_INT(gn_begin(&fresh, &ls.scene), GN_OK);
     CHECK_EQ_INT(gn_get_light_shadow(&fresh, 0, NULL, NULL), GN_SHADOW_REALTIME);
 }
@@ -900,7 +895,7 @@ static void test_narrow_mask_image(void)
     }
 }
 
-static void masked_ground(const uint8_t *mask, int newton_steps, uint32_t *raw)
+static void masked_ground(const uint8_t *mask, uint32_t *raw)
 {
     static const int32_t eye[3] = {GN_Q16(0.3), GN_Q16(5), GN_Q16(2)}, target[3] = {0, 0, 0};
     gn_picture p = {W, H, GN_FORMAT_RAW32, GN_VIEW_SHADOW, 0};
@@ -917,7 +912,6 @@ static void masked_ground(const uint8_t *mask, int newton_steps, uint32_t *raw)
     gn_camera_look_at(&ls.scene.camera.to_world, eye, target);
     CHECK_EQ_INT(gn_init(&fresh, &p), GN_OK);
     SET_KNOB(&fresh.frame, persp_step, 1);
-    SET_KNOB(&fresh.frame, newton_steps, newton_steps);
     CHECK_EQ_INT(gn_render(&fresh, &ls.scene, ls_flush, &canvas), GN_OK);
 }
 
@@ -934,7 +928,7 @@ static double ground_at(int x, int y, double at[2])
 }
 
 /* The ground's triangles 0 1 2 and 0 2 3 meet where x = z; its corners are at +-6, 12 apart. */
-static void check_mask_pixel(const uint8_t *mask, int x, int y, uint32_t got, int newton_steps, worst *largest)
+static void check_mask_pixel(const uint8_t *mask, int x, int y, uint32_t got, worst *largest)
 {
     double at[2], kappa = ground_at(x, y, at), share_x = (at[0] + 6) / 12, share_z = (at[1] + 6) / 12;
     if (fabs(at[0]) > 5.9 || fabs(at[1]) > 5.9 || fabs(at[0] - at[1]) < 0.05) return;
@@ -944,7 +938,7 @@ static void check_mask_pixel(const uint8_t *mask, int x, int y, uint32_t got, in
     double exact = 65536 / 255.0 * (m[0] + b1 * (m[1] - m[0]) + b2 * (m[2] - m[0]));
     /* forms of the barycentrics: an edge, at most 17 long, crossed with a corner, at most 12 away, over twice the area,
      * 144; corners are off by 1.1 LSB per coordinate in the view, altitudes are 8.4 */
-    double kappa_b = kappa * 17 * 12 / 144.0, delta = newton_steps == 1 ? 0x1p-17 : 0x1p-29;
+    double kappa_b = kappa * 17 * 12 / 144.0, delta = 0x1p-29;
     double b = (kappa_b + kappa) * 0x1p-29 + delta + 0x1p-29 + 2 * sqrt(3) * kappa * 1.1 * 0x1p-16 / 8.4;
     double bound = 1 + (fabs(m[1] - m[0]) + fabs(m[2] - m[0])) * 65536 / 255.0 * b;
     CHECK(ratio_of(fabs(got - exact), bound, largest) <= 1);
@@ -957,7 +951,7 @@ static void test_mask_full(void)
     static uint8_t mask[16];
     int n_wrong = 0;
     memset(mask, 255, sizeof mask);
-    masked_ground(mask, 1, raw);
+    masked_ground(mask, raw);
     for (int i = 0; i < W * H; i++) n_wrong += raw[i] != 65536 && raw[i] != UINT32_MAX;
     CHECK_EQ_INT(n_wrong, 0);
 }
@@ -966,19 +960,17 @@ static void test_mask_corners(void)
 {
     static const uint8_t mask[16] = {0, 0, 10, 0, 0, 0, 255, 0, 0, 0, 99, 0, 0, 0, 201, 0};
     static uint32_t raw[W * H];
-    for (int steps = 1; steps <= 2; steps++) {
-        if (!TAKES_KNOB(&fresh.frame, persp_step, 1) || !TAKES_KNOB(&fresh.frame, newton_steps, steps)) continue;
-        worst largest = {0, 0};
-        int n = 0;
-        masked_ground(mask, steps, raw);
-        for (int i = 0; i < W * H; i++) {
-            if (raw[i] == UINT32_MAX) continue;
-            check_mask_pixel(mask, i % W, i / W, raw[i], steps, &largest);
-            n++;
-        }
-        CHECK(n > W * H / 2);
-        report_worst(&largest, 1, "mask between corners, LSB of Q16", steps);
+    if (!TAKES_KNOB(&fresh.frame, persp_step, 1)) return;
+    worst largest = {0, 0};
+    int n = 0;
+    masked_ground(mask, raw);
+    for (int i = 0; i < W * H; i++) {
+        if (raw[i] == UINT32_MAX) continue;
+        check_mask_pixel(mask, i % W, i / W, raw[i], &largest);
+        n++;
     }
+    CHECK(n > W * H / 2);
+    report_worst(&largest, 1, "mask between corners, LSB of Q16", 2);
 }
 
 int main(int argc, char **argv)

@@ -96,11 +96,11 @@ static void fill_texels(const gn_light_view *view, uint8_t *lit)
         }
 }
 
-static double filter_bound(const gn_knobs *knobs, const gn_light_view *view)
+static double filter_bound(const gn_light_view *view)
 {
     const int k = view->filter_idx;
     const double slope = k == 0 ? 1 : 2.0 / (2 * k + 1);
-    return LSB16 + 2 * slope * ldexp(1, -knobs->weight_bits - 1) + (knobs->atten_bits == 8 ? ldexp(1, -9) : 0);
+    return LSB16 + 2 * slope * ldexp(1, -GN_FILTER_BITS(&renderer.frame) - 1);
 }
 
 static void check_filter(const gn_knobs *knobs)
@@ -128,7 +128,7 @@ static void check_filter(const gn_knobs *knobs)
                     want += weight_of(view, x, u) * weight_of(view, y, v);
         const double got = gn_filter_attenuation(&renderer.frame, view, &r) * LSB16;
         const int stage = view->filter_idx == 0 ? STAGE_FILTER : STAGE_FILTER_TENT;
-        record(stage, fabs(got - want), filter_bound(knobs, view), LSB16);
+        record(stage, fabs(got - want), filter_bound(view), LSB16);
     }
 }
 
@@ -494,15 +494,16 @@ static void check_sum(const gn_knobs *knobs, const gn_light_view *view)
 {
     static const double taps[] = {0.5, 1, 2, 3, 4};
     const double t = view->tile_texels, focal = view->fit.persp.focal2_q16 * LSB16;
-    const int one_step = knobs->newton_steps == 1;
+    const int one_step = GN_RECIP_STEPS(&renderer.frame) == 1;
     const double divide = one_step ? ldexp(1, -17) : ldexp(1, -29);
-    const double snap = ldexp(1, -knobs->shadow_subpixel_bits - 1) + ldexp(1, -knobs->weight_bits - 1) + 2 * LSB16;
+    const double snap =
+        ldexp(1, -GN_CASTER_BITS(&renderer.frame) - 1) + ldexp(1, -GN_FILTER_BITS(&renderer.frame) - 1) + 2 * LSB16;
     const double half_diagonal = sqrt(WIDTH * WIDTH + HEIGHT * HEIGHT) / (renderer.frame.cam.focal2_px_q16 * LSB16);
     const double ray = sqrt(1 + half_diagonal * half_diagonal) *
                        ((one_step ? ldexp(1, -17) : ldexp(1, -28)) + ldexp(WIDTH + HEIGHT, -28));
     const double rounded =
         ldexp(1, -knobs->other_depth_bits - 1) +
-        (knobs->other_depth_bits < 32 ? ldexp(1, -knobs->other_depth_bits - knobs->shadow_depth_frac - 1) : 0);
+        (knobs->other_depth_bits < 32 ? ldexp(1, -knobs->other_depth_bits - GN_DEPTH_FRAC_BITS - 1) : 0);
     const double want[3] = {taps[view->filter] + snap + t / 2 * divide + focal * ldexp(1, -30),
                             rounded + ldexp(1, -29) + divide + ldexp(t + 5, -32) + ldexp(1, -27), ray};
     const double got[3] = {view->offset_q16 * LSB16, ldexp(view->auto_step, -32), ldexp(view->auto_place, -40)};

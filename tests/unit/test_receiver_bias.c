@@ -140,8 +140,7 @@ static void test_punctual(void)
 /* The position error of a directional light's receivers is at most 8 texels, whatever the distance. */
 static void test_automatic_limit(void)
 {
-    const int delta =
-        (1 << (15 - GN_K(&one.frame, shadow_subpixel_bits))) + (1 << (15 - GN_K(&one.frame, weight_bits)));
+    const int delta = (1 << (15 - GN_CASTER_BITS(&one.frame))) + (1 << (15 - GN_FILTER_BITS(&one.frame)));
     gn_light_view view = {.tile_texels = 64, .border_lit = 1, .filter = GN_FILTER_HARD};
     int32_t before = 0;
     scene.shadow.max_distance_q16 = 8192 << 16, scene.camera.focal_q24 = GN_Q24(1);

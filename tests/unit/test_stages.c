@@ -131,7 +131,7 @@ static void check_depth(const gn_frame *frame, const gn_tri *tri, const plane *p
 
 static double depth_bound(const gn_frame *frame, const plane *p, const crossing *c)
 {
-    double divide = frame->knobs.newton_steps == 1 ? ldexp(1, -17) : ldexp(1, -28);
+    double divide = GN_RECIP_STEPS(frame) == 1 ? ldexp(1, -17) : ldexp(1, -28);
     return 0.5 * LSB16 + c->z * (ldexp(c->kappa + p->kappa0, -29) + divide);
 }
 
@@ -171,7 +171,7 @@ static void check_light_coords(const gn_frame *frame, const gn_surface *s, const
             3 * LSB16 + z_got * ldexp(1 + 0.5 * (abs(px) + abs(py)), -view->fit.ortho.ray_shift) +
             ldexp(fabs(z_got * along / texel) + fabs(eye / texel) + fabs((double)view->fit.ortho.origin[i]), -27) +
             view->offset_q16 * LSB16 *
-                (ldexp(c->kappa_b + c->kappa, -27) + (frame->knobs.newton_steps == 1 ? ldexp(1, -14) : ldexp(1, -26)));
+                (ldexp(c->kappa_b + c->kappa, -27) + (GN_RECIP_STEPS(frame) == 1 ? ldexp(1, -14) : ldexp(1, -26)));
         record(STAGE_LIGHT_UV, fabs(sample->value[GN_VALUE_LIGHT + 1 + i] * LSB16 - want), bound, LSB16);
     }
 }
@@ -181,8 +181,7 @@ static void check_light_coords(const gn_frame *frame, const gn_surface *s, const
 static double place_bound(const gn_frame *frame, double z)
 {
     const double half_diagonal = sqrt(WIDTH * WIDTH + HEIGHT * HEIGHT) / (renderer.frame.cam.focal2_px_q16 * LSB16);
-    const double relative =
-        (frame->knobs.newton_steps == 1 ? ldexp(1, -17) : ldexp(1, -28)) + ldexp(WIDTH + HEIGHT, -28);
+    const double relative = (GN_RECIP_STEPS(frame) == 1 ? ldexp(1, -17) : ldexp(1, -28)) + ldexp(WIDTH + HEIGHT, -28);
     return z * sqrt(1 + half_diagonal * half_diagonal) * relative + 8 * LSB16;
 }
 
@@ -332,9 +331,9 @@ static void check_sum(const gn_knobs *knobs)
     const double texel = 1 / ldexp(view->fit.ortho.inv_texel.mant, view->fit.ortho.inv_texel.exp);
     const double end = frame->cascade[0].centre_q16 * LSB16 + sqrt(ldexp((double)frame->cascade[0].radius2_q32, -32));
     const double place = place_bound(frame, fmin(end, fixed.shadow.max_distance_q16 * LSB16)) / texel + ldexp(1, -12);
-    const double snap = ldexp(1, -knobs->shadow_subpixel_bits - 1) + ldexp(1, -knobs->weight_bits - 1) + 2 * LSB16;
-    const double rounded =
-        ldexp(1, -knobs->depth_bits - 1) + ldexp(1, -knobs->depth_bits - knobs->shadow_depth_frac - 1);
+    const double snap =
+        ldexp(1, -GN_CASTER_BITS(&renderer.frame) - 1) + ldexp(1, -GN_FILTER_BITS(&renderer.frame) - 1) + 2 * LSB16;
+    const double rounded = ldexp(1, -knobs->depth_bits - 1) + ldexp(1, -knobs->depth_bits - GN_DEPTH_FRAC_BITS - 1);
     const double stored =
         (rounded + ldexp(view->tile_texels + 2, -32) + ldexp(1, -29)) * ldexp(view->tile_texels, view->depth_log2) +
         3 * LSB16;

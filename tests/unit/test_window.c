@@ -79,7 +79,7 @@ static void store(size_t at, uint32_t depth)
 /* Half a step of a rounded depth, Q46. */
 static int64_t half_step(void)
 {
-    const int dropped = view.depth_bits == 32 ? 0 : 32 - view.depth_bits - (int)GN_K(&frame, shadow_depth_frac);
+    const int dropped = view.depth_bits == 32 ? 0 : 32 - view.depth_bits - GN_DEPTH_FRAC_BITS;
     return dropped ? (int64_t)1 << (dropped + 13) : 0;
 }
 
@@ -110,9 +110,6 @@ static void random_view(void)
     static const int32_t steps[] = {4, 8, 16};
     frame.scene = &scene;
     SET_KNOB(&frame, persp_step, steps[rng_below(&random_state, 3)]);
-    SET_KNOB(&frame, weight_bits, rng_range(&random_state, 4, 12));
-    SET_KNOB(&frame, shadow_depth_frac, rng_range(&random_state, 0, 4));
-    SET_KNOB(&frame, atten_bits, 16);
     SET_KNOB(&frame, edge, rng_below(&random_state, 2) ? rng_range(&random_state, 1, 8) : 0);
     view.depth_bits = depth_bits[rng_below(&random_state, 3)];
     view.filter = (uint8_t)rng_below(&random_state, GN_FILTER_MAX + 1);
@@ -172,7 +169,7 @@ static double tent_integral(double x, double h)
     return x <= 0 ? (x + h) * (x + h) / 2 : h * h - (h - x) * (h - x) / 2;
 }
 
-/* At least what a texel weighs along an axis, if its place is off by up to 1/64 texel or what weight_bits round. */
+/* At least what a texel weighs along an axis, if its place is off by up to 1/64 texel or by the rounding of weights. */
 static double most_weight(double texel, double at)
 {
     const double off = 1 / 32.0, h = view.filter_idx + 0.5;
@@ -234,11 +231,9 @@ static reading read_around(const gn_receiver *r)
 /* How far a window's answer may be from a lookup's where nothing is contested: NUMERICS 4.13. */
 static double rounding_of_places(void)
 {
-    const double of_lookup = GN_K(&frame, atten_bits) == 8 ? 128 : 0;
-    if (view.filter == GN_FILTER_2X2) return (GN_K(&frame, weight_bits) > 8) + of_lookup; /* cut, lit or dark */
-    if (view.filter != GN_FILTER_3X3) return of_lookup;
-    const double weight_bits = 2 * 2 / 3.0 * ldexp(1, -GN_K(&frame, weight_bits) - 1) * 65536 + 1;
-    return 2 * 2 / 3.0 / 64 * 65536 + 32 + weight_bits + of_lookup;
+    if (view.filter != GN_FILTER_3X3) return 0;
+    const double weights = 2 * 2 / 3.0 * ldexp(1, -GN_FILTER_BITS(&frame) - 1) * 65536 + 1;
+    return 2 * 2 / 3.0 / 64 * 65536 + 32 + weights;
 }
 
 static struct {
@@ -374,7 +369,7 @@ static void check_says(tally *sound, tally *sure)
 static void test_rows(void)
 {
     tally same = {0}, near = {0}, covers = {0}, sound = {0}, sure = {0};
-    for (int k = 0; k < 1500; k++) {
+    for (int k = 0; k < 2000; k++) {
         random_view();
         random_plane();
         random_texels();

@@ -71,12 +71,14 @@ ref_options engine_ref_options(const scene *s, const settings *set, int width, i
                          .other_atlas_texels = set->capacity.other_atlas_texels,
                          .srgb = set->quality.srgb != 0,
                          .vertex_light = set->quality.vertex_light != 0,
-                         .shadow_subpixel_bits = set->quality.shadow_subpixel_bits,
-                         .shadow_depth_frac = set->quality.shadow_depth_frac,
-                         .weight_bits = set->quality.weight_bits,
+                         .shadow_subpixel_bits = set->build.compact             ? 8
+                                                 : set->quality.persp_step == 1 ? 12
+                                                                                : 10,
+                         .shadow_depth_frac = GN_DEPTH_FRAC_BITS,
+                         .weight_bits = set->quality.persp_step == 1 ? 12 : 8,
                          .depth_bits = set->quality.depth_bits,
                          .other_depth_bits = set->quality.other_depth_bits,
-                         .newton_steps = set->quality.newton_steps,
+                         .newton_steps = set->quality.persp_step == 1 && !set->build.compact ? 2 : 1,
                          .edge = set->quality.edge,
                          .transparent_layers = set->quality.transparent_layers,
                          .unit = ldexp(1.0, -16 - quantise_world_exp(s))};

@@ -132,6 +132,11 @@ static const char *why_gone(const char *key)
         {"tile_lights", "lists of lights per screen tile cost more than they saved"},
         {"depth_blocks", "bounds of depth cost more than they saved, but for the disk filter, which always has them"},
         {"linear_kernels", "3x3, 5x5 and 7x7 are tents, which are exact and cheaper"},
+        {"atten_bits", "attenuation has 16 bits"},
+        {"newton_steps", "follows from persp_step: 2 with 1, else 1"},
+        {"shadow_depth_frac", "4 bits always"},
+        {"shadow_subpixel_bits", "10 bits always"},
+        {"weight_bits", "follows from persp_step: 12 with 1, else 8"},
         {"kernel", "3x3, 5x5 and 7x7 are tents, which are exact and cheaper"},
     };
     for (size_t i = 0; i < sizeof gone / sizeof *gone; i++)

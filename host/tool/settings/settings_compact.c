@@ -47,13 +47,11 @@ void settings_compact_scene(scene *s)
         if (s->lights[i].auto_bias == SCENE_AUTO_BIAS_NORMAL) s->lights[i].auto_bias = SCENE_AUTO_BIAS_DEPTH;
 }
 
-/* NUMERICS 4.15: 8 fraction bits of pixels and texels; a tap is one texel */
+/* NUMERICS 4.15: 8 fraction bits of pixels */
 void settings_compact_quality(settings *s)
 {
-    s->quality.subpixel_bits = s->quality.shadow_subpixel_bits = 8;
-    s->quality.persp_step = s->quality.newton_steps = 1;
-    s->quality.shadow_depth_frac = 4;
-    s->quality.weight_bits = 12;
+    s->quality.subpixel_bits = 8;
+    s->quality.persp_step = 1;
     s->quality.vertex_light = 0;
 }
 

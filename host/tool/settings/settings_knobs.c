@@ -173,7 +173,6 @@ int settings_suffice(const settings *s, const settings_demand *demand, char *err
 static const char *refine(const settings *s, const void *changed, int n)
 {
     if (changed == &s->quality.persp_step && n != 1 && n != 4 && n != 8 && n != 16) return "1, 4, 8 or 16";
-    if (changed == &s->quality.atten_bits && n != 8 && n != 16) return "8 or 16";
     if ((changed == &s->quality.depth_bits || changed == &s->quality.other_depth_bits) && n != 8 && n != 16 && n != 32)
         return "8, 16 or 32";
     if ((changed == &s->quality.atlas_size || changed == &s->quality.other_atlas_size) && (n & (n - 1)))
