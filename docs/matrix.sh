@@ -19,17 +19,15 @@ trap 'exit 1' HUP INT TERM
 # ---- Configurations -----------------------------------------------------------------------------------------------------------
 
 features=$(sed -n '/GN_FEATURE_KNOBS/,$s/^    X([a-z_0-9]*, \([A-Z_0-9]*\), .*/\1/p' lib/gn_knobs.h | grep -v -e RUNTIME_KNOBS -e RAW_VIEWS)
-most() { case $1 in FILTER_MAX | VERTEX_JOINTS) echo 4 ;; TEXTURE_FORMATS) echo 1023 ;; *) echo 1 ;; esac; }
+most() { case $1 in FILTER_MAX) echo 5 ;; VERTEX_JOINTS) echo 4 ;; TEXTURE_FORMATS) echo 1023 ;; MANY_CASCADES) echo 3 ;; TEXTURES | INCREMENTAL | TILE_SIZES) echo 2 ;; *) echo 1 ;; esac; }
 # Formats of textures, in the order of gn_scene_types.h
 FORMATS="RGBA8888 RGB565 RGB565A1 PALETTE8 PALETTE4 PALETTE1 GREY8 GREY4 ALPHA8 ALPHA4"
 # base FEATURE: what must be built for it to have something to do
 base() {
     case $1 in
-    SHADOWS | PUNCTUAL_LIGHTS | TEXTURES | SPECULAR | VERTEX_* | BAKED_LIGHT | VALIDATION | OTHER_FORMATS | VISIBLE_ALPHA | MASKS | \
-        EMISSIVE | ORTHOGRAPHIC | TILE_DRAWING | CLIPPING | CLIPS | PICKING) echo none ;;
+    SHADOWS | PUNCTUAL_LIGHTS | TEXTURES | SPECULAR | VERTEX_* | BAKED | VALIDATION | OTHER_FORMATS | ALPHA | \
+        EMISSIVE | ORTHOGRAPHIC | TILE_DRAWING | CLIPPING) echo none ;;
     TEXTURE_*) echo textures ;;
-    EMISSIVE_TEXTURES) echo glow ;;
-    BLENDED_CASCADES | CASTER_CULLING) echo cascades ;;
     *) echo shadows ;;
     esac
 }
@@ -44,9 +42,7 @@ configurations() {
     echo "shadows $(with SHADOWS=1)"
     echo "lights $(with PUNCTUAL_LIGHTS=1)"
     echo "filters $(with SHADOWS=1 FILTER_MAX=4)"
-    echo "cascades $(with SHADOWS=1 MANY_CASCADES=1)"
     echo "textures $(with TEXTURES=1 TEXTURE_FORMATS=1)"
-    echo "glow $(with TEXTURES=1 TEXTURE_FORMATS=1 EMISSIVE=1)"
     echo "shadows+lights $(with SHADOWS=1 PUNCTUAL_LIGHTS=1)"
     echo "all $(without nothing)"
     bit=1
@@ -59,10 +55,8 @@ configurations() {
         case $(base "$feature") in
         none) echo "none+$feature $(with TEXTURE_FORMATS=1 "$feature=$value")" ;;
         textures) echo "textures+$feature $(with TEXTURES=1 TEXTURE_FORMATS=1 "$feature=$value")" ;;
-        glow) echo "glow+$feature $(with TEXTURES=1 TEXTURE_FORMATS=1 EMISSIVE=1 "$feature=$value")" ;;
         lights) echo "lights+$feature $(with PUNCTUAL_LIGHTS=1 "$feature=$value")" ;;
         filters) echo "filters+$feature $(with SHADOWS=1 FILTER_MAX=4 "$feature=$value")" ;;
-        cascades) echo "cascades+$feature $(with SHADOWS=1 MANY_CASCADES=1 "$feature=$value")" ;;
         shadows) echo "shadows+$feature $(with SHADOWS=1 "$feature=$value")" ;;
         esac
         echo "all-$feature $(without "$feature")"
@@ -78,8 +72,9 @@ scene() {
     "$tool" compile "$file" -o "$work/own-$1" --size 160x120 --set output=rgb565 --set preset=$preset >"$work/log"
     "$tool" compile "$file" -o "$work/full-$1" --size 160x120 --set output=rgb565 --set preset=$preset --simplify none >"$work/log"
     for feature in $features; do
-        case $feature in STATIC_LAYER) continue ;; esac # twice the RAM: of no use to most
-        sed "s/^\(#define GN_$feature\)  *[0-9]*/\1 $(most "$feature")/" "$work/full-$1/gn_scene_config.h" >"$work/config.h"
+        value=$(most "$feature")
+        [ $feature != INCREMENTAL ] || value=1 # 2: twice the RAM, of no use to most
+        sed "s/^\(#define GN_$feature\)  *[0-9]*/\1 $value/" "$work/full-$1/gn_scene_config.h" >"$work/config.h"
         mv "$work/config.h" "$work/full-$1/gn_scene_config.h"
     done
     cp -r "$work/full-$1" "$work/any-$1"
@@ -141,11 +136,11 @@ tables() {
         }
         function share(a, b) { return a == "" || b == "" ? "·" : sprintf("−%.1f %%", 100 * (1 - a / b)) }
         function alone(f,    b) {
-            for (b = 1; b <= 7; b++) if (get("flash", "M4", base[b] "+" f) != "" || get("flash", "M0", base[b] "+" f) != "") return base[b]
+            for (b = 1; b <= 5; b++) if (get("flash", "M4", base[b] "+" f) != "" || get("flash", "M0", base[b] "+" f) != "") return base[b]
             return "none"
         }
         END {
-            split("none shadows lights filters cascades textures glow", base, " ")
+            split("none shadows lights filters textures", base, " ")
             head = "| configuration | flash, M0 | flash, M4 | RAM | stack, M0 | stack, M4 |\n| --- | --- | --- | --- | --- | --- |"
             print head
             row("none", "none")
@@ -156,7 +151,7 @@ tables() {
             n = split(scenes, scene, " ")
             for (i = 1; i <= n; i++) row("own-" scene[i], scene[i] ", its own")
             print "\n## What each feature costs\n"
-            print "Bytes; *alone*: more than what it stands on (none of the features; `shadows`; `punctual_lights`; `shadows` with `filter_max` 4, or with `many_cascades`; `textures` of RGBA8888; *glow*: these with `emissive`); *of all*: what all of them take more than all but this.\n"
+            print "Bytes; *alone*: more than what it stands on (none of the features; `shadows`; `punctual_lights`; `shadows` with `filter_max` 4; `textures` of RGBA8888); *of all*: what all of them take more than all but this.\n"
             print "| feature | alone, over | flash, M0 | flash, M4 | RAM | stack, M4 | of all: flash, M0 | flash, M4 | RAM | stack, M4 |"
             print "| --- | --- | --- | --- | --- | --- | --- | --- | --- | --- |"
             n_features = split(features, feature, " ")

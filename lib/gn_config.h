@@ -15,6 +15,20 @@
 #include GN_USER_CONFIG
 #endif
 
+/* Knobs that are gone: docs/CHANGELOG.md says what to do instead. */
+#if defined(GN_TILE_LIGHTS) || defined(GN_LINEAR_KERNELS) || defined(GN_DEPTH_BLOCKS) || defined(GN_ATTEN_BITS) ||     \
+    defined(GN_NEWTON_STEPS) || defined(GN_SHADOW_DEPTH_FRAC) || defined(GN_SHADOW_SUBPIXEL_BITS) ||                   \
+    defined(GN_WEIGHT_BITS)
+#error "the configuration sets a knob that is gone"
+#endif
+#if defined(GN_CASTER_ALPHA) || defined(GN_VISIBLE_ALPHA) || defined(GN_EMISSIVE_TEXTURES) || defined(GN_MASKS) ||     \
+    defined(GN_BAKED_LIGHT) || defined(GN_RECEIVER_BIAS) || defined(GN_CASTER_BIAS) || defined(GN_RECEIVER_PLANE) ||   \
+    defined(GN_BLENDED_CASCADES) || defined(GN_CASTER_CULLING) || defined(GN_DISK_FILTER) ||                           \
+    defined(GN_TEXTURE_LEVELS) || defined(GN_STATIC_LAYER) || defined(GN_TILE_IMPORTANCE) || defined(GN_TIGHT_FIT) ||  \
+    defined(GN_CASTER_CLIPPING) || defined(GN_CLIPS) || defined(GN_PICKING)
+#error "the configuration sets a knob that is part of another one now"
+#endif
+
 #ifndef GN_PRESET
 #define GN_PRESET GN_PRESET_BALANCED
 #endif
@@ -137,14 +151,8 @@
 #ifndef GN_SHADOWS
 #define GN_SHADOWS 1
 #endif
-#ifndef GN_BLENDED_CASCADES
-#define GN_BLENDED_CASCADES (!GN_COMPACT)
-#endif
 #ifndef GN_FILTER_MAX
-#define GN_FILTER_MAX (GN_COMPACT ? 0 : 4)
-#endif
-#ifndef GN_DISK_FILTER
-#define GN_DISK_FILTER (!GN_COMPACT)
+#define GN_FILTER_MAX (GN_COMPACT ? 0 : 5)
 #endif
 #ifndef GN_PUNCTUAL_LIGHTS
 #define GN_PUNCTUAL_LIGHTS (!GN_COMPACT)
@@ -152,23 +160,14 @@
 #ifndef GN_MAIN_LIGHT
 #define GN_MAIN_LIGHT (!GN_COMPACT)
 #endif
-#ifndef GN_CASTER_CULLING
-#define GN_CASTER_CULLING 0
-#endif
-#ifndef GN_CASTER_ALPHA
-#define GN_CASTER_ALPHA (!GN_COMPACT)
-#endif
-#ifndef GN_VISIBLE_ALPHA
-#define GN_VISIBLE_ALPHA (!GN_COMPACT)
+#ifndef GN_ALPHA
+#define GN_ALPHA (!GN_COMPACT)
 #endif
 #ifndef GN_TEXTURES
-#define GN_TEXTURES (!GN_COMPACT)
+#define GN_TEXTURES (GN_COMPACT ? 0 : 2)
 #endif
 #ifndef GN_TEXTURE_FORMATS
 #define GN_TEXTURE_FORMATS 1023
-#endif
-#ifndef GN_TEXTURE_LEVELS
-#define GN_TEXTURE_LEVELS GN_TEXTURES
 #endif
 #ifndef GN_SPECULAR
 #define GN_SPECULAR (!GN_COMPACT)
@@ -176,32 +175,17 @@
 #ifndef GN_EMISSIVE
 #define GN_EMISSIVE (!GN_COMPACT)
 #endif
-#ifndef GN_EMISSIVE_TEXTURES
-#define GN_EMISSIVE_TEXTURES (GN_EMISSIVE && GN_TEXTURES)
+#ifndef GN_BAKED
+#define GN_BAKED (!GN_COMPACT)
 #endif
-#ifndef GN_MASKS
-#define GN_MASKS (!GN_COMPACT)
-#endif
-#ifndef GN_BAKED_LIGHT
-#define GN_BAKED_LIGHT (!GN_COMPACT)
-#endif
-#ifndef GN_RECEIVER_BIAS
-#define GN_RECEIVER_BIAS (!GN_COMPACT)
-#endif
-#ifndef GN_CASTER_BIAS
-#define GN_CASTER_BIAS (!GN_COMPACT)
-#endif
-#ifndef GN_RECEIVER_PLANE
-#define GN_RECEIVER_PLANE (!GN_COMPACT)
+#ifndef GN_OTHER_BIASES
+#define GN_OTHER_BIASES (!GN_COMPACT)
 #endif
 #ifndef GN_AUTO_BIAS
 #define GN_AUTO_BIAS 1
 #endif
 #ifndef GN_INCREMENTAL
 #define GN_INCREMENTAL (!GN_COMPACT)
-#endif
-#ifndef GN_STATIC_LAYER
-#define GN_STATIC_LAYER 0
 #endif
 #ifndef GN_VERTEX_NORMALS
 #define GN_VERTEX_NORMALS (!GN_COMPACT)
@@ -222,13 +206,10 @@
 #define GN_OTHER_FORMATS (!GN_COMPACT)
 #endif
 #ifndef GN_MANY_CASCADES
-#define GN_MANY_CASCADES (!GN_COMPACT)
+#define GN_MANY_CASCADES (GN_COMPACT ? 0 : 2)
 #endif
-#ifndef GN_TILE_IMPORTANCE
-#define GN_TILE_IMPORTANCE (!GN_COMPACT)
-#endif
-#ifndef GN_TIGHT_FIT
-#define GN_TIGHT_FIT (!GN_COMPACT && GN_SHADOWS)
+#ifndef GN_TILE_SIZES
+#define GN_TILE_SIZES (GN_COMPACT ? 0 : 2)
 #endif
 #ifndef GN_OBJECT_BOXES
 #define GN_OBJECT_BOXES (!GN_COMPACT)
@@ -238,15 +219,6 @@
 #endif
 #ifndef GN_CLIPPING
 #define GN_CLIPPING (!GN_COMPACT)
-#endif
-#ifndef GN_CASTER_CLIPPING
-#define GN_CASTER_CLIPPING (!GN_COMPACT)
-#endif
-#ifndef GN_CLIPS
-#define GN_CLIPS 1
-#endif
-#ifndef GN_PICKING
-#define GN_PICKING (!GN_COMPACT)
 #endif
 #ifndef GN_RAW_VIEWS
 #define GN_RAW_VIEWS 0
@@ -268,11 +240,27 @@
 #define GN_ERROR_FIELDS 0
 #endif
 
+/* What the features above stand for, by parts of the library. */
+#define GN_DISK_FILTER      ((GN_FILTER_MAX) >= 5)
+#define GN_BLENDED_CASCADES ((GN_MANY_CASCADES) >= 2)
+#define GN_CASTER_CULLING   ((GN_MANY_CASCADES) >= 3)
+#define GN_STATIC_LAYER     ((GN_INCREMENTAL) >= 2)
+#define GN_TILE_IMPORTANCE  ((GN_TILE_SIZES) >= 1)
+#define GN_TIGHT_FIT        ((GN_SHADOWS) && (GN_TILE_SIZES) >= 2)
+#define GN_CASTER_ALPHA     (GN_ALPHA)
+#define GN_VISIBLE_ALPHA    (GN_ALPHA)
+#define GN_MASKS            (GN_BAKED)
+#define GN_BAKED_LIGHT      (GN_BAKED)
+#define GN_RECEIVER_BIAS    (GN_OTHER_BIASES)
+#define GN_CASTER_BIAS      (GN_OTHER_BIASES)
+#define GN_RECEIVER_PLANE   (GN_OTHER_BIASES)
+#define GN_CASTER_CLIPPING  (GN_CLIPPING)
+
 /* Whether the boxes of objects are needed. */
 #define GN_BOXES (GN_PUNCTUAL_LIGHTS || (GN_SHADOWS && (GN_OBJECT_BOXES || GN_CASTER_CULLING || GN_TIGHT_FIT)))
 
 /* Whether textures may have half-size levels. */
-#define GN_MIPMAPS (GN_TEXTURES && GN_TEXTURE_LEVELS)
+#define GN_MIPMAPS ((GN_TEXTURES) >= 2)
 
 /* Whether light that a surface emits may have to be added after colours of vertices or a texture. */
 #define GN_GLOW_APART (GN_EMISSIVE && (GN_TEXTURES || GN_VERTEX_COLOURS))
@@ -296,7 +284,7 @@
 #define GN_PLANES (GN_RECEIVER_PLANE || GN_EDGE_BUILT)
 
 /* Whether textures may say where it is emitted. */
-#define GN_GLOW_TEXTURES (GN_EMISSIVE && GN_TEXTURES && GN_EMISSIVE_TEXTURES)
+#define GN_GLOW_TEXTURES (GN_EMISSIVE && GN_TEXTURES)
 
 /* Whether shading interpolates between exact points (gn_lattice.h). Not built where every pixel must be exact. */
 #define GN_INTERPOLATES (!GN_COMPACT && (GN_RUNTIME_KNOBS || GN_PERSP_STEP > 1))

@@ -87,46 +87,38 @@
 
 #define GN_FEATURE_KNOBS(X)                                                                                            \
     X(shadows, SHADOWS, 0, 1, "shadow maps", "atlas, rasteriser and filters")                                          \
-    X(blended_cascades, BLENDED_CASCADES, 0, 1, "soft and dithered blending between cascades",                         \
-      "three more values per light and sample")                                                                        \
-    X(filter_max, FILTER_MAX, 0, 4, "largest filter built: 0 hard, 1 2x2, 2 3x3, 3 5x5, 4 7x7", "flash")               \
-    X(disk_filter, DISK_FILTER, 0, 1, "rotated disk filter",                                                           \
-      "flash; a table of 256 bytes; 4 bytes of RAM per 64 texels")                                                     \
+    X(filter_max, FILTER_MAX, 0, 5,                                                                                    \
+      "largest filter built: 0 hard, 1 2x2, 2 3x3, 3 5x5, 4 7x7, 5 the rotated disk, too",                             \
+      "flash; 5: a table of 256 bytes; 4 bytes of RAM per 64 texels")                                                  \
     X(punctual_lights, PUNCTUAL_LIGHTS, 0, 1, "spot and point lights", "flash; the local-light atlas")                 \
     X(main_light, MAIN_LIGHT, 0, 1, "a main light with cascades; other directional lights take one tile each",         \
       "flash; the local-light atlas")                                                                                  \
-    X(caster_culling, CASTER_CULLING, 0, 1,                                                                            \
-      "casters whose shadows lie wholly in a smaller cascade are not drawn into larger ones; off by default: the "     \
-      "scenes of the project take 0.5 % more instructions with it",                                                    \
-      "flash; the same picture with and without")                                                                      \
-    X(caster_alpha, CASTER_ALPHA, 0, 1, "casters cut by alpha: clip and dither", "flash")                              \
-    X(visible_alpha, VISIBLE_ALPHA, 0, 1, "surfaces cut by alpha: clip and dither", "flash")                           \
-    X(textures, TEXTURES, 0, 1, "textures: colour and alpha", "flash; a table of 512 bytes; a lookup per pixel")       \
+    X(alpha, ALPHA, 0, 1, "alpha of surfaces and of casters: clip and dither", "flash")                                \
+    X(textures, TEXTURES, 0, 2,                                                                                        \
+      "textures: colour and alpha; 2: also half-size levels (mip chains), chosen per cell by depth: far textures do "  \
+      "not glitter",                                                                                                   \
+      "flash; a table of 512 bytes; a lookup per pixel; 2: a third more flash per texture that has levels; a root "    \
+      "per triangle")                                                                                                  \
     X(texture_formats, TEXTURE_FORMATS, 0, 1023,                                                                       \
       "formats of textures that are built, their sum: 1 RGBA8888, 2 RGB565, 4 RGB565 with 1 bit of alpha, 8, 16, 32 "  \
       "palettes of 8, 4, 1 bits, 64, 128 grey of 8, 4 bits, 256, 512 alpha of 8, 4 bits",                              \
       "flash")                                                                                                         \
-    X(texture_levels, TEXTURE_LEVELS, 0, 1,                                                                            \
-      "half-size levels of textures (mip chains), chosen per cell by depth: far textures do not glitter",              \
-      "flash; a third more flash per texture that has them; a root per triangle")                                      \
     X(specular, SPECULAR, 0, 1, "specular highlights",                                                                 \
       "flash; a reciprocal root per light and sample of such objects")                                                 \
-    X(emissive, EMISSIVE, 0, 1, "emissive colours: objects that glow",                                                 \
-      "flash; three additions per triangle, or per pixel where it has a texture")                                      \
-    X(emissive_textures, EMISSIVE_TEXTURES, 0, 1, "textures of emissive colours",                                      \
-      "flash; a second lookup per pixel of such objects")                                                              \
-    X(masks, MASKS, 0, 1, "baked shadow masks and their mixing", "flash")                                              \
-    X(baked_light, BAKED_LIGHT, 0, 1, "baked irradiance per vertex", "flash; three values per sample")                 \
-    X(receiver_bias, RECEIVER_BIAS, 0, 1, "the four-term receiver bias", "flash")                                      \
-    X(caster_bias, CASTER_BIAS, 0, 1, "casters shrunk along their normals", "flash")                                   \
-    X(receiver_plane, RECEIVER_PLANE, 0, 1, "depth of the receiver's plane per tap", "flash")                          \
+    X(emissive, EMISSIVE, 0, 1, "emissive colours and, with textures, textures of them: objects that glow",            \
+      "flash; three additions per triangle, or per pixel where it has a texture; a second lookup where it emits by "   \
+      "one")                                                                                                           \
+    X(baked, BAKED, 0, 1, "baked shadow masks and their mixing; baked irradiance per vertex",                          \
+      "flash; four values and three per sample")                                                                       \
+    X(other_biases, OTHER_BIASES, 0, 1,                                                                                \
+      "biases in place of auto_bias: of the receiver, in four terms; casters shrunk along their normals; the "         \
+      "receiver's plane per tap",                                                                                      \
+      "flash")                                                                                                         \
     X(auto_bias, AUTO_BIAS, 0, 1, "automatic bias", "flash")                                                           \
-    X(incremental, INCREMENTAL, 0, 1,                                                                                  \
-      "shadow tiles are kept from frame to frame while nothing in them changes: a single picture does not show it",    \
-      "16 bytes per tile; the same picture with and without")                                                          \
-    X(static_layer, STATIC_LAYER, 0, 1,                                                                                \
-      "static casters are kept apart from moving ones, from frame to frame: a single picture does not show it",        \
-      "the atlases' RAM twice")                                                                                        \
+    X(incremental, INCREMENTAL, 0, 2,                                                                                  \
+      "1: shadow tiles are kept from frame to frame while nothing in them changes; 2: also static casters apart from " \
+      "moving ones; a single picture does not show it",                                                                \
+      "16 bytes per tile; 2: the RAM of the atlases twice; the same picture with and without")                         \
     X(vertex_normals, VERTEX_NORMALS, 0, 1, "interpolated vertex normals", "flash; a reciprocal root per sample")      \
     X(vertex_colours, VERTEX_COLOURS, 0, 1, "interpolated vertex colours", "flash; three multiplications per sample")  \
     X(vertex_joints, VERTEX_JOINTS, 0, 4, "skins: the most joints that move a vertex; 0: no skins",                    \
@@ -136,23 +128,22 @@
     X(validation, VALIDATION, 0, 1,                                                                                    \
       "scenes are checked before they are drawn; without, an invalid scene has undefined behaviour", "flash")          \
     X(other_formats, OTHER_FORMATS, 0, 1, "pixel formats other than RGB565: RGB888, grey, one bit", "flash")           \
-    X(many_cascades, MANY_CASCADES, 0, 1, "more than one cascade per light", "flash")                                  \
-    X(tile_importance, TILE_IMPORTANCE, 0, 1, "tile sizes by importance", "flash")                                     \
-    X(tight_fit, TIGHT_FIT, 0, 1,                                                                                      \
-      "shadow tiles that cover what is visible, and are as large as that is worth on the screen",                      \
-      "flash; 64 bytes per tile, 24 per object")                                                                       \
+    X(many_cascades, MANY_CASCADES, 0, 3,                                                                              \
+      "cascades per light: 0 one; 1 up to four; 2 with soft and dithered blending between them; 3 also casters whose " \
+      "shadows lie wholly in a smaller cascade are not drawn into larger ones: 0.5 % more instructions in the scenes " \
+      "of the project",                                                                                                \
+      "flash; 2: three more values per light and sample")                                                              \
+    X(tile_sizes, TILE_SIZES, 0, 2,                                                                                    \
+      "sizes of shadow tiles: 0 equal; 1 by importance; 2 also tiles that cover what is visible, and are as large as " \
+      "that is worth on the screen",                                                                                   \
+      "flash; 2: 64 bytes per tile, 24 per object")                                                                    \
     X(object_boxes, OBJECT_BOXES, 0, 1, "casters whose box lies outside a shadow tile are skipped",                    \
       "flash, 24 bytes per object; the same picture with and without")                                                 \
     X(orthographic, ORTHOGRAPHIC, 0, 1, "orthographic cameras", "flash; 48 bytes of RAM")                              \
     X(clipping, CLIPPING, 0, 1,                                                                                        \
-      "visible triangles may cross the near plane, or extend far beyond the picture; without, the frame is "           \
-      "refused",                                                                                                       \
+      "visible triangles may cross the near plane, or extend far beyond the picture, directional casters more than "   \
+      "8192 texels beyond their tile; without, such a frame is refused",                                               \
       "flash")                                                                                                         \
-    X(caster_clipping, CASTER_CLIPPING, 0, 1,                                                                          \
-      "directional casters may extend more than 8192 texels beyond their tile; without, they may be refused", "flash") \
-    X(clips, CLIPS, 0, 1, "animation clips of gnomon asset: gn_pose",                                                  \
-      "flash, where it is called; 48 bytes per node that a clip moves")                                                \
-    X(picking, PICKING, 0, 1, "what is under a pixel: gn_pick", "flash, where it is called")                           \
     X(raw_views, RAW_VIEWS, 0, 1, "views of depth, normals, shadow and triangle identity (host tools)", "flash")       \
     X(runtime_knobs, RUNTIME_KNOBS, 0, 1, "quality knobs as data (host tools)", "everything is built")
 

@@ -86,7 +86,7 @@ enum {
     GN_OBJECT_UNLIT = 8,
     GN_OBJECT_HIDDEN = 16,          /* casts, but is not seen */
     GN_OBJECT_CASTS_TWO_SIDED = 32, /* two-sided as a caster only */
-    GN_OBJECT_MOVING = 64,          /* with GN_STATIC_LAYER its shadow is drawn over a kept one of the others */
+    GN_OBJECT_MOVING = 64,          /* with GN_INCREMENTAL 2 its shadow is drawn over a kept one of the others */
     GN_OBJECT_DEFAULT = GN_OBJECT_CASTS | GN_OBJECT_RECEIVES
 };
 
@@ -209,7 +209,7 @@ typedef struct {
                                  never do */
     uint32_t cascade_ratio_uq16[3]; /* where cascades 0, 1, 2 end, as fractions of the max distance, ascending; the last
                                        ends there */
-    gn_blend blend;                 /* anything but hard needs GN_BLENDED_CASCADES */
+    gn_blend blend;                 /* anything but hard needs GN_MANY_CASCADES 2 */
     gn_distance_mode distance_mode;
     const gn_fixed_fit *fixed_fits; /* or NULL: by `gnomon compile`, for a whole animation; of tight fits alone */
     uint32_t n_fixed_fits;

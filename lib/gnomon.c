@@ -18,9 +18,7 @@
 /* Transforms; validation of the caller's scene. */
 #include "geometry/gn_affine.c"
 #include "scene/gn_defaults.c"
-#if GN_CLIPS
 #include "scene/gn_pose.c"
-#endif
 #include "scene/gn_scene.c"
 #include "scene/gn_sides.c"
 #if GN_ERROR_FIELDS
@@ -172,9 +170,6 @@
 #include "shade/gn_surface_lights.c"
 #include "visible/gn_layers.c"
 #include "shade/gn_mix.c"
-#endif
-
-#if GN_PICKING
 #include "visible/gn_pick.c"
 #endif
 

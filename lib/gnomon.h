@@ -80,7 +80,7 @@ extern "C" {
                       "or have more than 15 fraction bits, or an emissive texture that clamps otherwise")              \
     X(GN_ERR_TEXTURE_FORMAT,                                                                                           \
       "unknown format of a texture, or one not built in (GN_TEXTURE_FORMATS), or smaller levels that are not "         \
-      "(GN_TEXTURE_LEVELS), or a mask image that is not RGBA8888")                                                     \
+      "(GN_TEXTURES 2), or a mask image that is not RGBA8888")                                                         \
     X(GN_ERR_MATERIAL, "alpha, cutoff, specular or emissive colour or shininess out of range, or an alpha mode, "      \
                        "caster mode or such a colour or emissive texture that is not built in")                        \
     X(GN_ERR_MASK, "mask image without coordinates, or masks or baked light where they are not built in")              \
@@ -173,9 +173,7 @@ int32_t gn_cos_q30(uint16_t angle_turn);
 /* ---- Models and their animation: what gnomon asset writes ---------------------------------------------------------
  */
 
-#if GN_CLIPS
 #include "gn_rig.h"
-#endif
 
 /* ---- Rendering --------------------------------------------------------------------------------------------------- */
 
@@ -321,7 +319,7 @@ typedef struct {
 } gn_tile_info;
 uint32_t gn_get_shadow_tile(const gn_renderer *r, uint32_t light_idx, uint32_t view_idx, gn_tile_info *info);
 
-#if GN_PICKING
+#if !GN_COMPACT
 /* The object and its triangle that a pixel of the frame prepared last shows; both GN_NOTHING where there is none.
  * Either pointer may be NULL. The objects, and what they lead to, must live and be as they were when the frame was
  * begun; gn_scene, its lights and its camera are not read: they may be gone. It takes the time of one screen tile's

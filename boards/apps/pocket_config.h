@@ -20,24 +20,18 @@
 #define GN_FILTER_MAX       2 /* hard, 2x2, 3x3 */
 
 /* What the scene does not use, and what only saves instructions, is not built. */
-#define GN_BLENDED_CASCADES 0
-#define GN_DISK_FILTER      0
-#define GN_PUNCTUAL_LIGHTS  0
-#define GN_MAIN_LIGHT       0
-#define GN_CASTER_CULLING   0
-#define GN_CASTER_ALPHA     0
-#define GN_VISIBLE_ALPHA    0
-#define GN_TEXTURES         0
-#define GN_SPECULAR         0
-#define GN_MASKS            0
-#define GN_BAKED_LIGHT      0
-#define GN_RECEIVER_BIAS    0
-#define GN_CASTER_BIAS      0
-#define GN_RECEIVER_PLANE   0
-#define GN_AUTO_BIAS        0
-#define GN_INCREMENTAL      0
-#define GN_VERTEX_NORMALS   0
-#define GN_VERTEX_COLOURS   0
-#define GN_TILE_DRAWING     0
-#define GN_EMISSIVE         0
-#define GN_ORTHOGRAPHIC     0
+#define GN_PUNCTUAL_LIGHTS 0
+#define GN_MAIN_LIGHT      0
+#define GN_MANY_CASCADES   1 /* without blending */
+#define GN_ALPHA           0
+#define GN_TEXTURES        0
+#define GN_SPECULAR        0
+#define GN_BAKED           0
+#define GN_OTHER_BIASES    0
+#define GN_AUTO_BIAS       0
+#define GN_INCREMENTAL     0
+#define GN_VERTEX_NORMALS  0
+#define GN_VERTEX_COLOURS  0
+#define GN_TILE_DRAWING    0
+#define GN_EMISSIVE        0
+#define GN_ORTHOGRAPHIC    0

@@ -44,8 +44,8 @@ static gn_scene scene = {.objects = &object,
                          .shadow = {.max_distance_q16 = GN_Q16(20),
                                     .distance_fade_uq16 = GN_UQ16(0.1),
                                     .cascade_fade_uq16 = GN_UQ16(0.1),
-                                    .filter = (gn_filter)GN_FILTER_MAX,
-                                    .other_filter = (gn_filter)GN_FILTER_MAX}};
+                                    .filter = (gn_filter)(GN_FILTER_MAX < 4 ? GN_FILTER_MAX : 4),
+                                    .other_filter = (gn_filter)(GN_FILTER_MAX < 4 ? GN_FILTER_MAX : 4)}};
 
 static void flush(void *user, int x, int y, int w, int h, const void *pixels)
 {

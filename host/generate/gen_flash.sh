@@ -52,6 +52,7 @@ row() { # row NAME COMMENT FLAGS...: more than the typical build
     shift 2
     echo "FLASH($name, $(($(size cortex-m0 "$@") - m0)), $(($(size cortex-m4 "$@") - m4))) /* $comment */"
 }
+levels() { case $1 in MANY_CASCADES) echo 3 ;; INCREMENTAL | TEXTURES | TILE_SIZES) echo 2 ;; *) echo 1 ;; esac; }
 without() { # without FEATURE: of the typical ones
     for name in $typical; do [ "$name" = "$1" ] || echo "$name"; done
 }
@@ -63,11 +64,16 @@ row no_shadows "without shadows, and what is of shadows" $(flags VERTEX_NORMALS)
 for feature in VERTEX_NORMALS; do
     row no_$(echo $feature | tr A-Z a-z) "without" $(flags $(without $feature))
 done
-for max in 0 1 3 4; do row filter_max_$max "another filter_max" $(flags $typical FILTER_MAX=$max); done
+for max in 0 1 3 4 5; do row filter_max_$max "another filter_max" $(flags $typical FILTER_MAX=$max); done
 row punctual_unshadowed "spot and point lights, no shadows: above no_shadows too" $(flags VERTEX_NORMALS PUNCTUAL_LIGHTS)
 for feature in $features; do
     case " $typical FILTER_MAX " in *" $feature "*) continue ;; esac
     row $(echo $feature | tr A-Z a-z) "with" $(flags $typical $feature)
+    level=2
+    while [ $level -le $(levels $feature) ]; do
+        row $(echo $feature | tr A-Z a-z)_$level "with $level" $(flags $typical $feature=$level)
+        level=$((level + 1))
+    done
 done
 row edge "edge 4" $(flags $typical) -DGN_EDGE=4
 row preset_accurate "quality of preset accurate" $(flags $typical) -DGN_PRESET=GN_PRESET_ACCURATE

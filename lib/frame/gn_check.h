@@ -14,13 +14,6 @@ GN_CAPACITY_KNOBS(GN_CHECK_RANGE_)
 GN_FEATURE_KNOBS(GN_CHECK_RANGE_)
 GN_BUILD_KNOBS(GN_CHECK_RANGE_)
 
-/* Knobs that are gone: docs/CHANGELOG.md says what to do instead. */
-#if defined(GN_TILE_LIGHTS) || defined(GN_LINEAR_KERNELS) || defined(GN_DEPTH_BLOCKS) || defined(GN_ATTEN_BITS) ||     \
-    defined(GN_NEWTON_STEPS) || defined(GN_SHADOW_DEPTH_FRAC) || defined(GN_SHADOW_SUBPIXEL_BITS) ||                   \
-    defined(GN_WEIGHT_BITS)
-#error "the configuration sets a knob that is gone"
-#endif
-
 GN_STATIC_ASSERT(preset_unknown, GN_PRESET >= GN_PRESET_TINY && GN_PRESET <= GN_PRESET_ACCURATE);
 GN_STATIC_ASSERT(persp_step_not_1_4_8_16,
                  GN_PERSP_STEP == 1 || GN_PERSP_STEP == 4 || GN_PERSP_STEP == 8 || GN_PERSP_STEP == 16);
@@ -42,7 +35,7 @@ GN_STATIC_ASSERT(triangle_groups_have_up_to_128_columns_and_rows_of_tiles, /* gn
                      ((GN_MAX_WIDTH) <= 128 * (GN_TILE_WIDTH) && (GN_MAX_HEIGHT) <= 128 * (GN_TILE_HEIGHT)));
 GN_STATIC_ASSERT(triangle_groups_have_tiles_from_16_pixels, /* gn_setup.c has a vertex in them */
                  !(GN_TRIANGLE_GROUPS) || (GN_TILE_WIDTH) * (GN_TILE_HEIGHT) >= 16);
-GN_STATIC_ASSERT(transparent_layers_need_visible_alpha, !(GN_TRANSPARENT_LAYERS) || (GN_VISIBLE_ALPHA));
+GN_STATIC_ASSERT(transparent_layers_need_alpha, !(GN_TRANSPARENT_LAYERS) || (GN_ALPHA));
 
 /* Compact arithmetic: its features are shadows, optionally automatic bias and validation. Clipping is always built. */
 #define GN_COMPACT_IS_(condition) (!GN_COMPACT || (condition))
@@ -51,20 +44,17 @@ GN_STATIC_ASSERT(compact_has_one_light_and_one_shadow_tile,
                  GN_COMPACT_IS_((GN_SHADOWS) && GN_MAX_LIGHTS == 1 && GN_MAX_SHADOW_TILES == 1));
 GN_STATIC_ASSERT(compact_has_an_atlas_up_to_256, GN_COMPACT_IS_(GN_ATLAS_SIZE <= 256 && GN_DEPTH_BITS == 16));
 GN_STATIC_ASSERT(compact_has_no_lights_but_directional_ones,
-                 GN_COMPACT_IS_(!GN_PUNCTUAL_LIGHTS && !GN_MAIN_LIGHT && !GN_MASKS && !GN_BAKED_LIGHT));
-GN_STATIC_ASSERT(compact_has_the_hard_filter, GN_COMPACT_IS_(!(GN_EDGE) && !GN_FILTER_MAX && !GN_DISK_FILTER));
-GN_STATIC_ASSERT(compact_has_one_cascade, GN_COMPACT_IS_(!GN_MANY_CASCADES && !GN_BLENDED_CASCADES &&
-                                                         !GN_CASTER_CULLING && !GN_TILE_IMPORTANCE && !GN_TIGHT_FIT));
-GN_STATIC_ASSERT(compact_has_flat_colours,
-                 GN_COMPACT_IS_(!GN_TEXTURES && !GN_SPECULAR && !GN_EMISSIVE && !GN_VERTEX_NORMALS &&
-                                !GN_VERTEX_COLOURS && !GN_VISIBLE_ALPHA && !GN_CASTER_ALPHA));
-GN_STATIC_ASSERT(compact_has_no_such_bias, GN_COMPACT_IS_(!GN_RECEIVER_BIAS && !GN_CASTER_BIAS && !GN_RECEIVER_PLANE));
-GN_STATIC_ASSERT(compact_keeps_nothing, GN_COMPACT_IS_(!GN_INCREMENTAL && !GN_STATIC_LAYER && !GN_OBJECT_BOXES));
+                 GN_COMPACT_IS_(!GN_PUNCTUAL_LIGHTS && !GN_MAIN_LIGHT && !GN_BAKED));
+GN_STATIC_ASSERT(compact_has_the_hard_filter, GN_COMPACT_IS_(!(GN_EDGE) && !GN_FILTER_MAX));
+GN_STATIC_ASSERT(compact_has_one_cascade, GN_COMPACT_IS_(!GN_MANY_CASCADES && !GN_TILE_SIZES));
+GN_STATIC_ASSERT(compact_has_flat_colours, GN_COMPACT_IS_(!GN_TEXTURES && !GN_SPECULAR && !GN_EMISSIVE &&
+                                                          !GN_VERTEX_NORMALS && !GN_VERTEX_COLOURS && !GN_ALPHA));
+GN_STATIC_ASSERT(compact_has_no_such_bias, GN_COMPACT_IS_(!GN_OTHER_BIASES));
+GN_STATIC_ASSERT(compact_keeps_nothing, GN_COMPACT_IS_(!GN_INCREMENTAL && !GN_OBJECT_BOXES));
 GN_STATIC_ASSERT(compact_has_one_background_colour, GN_COMPACT_IS_(!GN_TILE_DRAWING));
 GN_STATIC_ASSERT(compact_has_perspective_cameras, GN_COMPACT_IS_(!GN_ORTHOGRAPHIC));
 GN_STATIC_ASSERT(compact_has_no_skins, GN_COMPACT_IS_(!GN_VERTEX_JOINTS));
 GN_STATIC_ASSERT(compact_has_rgb565, GN_COMPACT_IS_(!GN_OTHER_FORMATS));
 GN_STATIC_ASSERT(compact_has_records, GN_COMPACT_IS_(!GN_TRIANGLE_GROUPS));
-GN_STATIC_ASSERT(compact_has_no_picking, GN_COMPACT_IS_(!GN_PICKING));
 
 #endif

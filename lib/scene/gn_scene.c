@@ -331,7 +331,6 @@ static gn_field wrong_cascades(const gn_shadow_settings *shadow)
 
 static int filter_ok(gn_filter filter)
 {
-    if (filter == GN_FILTER_DISK) return GN_DISK_FILTER;
     return (uint32_t)filter <= GN_FILTER_MAX;
 }
 
@@ -339,7 +338,7 @@ static int filter_ok(gn_filter filter)
 static int softness_ok(const gn_light *light, gn_filter filter)
 {
     if (light->softness == GN_SOFTNESS_HARD) return GN_FILTER_MAX >= 1 || filter == GN_FILTER_HARD;
-    return light->softness == GN_SOFTNESS_DEFAULT || GN_FILTER_MAX >= 3 || filter == GN_FILTER_DISK;
+    return light->softness == GN_SOFTNESS_DEFAULT || GN_FILTER_MAX >= 3;
 }
 
 static gn_status check_softness(gn_frame *frame, const gn_scene *scene)

@@ -17,7 +17,7 @@ EVERY=4 # of the sweep's configurations
 command -v valgrind >/dev/null || { echo "calibrate: valgrind is not installed" >&2; exit 1; }
 mkdir -p "$DIR"
 variable() { make -s --no-print-directory WERROR=-Werror --eval="print: ; @echo \$($1)" print; }
-knobs=$(variable HOST_KNOBS | sed 's/-DGN_COUNTERS=1/-DGN_COUNTERS=0/; s/-DGN_STATIC_LAYER=1/-DGN_STATIC_LAYER=0/; s/-DGN_CASTER_CULLING=1/-DGN_CASTER_CULLING=0/')
+knobs=$(variable HOST_KNOBS | sed 's/-DGN_COUNTERS=1/-DGN_COUNTERS=0/; s/-DGN_INCREMENTAL=2/-DGN_INCREMENTAL=1/; s/-DGN_MANY_CASCADES=3/-DGN_MANY_CASCADES=2/')
 make -s CC="$CC" "$TOOL"
 "$TOOL" bake host/scenes/room.gltf -o "$DIR/baked.gltf" --size $SIZE >/dev/null # nothing else has a mask image
 SCENES="$SCENES $DIR/baked.gltf"

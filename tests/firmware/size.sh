@@ -48,6 +48,8 @@ flags_of() {
             case $feature in
             OBJECT_BOXES) echo "-DGN_$feature=0" ;;
             VERTEX_JOINTS) echo "-DGN_$feature=4" ;;
+            MANY_CASCADES) echo "-DGN_$feature=3" ;;
+            TEXTURES | INCREMENTAL | TILE_SIZES) echo "-DGN_$feature=2" ;;
             *) [ "$feature" = FILTER_MAX ] || echo "-DGN_$feature=1" ;;
             esac
         done

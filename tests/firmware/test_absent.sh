@@ -13,7 +13,10 @@ if command -v arm-none-eabi-gcc >/dev/null 2>&1; then
 fi
 most() {
     case $1 in
-    FILTER_MAX | VERTEX_JOINTS) echo 4 ;;
+    FILTER_MAX) echo 5 ;;
+    VERTEX_JOINTS) echo 4 ;;
+    MANY_CASCADES) echo 3 ;;
+    TEXTURES | INCREMENTAL | TILE_SIZES) echo 2 ;;
     TEXTURE_FORMATS) echo 1023 ;;
     *) echo 1 ;;
     esac
@@ -58,9 +61,7 @@ without() { whole "all-$1" "$1"; }
 # What a feature stands on: alone it has nothing to do.
 under() {
     case $1 in
-    CLIPPING | CLIPS | PICKING | SHADOWS | PUNCTUAL_LIGHTS | *VISIBLE* | TEXTURES | SPECULAR | EMISSIVE | ORTHOGRAPHIC | MASKS | BAKED* | VERTEX* | RAW* | VALID* | *FORMATS | TILE_DRAWING) ;;
-    TEXTURE_LEVELS) echo TEXTURES ;;
-    EMISSIVE_TEXTURES) echo TEXTURES EMISSIVE ;;
+    CLIPPING | SHADOWS | PUNCTUAL_LIGHTS | ALPHA | TEXTURES | SPECULAR | EMISSIVE | ORTHOGRAPHIC | BAKED | VERTEX* | RAW* | VALID* | *FORMATS | TILE_DRAWING) ;;
     *) echo SHADOWS ;;
     esac
 }
@@ -72,8 +73,7 @@ if [ "$1" = --table ]; then
 fi
 idle= # what has nothing to do without shadows
 for feature in $features; do
-    # The alpha of casters keeps the textures' records.
-    [ "$(under $feature | cut -d ' ' -f 1)" != SHADOWS ] || [ $feature = CASTER_ALPHA ] || idle="$idle $feature"
+    [ "$(under $feature | cut -d ' ' -f 1)" != SHADOWS ] || idle="$idle $feature"
     without "$feature"
     ${whole_prefix}nm -u "$tmp/all-$feature.o" | grep ' gn_' >"$tmp/found" && fail "$feature is off, and missed: $(tr -s ' \n' ' ' <"$tmp/found")" || pass
     saved=$((all - $(size_of "all-$feature" "$whole_prefix")))
@@ -91,7 +91,7 @@ for feature in $features; do
     fi
 done
 # Without shadows all of these together are a few comparisons.
-[ "$(echo $idle | wc -w)" -ge 13 ] && pass || fail "what builds on shadows is $idle"
+[ "$(echo $idle | wc -w)" -ge 7 ] && pass || fail "what builds on shadows is $idle"
 together=$(($(bytes $(but none 1 $idle)) - none))
 if [ $together -le 32 ]; then pass
 else fail "without shadows $together bytes:$(for feature in $idle; do echo " $feature $(($(bytes $(but none 1 $feature)) - none))"; done)"; fi
@@ -114,36 +114,38 @@ while read -r feature pattern; do
 done <<'LIST'
 SHADOWS gn_(atlas|caster|cascade|ortho|persp|filter|blocks|cull|tiles|bias)_.*|gn_tent.*|gn_disk_.*
 PUNCTUAL_LIGHTS gn_(persp|punctual|object_list)_.*
-FILTER_MAX gn_tent_weights
-DISK_FILTER gn_disk_.*|disk.*|gn_blocks_.*
-CASTER_CULLING gn_cull_shown_nearer
-CASTER_ALPHA alpha_plane
-VISIBLE_ALPHA cut_begin|cut_row
+FILTER_MAX gn_tent_weights|gn_disk_.*|disk.*|gn_blocks_.*
+MANY_CASCADES gn_cull_shown_nearer
+ALPHA alpha_plane|cut_begin|cut_row
 TEXTURE_FORMATS gn_linear_(31|63)_table|gn_texel_decode_.*
-TEXTURE_LEVELS gn_texture_(level_at|level_depth2|use_level)
-TEXTURES gn_texture_colour|gn_alpha_coords|gn_srgb_decode_table
+TEXTURES gn_texture_(level_at|level_depth2|use_level)|gn_texture_colour|gn_alpha_coords|gn_srgb_decode_table
 SPECULAR highlight_q30
 VERTEX_JOINTS gn_skin_.*|mean_matrix|skin_signature|gn_scene_skin_check
 ORTHOGRAPHIC flat_plane|flat_sphere|intersect_flat
-EMISSIVE emitted_light
-EMISSIVE_TEXTURES begin_glow
-MASKS gn_texture_mask
-CASTER_BIAS corner_normals
-RECEIVER_PLANE start_plane|dark_on_plane
+EMISSIVE emitted_light|begin_glow
+BAKED gn_texture_mask
+OTHER_BIASES corner_normals|start_plane|dark_on_plane
 AUTO_BIAS gn_bias_auto_.*|.*_share_q3[02]|auto_.*
-INCREMENTAL gn_kept_.*|view_signature|stays
-STATIC_LAYER gn_static_layer_.*
+INCREMENTAL gn_kept_.*|view_signature|stays|gn_static_layer_.*
 MAIN_LIGHT main_light
 VALIDATION gn_scene_validate|check_.*light
 TILE_DRAWING gradient_row|draw_behind
 OTHER_FORMATS luminance_q20|fill_(grey4|mono)
-TILE_IMPORTANCE sizes_by_importance|weight_of
-TIGHT_FIT gn_seen_.*|gn_ortho_(fit_tight|covers)|sides_by_worth|sixteenth_octaves|place_by_worth
+TILE_SIZES sizes_by_importance|weight_of|gn_seen_.*|gn_ortho_(fit_tight|covers)|sides_by_worth|sixteenth_octaves|place_by_worth
 OBJECT_BOXES gn_cull_sees|.*_sees
-CLIPPING project_cut|general_triangle
-CLIPS gn_pose|pose_nodes
-PICKING gn_pick
-CASTER_CLIPPING clip_side|clip_to_reach
+CLIPPING project_cut|general_triangle|clip_side|clip_to_reach
+LIST
+
+# Nor of a level what only a higher one has.
+while read -r feature level pattern; do
+    object "level-$feature" -Og -fno-inline $(but all 0 NOTHING | sed "s/^-DGN_$feature=.*/-DGN_$feature=$level/")
+    ${prefix}nm --defined-only "$tmp/level-$feature.o" | awk '{ print $3 }' | grep -x -E "$pattern" >"$tmp/found" && fail "$feature is $level, and there is $(tr '\n' ' ' <"$tmp/found")" || pass
+done <<'LIST'
+FILTER_MAX 4 gn_disk_.*|gn_blocks_.*
+MANY_CASCADES 2 gn_cull_shown_nearer
+TEXTURES 1 gn_texture_(level_at|level_depth2|use_level)
+INCREMENTAL 1 gn_static_layer_.*
+TILE_SIZES 1 gn_seen_.*|gn_ortho_(fit_tight|covers)|sides_by_worth
 LIST
 
 # Errors name fields only where that is asked for.

@@ -77,35 +77,35 @@ if [ -n "$target" ]; then
         predicted $preset
         predicted $preset punctual_lights=1 main_light=0 incremental=0 max_objects=1
         predicted $preset shadows=0 punctual_lights=0 max_lights=3
-        predicted $preset srgb=0 textures=0 specular=0 masks=0 baked_light=0 visible_alpha=0 caster_alpha=0 filter_max=0 disk_filter=0
+        predicted $preset srgb=0 textures=0 specular=0 baked=0 alpha=0 filter_max=0
         predicted $preset shadows=0
         predicted $preset raw_views=1
-        predicted $preset disk_filter=0
+        predicted $preset filter_max=4
         predicted $preset incremental=0
-        predicted $preset vertex_joints=0 texture_levels=0 auto_bias=0
-        predicted $preset static_layer=1
-        predicted $preset static_layer=1 disk_filter=0 incremental=0
+        predicted $preset vertex_joints=0 textures=1 auto_bias=0
+        predicted $preset incremental=2
+        predicted $preset incremental=2 filter_max=4
         predicted $preset punctual_lights=0
         predicted $preset main_light=0
         predicted $preset punctual_lights=0 main_light=0
         predicted $preset punctual_lights=0 main_light=0 shadows=0 max_objects=3 max_lights=1
         predicted $preset depth_bits=8 other_depth_bits=32 atlas_size=16 other_atlas_size=512
-        predicted $preset depth_bits=32 other_depth_bits=8 atlas_size=32 other_atlas_size=16 static_layer=1
+        predicted $preset depth_bits=32 other_depth_bits=8 atlas_size=32 other_atlas_size=16 incremental=2
         predicted $preset max_width=333 max_height=17 max_triangles=7 max_tile_refs=9 max_lights=3 max_shadow_tiles=16 vertex_cache=64
         predicted $preset max_objects=777 max_other_tiles=13 surface_lights=3 max_shadow_tiles=1 max_lights=5
         predicted $preset max_tile_refs=70001 atlas_size=64 tile_width=72 tile_height=5 max_lights=8
         predicted $preset max_tile_refs=70001 atlas_size=16 tile_width=24 tile_height=1 shadows=0
-        predicted $preset surface_lights=1 masks=0 baked_light=0 punctual_lights=0 blended_cascades=0 # casting is larger than shading
-        predicted $preset surface_lights=1 masks=0 baked_light=0 punctual_lights=0 blended_cascades=0 caster_bias=0
-        predicted $preset surface_lights=1 masks=0 baked_light=0 punctual_lights=0 blended_cascades=0 textures=0 visible_alpha=0
-        predicted $preset surface_lights=1 masks=0 baked_light=0 punctual_lights=0 blended_cascades=0 textures=0 caster_alpha=0 caster_bias=0
-        predicted $preset surface_lights=1 max_lights=1 shadows=0 masks=0 baked_light=0 punctual_lights=0 textures=0 specular=0 vertex_normals=0 vertex_colours=0
-        predicted $preset surface_lights=1 textures=0 specular=0 masks=0 baked_light=0 punctual_lights=0 main_light=0 shadows=0 persp_step=1
+        predicted $preset surface_lights=1 baked=0 punctual_lights=0 many_cascades=1 # casting is larger than shading
+        predicted $preset surface_lights=1 baked=0 punctual_lights=0 many_cascades=1 other_biases=0
+        predicted $preset surface_lights=1 baked=0 punctual_lights=0 many_cascades=1 textures=0 alpha=0
+        predicted $preset surface_lights=1 baked=0 punctual_lights=0 many_cascades=1 textures=0 alpha=0 other_biases=0
+        predicted $preset surface_lights=1 max_lights=1 shadows=0 baked=0 punctual_lights=0 textures=0 specular=0 vertex_normals=0 vertex_colours=0
+        predicted $preset surface_lights=1 textures=0 specular=0 baked=0 punctual_lights=0 main_light=0 shadows=0 persp_step=1
         predicted $preset triangle_groups=100 max_triangles=333
         predicted $preset triangle_groups=1 max_triangles=8 tile_width=72 tile_height=5 shadows=0 orthographic=0
         predicted $preset transparent_layers=2 tile_width=72 tile_height=5
         predicted $preset transparent_layers=1 triangle_groups=8 shadows=0
-        predicted $preset atlas_texels=8192 other_atlas_texels=64 static_layer=1
+        predicted $preset atlas_texels=8192 other_atlas_texels=64 incremental=2
     done
     compact="compact=1 max_width=256 max_lights=1 max_shadow_tiles=1"
     predicted tiny $compact

@@ -43,7 +43,7 @@ done
 for knobs in "-DGN_COMPACT=1" "-DGN_COMPACT=1 -DGN_PRESET=GN_PRESET_ACCURATE -DGN_VALIDATION=0" "-DGN_COMPACT=1 -DGN_AUTO_BIAS=0" "-DGN_COMPACT=1 -DGN_ERROR_FIELDS=1"; do
     gcc -std=c99 -pedantic $warn -O2 -Ilib $knobs -c -o "$tmp/warnings.o" lib/gnomon.c 2>"$tmp/log" && pass || fail "$knobs: $(grep -m 1 -E 'error|warning' "$tmp/log")"
 done
-for contradiction in TEXTURES MANY_CASCADES FILTER_MAX PUNCTUAL_LIGHTS OTHER_FORMATS INCREMENTAL STATIC_LAYER; do
+for contradiction in TEXTURES MANY_CASCADES FILTER_MAX PUNCTUAL_LIGHTS OTHER_FORMATS INCREMENTAL; do
     gcc -std=c99 -w -Ilib -DGN_COMPACT=1 -DGN_$contradiction=1 -fsyntax-only lib/frame/gn_frame.c 2>"$tmp/log" && fail "compact builds with $contradiction"
     grep -q 'error.*compact_' "$tmp/log" && pass || fail "$contradiction: the message does not name compact: $(grep -m 1 error "$tmp/log")"
 done
@@ -66,7 +66,7 @@ refused 'textures 1, ' sundial --set textures=1
 refused 'depth_bits 8, .* 16' sundial --set depth_bits=8
 refused 'triangle_groups 64' sundial --set triangle_groups=64
 refused 'distance_mode is radius, .* depth' sundial --set distance_mode=radius
-refused "light '.*': bias_caster\|'caster_bias': 0" sundial --set bias_caster=1
+refused "light '.*': bias_caster\|'other_biases': 0" sundial --set bias_caster=1
 refused "'compact': '2' is not a whole number from 0 to 1" sundial --set compact=2
 build/gnomon sweep host/scenes/sundial.gltf --size 64x48 --set compact=1 >"$tmp/log" 2>&1 && fail "it is swept, and nothing counts" || pass
 # and is the general arithmetic again

@@ -89,14 +89,14 @@ static void make_arrays(void)
 static void use_lights(int variant)
 {
     gn_light sun = demo.light[0];
-    sun.mode = use.masks ? GN_LIGHT_MIXED : GN_LIGHT_REALTIME;
-    sun.mask_channel = use.masks ? 0 : -1;
+    sun.mode = use.baked ? GN_LIGHT_MIXED : GN_LIGHT_REALTIME;
+    sun.mask_channel = use.baked ? 0 : -1;
     sun.bias_constant_q16 = GN_Q16(0.5);
     sun.bias_slope_q16 = GN_Q16(0.5);
-    if (use.receiver_bias)
+    if (use.other_biases)
         for (int i = 0; i < 4; i++) sun.bias_receiver_q16[i] = GN_Q16(0.1) * i;
-    if (use.caster_bias) sun.bias_caster_q16 = GN_Q16(0.4);
-    sun.receiver_plane = use.receiver_plane && variant % 2;
+    if (use.other_biases) sun.bias_caster_q16 = GN_Q16(0.4);
+    sun.receiver_plane = use.other_biases && variant % 2;
     if (use.auto_bias && variant) sun.auto_bias = variant % 2 ? GN_AUTO_BIAS_NORMAL : GN_AUTO_BIAS_DEPTH;
     sun.softness = use.filter_max >= 3 && variant == 1 ? GN_SOFTNESS_SOFT : GN_SOFTNESS_DEFAULT;
     sun.near_q16 = GN_Q16(0.1);
@@ -152,7 +152,7 @@ static void use_materials(int variant)
     demo.ground.uv_frac_bits = demo.box.uv_frac_bits = 10;
     demo.ground.mask_uv_uq16 = demo.box.mask_uv_uq16 = mask_uv;
     texture.flags = (uint8_t)(variant % 3 == 2 ? GN_TEXTURE_BILINEAR : variant % 3);
-    if (use.texture_levels) texture.flags |= GN_TEXTURE_MIPMAPPED;
+    if (use.textures > 1) texture.flags |= GN_TEXTURE_MIPMAPPED;
     if (use.textures) use_format(3 * variant);
     if (use.vertex_joints) use_skin();
     gn_alpha cut = variant % 2 ? GN_ALPHA_CLIP : GN_ALPHA_DITHER;
@@ -161,19 +161,19 @@ static void use_materials(int variant)
         demo.object[i].alpha_cutoff_uq16 = 30000;
     }
     if (use.textures) box->texture = ground->texture = &texture;
-    if (use.textures && use.emissive && use.emissive_textures) ground->emissive_texture = &texture;
-    if (use.visible_alpha) {
+    if (use.textures && use.emissive) ground->emissive_texture = &texture;
+    if (use.alpha) {
         box->visible_alpha = cut;
         ball->visible_alpha = variant % 3 ? cut : GN_ALPHA_BLEND;
     }
-    if (use.caster_alpha) box->caster_alpha = ball->caster_alpha = cut;
+    if (use.alpha) box->caster_alpha = ball->caster_alpha = cut;
     for (int k = 0; use.specular && k < 3; k++) ball->specular_uq16[k] = 30000;
     ball->shininess_log2 = 4;
     for (int i = 0; use.emissive && i < DEMO_OBJECTS; i++)
         demo.object[i].emissive_uq16[i % 3] = 9000U * (uint32_t)(i + variant);
-    if (use.masks) ball->mask_u8 = mask;
-    if (use.masks) ground->mask_image = &mask_image;
-    if (use.baked_light) ball->baked_uq12 = baked;
+    if (use.baked) ball->mask_u8 = mask;
+    if (use.baked) ground->mask_image = &mask_image;
+    if (use.baked) ball->baked_uq12 = baked;
     ball->flags |= GN_OBJECT_MOVING;
     /* a build without them does not look at these; this one would */
     if (GN_VERTEX_NORMALS && !use.vertex_normals) demo.ball.nrm_q15 = NULL;
@@ -184,7 +184,6 @@ static void use_materials(int variant)
 
 static gn_filter filter_of(int variant)
 {
-    if (variant % VARIANTS == GN_FILTER_DISK && use.disk_filter) return GN_FILTER_DISK;
     return (gn_filter)(variant % VARIANTS < use.filter_max ? variant % VARIANTS : use.filter_max);
 }
 
@@ -195,15 +194,15 @@ static void use_shadow_settings(int variant)
     s->other_filter = filter_of(variant + 3);
     s->penumbra_uq16 = GN_UQ16(6);
     s->disk_samples = 12;
-    s->mixing = use.masks ? (gn_mixing)(variant % 3) : GN_MIXING_NONE;
-    s->tile_sizes = use.tile_importance && variant % 2 ? GN_TILES_IMPORTANCE : GN_TILES_EQUAL;
+    s->mixing = use.baked ? (gn_mixing)(variant % 3) : GN_MIXING_NONE;
+    s->tile_sizes = use.tile_sizes && variant % 2 ? GN_TILES_IMPORTANCE : GN_TILES_EQUAL;
     s->main_light = use.main_light && variant > 1;
     s->caster_culling = 1;
     s->object_lights = (uint32_t)variant % 3;
     s->n_cascades =
         s->main_light ? 1U + (uint32_t)variant % 4 : 1U + (uint32_t)variant % 2; /* of two lights: 4 tiles */
     if (!use.many_cascades) s->n_cascades = 1;
-    s->blend = use.blended_cascades ? (gn_blend)(variant % 3) : GN_BLEND_HARD;
+    s->blend = use.many_cascades > 1 ? (gn_blend)(variant % 3) : GN_BLEND_HARD;
     s->distance_mode = variant == 3 ? GN_DISTANCE_RADIUS : GN_DISTANCE_DEPTH;
     s->max_distance_q16 = GN_Q16(9);
     for (uint32_t i = 1; use.incremental && i < 4; i++) s->refresh[i] = i;
@@ -290,7 +289,7 @@ static void ask_blend(void)
 }
 static void ask_filter(void)
 {
-    demo.scene.shadow.other_filter = (gn_filter)(GN_FILTER_MAX < 4 ? GN_FILTER_MAX + 1 : 4);
+    demo.scene.shadow.other_filter = (gn_filter)(GN_FILTER_MAX < 5 ? GN_FILTER_MAX + 1 : 5);
 }
 static void ask_disk(void)
 {
@@ -429,13 +428,13 @@ static const struct {
     void (*ask)(void);
 } refusals[] = {
     {"blend", GN_BLENDED_CASCADES || !GN_SHADOWS, GN_ERR_SHADOW_CASCADES, ask_blend},
-    {"larger filter", GN_FILTER_MAX == 4 || !GN_SHADOWS, GN_ERR_SHADOW_FILTER, ask_filter},
+    {"larger filter", GN_FILTER_MAX == 5 || !GN_SHADOWS, GN_ERR_SHADOW_FILTER, ask_filter},
     {"disk", GN_DISK_FILTER || !GN_SHADOWS, GN_ERR_SHADOW_FILTER, ask_disk},
     {"spot", GN_PUNCTUAL_LIGHTS, GN_ERR_LIGHT_KIND, ask_spot},
     {"point", GN_PUNCTUAL_LIGHTS, GN_ERR_LIGHT_KIND, ask_point},
     {"main light", GN_MAIN_LIGHT || !GN_SHADOWS, GN_ERR_SHADOW_MODE, ask_main},
-    {"caster alpha", GN_CASTER_ALPHA, GN_ERR_MATERIAL, ask_caster_alpha},
-    {"visible alpha", GN_VISIBLE_ALPHA, GN_ERR_MATERIAL, ask_visible_alpha},
+    {"caster alpha", GN_ALPHA, GN_ERR_MATERIAL, ask_caster_alpha},
+    {"visible alpha", GN_ALPHA, GN_ERR_MATERIAL, ask_visible_alpha},
     {"texture", GN_TEXTURES, GN_ERR_TEXTURE, ask_texture},
     {"texture levels", GN_MIPMAPS, GN_TEXTURES ? GN_ERR_TEXTURE_FORMAT : GN_ERR_TEXTURE, ask_levels},
     {"specular", GN_SPECULAR, GN_ERR_MATERIAL, ask_specular},

@@ -169,7 +169,10 @@ static void arrange_ends(random_scene *g, gn_light *l)
     if (!one_in(n)) l->range_q16 = one_in(4) ? UINT32_MAX : 0;
     if (GN_AUTO_BIAS && !GN_COMPACT && !one_in(n)) l->auto_bias = (gn_auto_bias)(1 + rnd() % 2);
     if (!GN_COMPACT && one_in(n)) l->colour_exp = one_in(2) ? 100 : -100;
-    if (!one_in(n)) s->filter = s->other_filter = (gn_filter)(one_in(4) ? GN_FILTER_HARD : GN_FILTER_MAX);
+    if (!one_in(n))
+        s->filter = s->other_filter = (gn_filter)(one_in(4)           ? GN_FILTER_HARD
+                                                  : GN_FILTER_MAX < 4 ? GN_FILTER_MAX
+                                                                      : GN_FILTER_7X7);
     if (!one_in(n)) s->penumbra_uq16 = one_in(4) ? 0 : 64 << 16;
     if (!one_in(n)) s->max_distance_q16 = RANDOM_LIMIT_Q16;
 }

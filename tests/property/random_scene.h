@@ -98,7 +98,7 @@ static void built_object(gn_object *o)
     if (absent(GN_BAKED_LIGHT)) o->baked_uq12 = NULL;
     if (absent(GN_SPECULAR)) memset(o->specular_uq16, 0, sizeof o->specular_uq16);
     if (absent(GN_VERTEX_JOINTS)) o->skin = NULL;
-    if (absent(GN_EMISSIVE_TEXTURES)) o->emissive_texture = NULL;
+    if (absent(GN_GLOW_TEXTURES)) o->emissive_texture = NULL;
     if (absent(GN_EMISSIVE)) memset(o->emissive_uq16, 0, sizeof o->emissive_uq16);
 }
 
@@ -130,8 +130,7 @@ static void built_shadows(gn_shadow_settings *s, int32_t near_q16)
         s->distance_mode = GN_DISTANCE_DEPTH;
         s->cascade_fade_uq16 = (uint32_t)pick(66, 32768);
     }
-    if (absent(GN_DISK_FILTER && GN_FILTER_MAX >= 4))
-        s->filter = s->other_filter = (gn_filter)(rnd() % (GN_FILTER_MAX + 1));
+    if (absent(GN_DISK_FILTER)) s->filter = s->other_filter = (gn_filter)(rnd() % (GN_FILTER_MAX + 1));
     if (absent(GN_MASKS)) s->mixing = GN_MIXING_NONE;
     if (absent(GN_TILE_IMPORTANCE)) s->tile_sizes = GN_TILES_EQUAL;
     if (absent(GN_MAIN_LIGHT)) s->main_light = 0;
@@ -183,7 +182,7 @@ static void random_textures(random_scene *g)
         gn_texture *t = &g->texture[i];
         random_sides(t);
         t->flags = (uint8_t)rnd();
-        if (absent(GN_TEXTURE_LEVELS)) t->flags &= (uint8_t)~GN_TEXTURE_MIPMAPPED;
+        if (absent(GN_MIPMAPS)) t->flags &= (uint8_t)~GN_TEXTURE_MIPMAPPED;
         do t->format = (uint8_t)(one_in(2) ? GN_TEXTURE_RGBA8888 : rnd() % GN_TEXTURE_FORMAT_COUNT);
         while (absent(GN_TEXTURE_FORMATS >> t->format & 1));
         if (i < RANDOM_MASK_TEXTURES && !one_in(50)) t->format = GN_TEXTURE_RGBA8888;

@@ -19,14 +19,17 @@ flags() {
         all) for feature in $features; do echo "-DGN_$feature=$(most "$feature")"; done ;;
         tiny | fast | balanced | accurate) echo "-DGN_PRESET=GN_PRESET_$(echo "$word" | tr a-z A-Z)" ;;
         -*) echo "$word" ;;
-        TEXTURES=1) echo "-DGN_$word" && echo "-DGN_TEXTURE_FORMATS=$(most TEXTURE_FORMATS)" ;; # nothing to read otherwise
+        TEXTURES=[12]) echo "-DGN_$word" && echo "-DGN_TEXTURE_FORMATS=$(most TEXTURE_FORMATS)" ;; # nothing to read otherwise
         *) echo "-DGN_$word" ;;
         esac
     done | awk -F= '!($1 in at) { at[$1] = ++n } { flag[at[$1]] = $0 } END { for (i = 1; i <= n; i++) print flag[i] }'
 }
 most() {
     case $1 in
-    FILTER_MAX | VERTEX_JOINTS) echo 4 ;;
+    FILTER_MAX) echo 5 ;;
+    VERTEX_JOINTS) echo 4 ;;
+    MANY_CASCADES) echo 3 ;;
+    TEXTURES | INCREMENTAL | TILE_SIZES) echo 2 ;;
     TEXTURE_FORMATS) echo 1023 ;;
     *) echo 1 ;;
     esac
@@ -59,7 +62,7 @@ pairs() {
     for feature in $features; do
         value=$(most "$feature")
         case $feature in
-        *FILTER* | *CASC* | *BIAS | *PLANE | MAIN* | INCREM* | STATIC* | CASTER* | TILE_IMP* | OBJECT_B*)
+        *FILTER* | *CASC* | *BIAS* | MAIN* | INCREM* | TILE_S* | OBJECT_B*)
             idle="$idle $feature=$value"
             more "none SHADOWS=1 $feature=$value" ;;
         *) more "none $feature=$value" ;;
@@ -69,31 +72,29 @@ pairs() {
     echo "none $idle"
     echo "all VALIDATION=0"
     more "none SHADOWS=1 VALIDATION=0 tiny SRGB=0"
-    for cut in VISIBLE_ALPHA CASTER_ALPHA MASKS; do
+    for cut in ALPHA BAKED; do
         echo "none SHADOWS=1 TEXTURES=1 $cut=1"
-        more "all TEXTURES=0 VISIBLE_ALPHA=0 CASTER_ALPHA=0 MASKS=0 $cut=1"
+        more "all TEXTURES=0 ALPHA=0 BAKED=0 $cut=1"
     done
+    for level in TEXTURES=1 MANY_CASCADES=1 MANY_CASCADES=2 TILE_SIZES=1 INCREMENTAL=1 FILTER_MAX=4; do echo "all $level"; done
     echo "none SHADOWS=1"
     echo "none SHADOWS=1 PUNCTUAL_LIGHTS=1"
-    echo "none SHADOWS=1 PUNCTUAL_LIGHTS=1 MAIN_LIGHT=1 RECEIVER_PLANE=1"
-    more "all PUNCTUAL_LIGHTS=0 BLENDED_CASCADES=0"
+    echo "none SHADOWS=1 PUNCTUAL_LIGHTS=1 MAIN_LIGHT=1 OTHER_BIASES=1"
+    more "all PUNCTUAL_LIGHTS=0 MANY_CASCADES=1"
     echo "all PUNCTUAL_LIGHTS=0 MAIN_LIGHT=0"
-    echo "none SHADOWS=1 STATIC_LAYER=1 INCREMENTAL=1"
+    echo "none SHADOWS=1 INCREMENTAL=2"
     for max in 0 1 2 3; do # with what builds upon kernels
-        $([ $max = 0 ] && echo more || echo echo) "all FILTER_MAX=$max DISK_FILTER=0 RECEIVER_PLANE=$((max % 2))"
-        more "all FILTER_MAX=$max RECEIVER_PLANE=0"
+        $([ $max = 0 ] && echo more || echo echo) "all FILTER_MAX=$max OTHER_BIASES=$((max % 2))"
     done
-    more "all FILTER_MAX=0 DISK_FILTER=0"
-    more "all DISK_FILTER=0 RECEIVER_PLANE=0"
     for bits in "8 32" "16 8" "32 16"; do
-        echo "DEPTH_BITS=${bits% *} OTHER_DEPTH_BITS=${bits#* } DISK_FILTER=$((${bits% *} / 16 % 2))"
+        echo "DEPTH_BITS=${bits% *} OTHER_DEPTH_BITS=${bits#* } FILTER_MAX=$((4 + ${bits% *} / 16 % 2))"
     done
     more "PUNCTUAL_LIGHTS=0 MAIN_LIGHT=0 DEPTH_BITS=8"
     echo "EDGE=4"
     more "tiny all EDGE=8 DEPTH_BITS=32"
-    echo "fast EDGE=1 PUNCTUAL_LIGHTS=0 RECEIVER_PLANE=0"
-    more "accurate EDGE=3 FILTER_MAX=0 DISK_FILTER=0"
-    echo "PUNCTUAL_LIGHTS=0 MAIN_LIGHT=0 DEPTH_BITS=32 STATIC_LAYER=1"
+    echo "fast EDGE=1 PUNCTUAL_LIGHTS=0 OTHER_BIASES=0"
+    more "accurate EDGE=3 FILTER_MAX=0"
+    echo "PUNCTUAL_LIGHTS=0 MAIN_LIGHT=0 DEPTH_BITS=32 INCREMENTAL=2"
     echo "OTHER_ATLAS_SIZE=32 ATLAS_SIZE=64 TILE_WIDTH=32 TILE_HEIGHT=5"
     echo "TRIANGLE_GROUPS=64 MAX_TRIANGLES=400 MAX_TILE_REFS=1"
     echo "TRANSPARENT_LAYERS=1 TEXTURES=0 SIZE_FIRST=1"
@@ -216,7 +217,11 @@ refused tile_width -DGN_TILE_WIDTH=68
 refused triangle_groups_have_tiles "-DGN_TRIANGLE_GROUPS=1 -DGN_TILE_WIDTH=8 -DGN_TILE_HEIGHT=1 -DGN_MAX_HEIGHT=100"
 refused triangle_groups_have_up_to_128 "-DGN_TRIANGLE_GROUPS=1 -DGN_TILE_HEIGHT=1"
 for gone in TILE_LIGHTS LINEAR_KERNELS DEPTH_BLOCKS ATTEN_BITS NEWTON_STEPS SHADOW_DEPTH_FRAC SHADOW_SUBPIXEL_BITS WEIGHT_BITS; do refused "knob that is gone" "-DGN_$gone=0"; done
-refused transparent_layers_need_visible_alpha "-DGN_TRANSPARENT_LAYERS=1 -DGN_VISIBLE_ALPHA=0"
+for part in CASTER_ALPHA VISIBLE_ALPHA EMISSIVE_TEXTURES MASKS BAKED_LIGHT RECEIVER_BIAS CASTER_BIAS RECEIVER_PLANE BLENDED_CASCADES CASTER_CULLING DISK_FILTER \
+    TEXTURE_LEVELS STATIC_LAYER TILE_IMPORTANCE TIGHT_FIT CASTER_CLIPPING CLIPS PICKING; do
+    refused "part of another one" "-DGN_$part=0"
+done
+refused transparent_layers_need_alpha "-DGN_TRANSPARENT_LAYERS=1 -DGN_ALPHA=0"
 
 # ---- The user's own header; C++ --------------------------------------------------------------------------------------------
 

@@ -58,8 +58,8 @@ static void add_texture(gn_object *o, gn_texture *t)
 {
     *t = (gn_texture){.rgba = texels, .width_log2 = 4, .height_log2 = (uint8_t)(2 + below(3))};
     t->flags = (uint8_t)(below(4) | (one_in(4) ? 0 : GN_TEXTURE_BILINEAR));
-    if (GN_TEXTURE_LEVELS && one_in(2)) t->flags |= GN_TEXTURE_MIPMAPPED;
-    if (GN_EMISSIVE_TEXTURES && one_in(3)) o->emissive_texture = t;
+    if (GN_MIPMAPS && one_in(2)) t->flags |= GN_TEXTURE_MIPMAPPED;
+    if (GN_GLOW_TEXTURES && one_in(3)) o->emissive_texture = t;
     else o->texture = t;
 }
 
@@ -112,8 +112,7 @@ static void add_lights(int shadows)
 
 static gn_filter some_filter(void)
 {
-    const uint32_t n = GN_FILTER_MAX + 1U, i = below(GN_DISK_FILTER ? n + 1 : n);
-    return i < n ? (gn_filter)i : GN_FILTER_DISK;
+    return (gn_filter)below(GN_FILTER_MAX + 1U);
 }
 
 static void set_shadows(gn_shadow_settings *s)

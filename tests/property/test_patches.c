@@ -119,8 +119,7 @@ static int is_built(const look *l)
     return (GN_VERTEX_NORMALS || !(needs & SMOOTH)) && (GN_VERTEX_COLOURS || !(needs & COLOURED)) &&
            (GN_TEXTURES || !(needs & TEXTURED)) && (GN_MIPMAPS || !(needs & LEVELS)) &&
            (GN_VERTEX_JOINTS >= 2 || !(needs & SKINNED)) && (GN_PUNCTUAL_LIGHTS || !(needs & (SPOT | POINT))) &&
-           GN_SHADOWS && GN_AUTO_BIAS &&
-           (l->filter == GN_FILTER_DISK ? GN_DISK_FILTER : (int)l->filter <= GN_FILTER_MAX) &&
+           GN_SHADOWS && GN_AUTO_BIAS && (int)l->filter <= GN_FILTER_MAX &&
            (GN_BLENDED_CASCADES || l->blend == GN_BLEND_HARD);
 }
 

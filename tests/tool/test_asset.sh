@@ -137,8 +137,6 @@ three parts PARTS_OBJECT_A PARTS_OBJECT_B
 # what a configuration lacks is said when it is compiled
 gcc -std=c99 -w -Ilib -I"$tmp" -DGN_SPECULAR=0 -fsyntax-only "$tmp/desk.c" 2>"$tmp/log"
 grep -q "DGN_SPECULAR=1: specular of object" "$tmp/log" && pass || fail "without specular: $(head -n 1 "$tmp/log")"
-gcc -std=c99 -w -Ilib -I"$tmp" -DGN_CLIPS=0 -fsyntax-only "$tmp/robot.c" 2>"$tmp/log"
-grep -q "DGN_CLIPS=1" "$tmp/log" && pass || fail "without clips: $(head -n 1 "$tmp/log")"
 
 # mistakes
 refused() { # refused STATUS WORD ARGUMENTS...

@@ -103,7 +103,7 @@ done
 grep -q 'fit=\|tiles=' "$tmp/desk.csv" && fail "the sweep of desk varies fits of a single spot" || pass
 good sweep host/scenes/sundial.gltf --quick --size $size --set fit=tight --all
 ! grep -q 'fit=' "$tmp/out" && grep -q 'tiles=equal$' "$tmp/out" && pass || fail "sweep varies the fit that --set holds, or not the tiles"
-good sweep host/scenes/sundial.gltf --quick --size $size --set tight_fit=0 --all
+good sweep host/scenes/sundial.gltf --quick --size $size --set tile_sizes=0 --all
 grep -q 'fit=\|tiles=' "$tmp/out" && fail "sweep varies fits that are not built" || pass
 # a compiled fit where a light stands while something moves: what compare says of the first frame and of a later one
 held="--size 16x12 --set preset=balanced --set filter=hard --set atlas_size=64 --set other_atlas_size=64 --set depth_bits=16 --set other_depth_bits=16 --set cascades=2 --set persp_step=8 --set triangle_groups=0 --set subpixel_bits=6"

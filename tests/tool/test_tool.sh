@@ -83,7 +83,7 @@ grep -q '^usage: gnomon' "$tmp/out" && pass || fail "help does not say how it is
 good --help
 good knobs
 cp "$tmp/out" "$tmp/knobs"
-for knob in refresh incremental static_layer; do # they act from frame to frame
+for knob in refresh incremental; do # they act from frame to frame
     grep -q "^| \`$knob\` .*a single picture does not show it" "$tmp/knobs" && pass || fail "knobs does not say that $knob shows in no single picture"
 done
 good info "$cube" --size 32x24
@@ -530,29 +530,29 @@ for engine in fixed reference; do # smooth normals that are not built are face n
 done
 for command in info compare; do
     bad 1 "filter_max.*3x3" $command "$cube" --size 8x8 --set filter=3x3 --set filter_max=1
-    bad 1 "blended_cascades.*soft" $command "$cube" --size 8x8 --set cascades=2 --set cascade_blend=soft --set blended_cascades=0
-    bad 1 "disk_filter.*other_filter" $command "$cube" --size 8x8 --set other_filter=disk --set disk_filter=0
+    bad 1 "many_cascades.*soft" $command "$cube" --size 8x8 --set cascades=2 --set cascade_blend=soft --set many_cascades=1
+    bad 1 "filter_max.*other_filter" $command "$cube" --size 8x8 --set other_filter=disk --set filter_max=4
     bad 1 "setting 'kernel' is gone: .*tents" $command "$cube" --size 8x8 --set kernel=linear
     bad 1 "punctual_lights.*spot light" $command "$cube" --size 8x8 --set lights=spot --set punctual_lights=0
     bad 1 "punctual_lights.*point light" $command "$cube" --size 8x8 --set add_light=point --set punctual_lights=0
     bad 1 "filter_max.*soft light.*3" $command "$cube" --size 8x8 --set softness=soft --set filter_max=2
-    bad 1 "receiver_bias.*bias_receiver" $command "$cube" --size 8x8 --set bias_receiver=0,0,0,1 --set receiver_bias=0
-    bad 1 "caster_bias.*bias_caster" $command "$cube" --size 8x8 --set bias_caster=1 --set caster_bias=0
-    bad 1 "masks.*mixing" $command "$cube" --size 8x8 --set mixing=always --set masks=0
+    bad 1 "other_biases.*bias_receiver" $command "$cube" --size 8x8 --set bias_receiver=0,0,0,1 --set other_biases=0
+    bad 1 "other_biases.*bias_caster" $command "$cube" --size 8x8 --set bias_caster=1 --set other_biases=0
+    bad 1 "baked.*mixing" $command "$cube" --size 8x8 --set mixing=always --set baked=0
     bad 1 "max_other_tiles is 5" $command "$cube" --size 8x8 --set lights=point --set max_other_tiles=5
     bad 1 "max_width.*8" $command "$cube" --size 8x6 --set max_width=7
     bad 1 "max_height.*6" $command "$cube" --size 8x6 --set max_height=5
     bad 1 "4 needed, max_shadow_tiles is 3" $command "$cube" --size 8x8 --set cascades=4 --set max_shadow_tiles=3
 done
 good info "$cube" --size 8x6 --set max_width=8 --set max_height=6 --set cascades=4 --set max_shadow_tiles=4 --set filter=3x3 --set filter_max=2
-good info "$cube" --size 8x6 --set cascades=4 --set cascade_blend=hard --set blended_cascades=0
+good info "$cube" --size 8x6 --set cascades=4 --set cascade_blend=hard --set many_cascades=1
 good info "$cube" --size 8x6 --set filter=7x7 --set filter_max=0 --set cascades=4 --set max_shadow_tiles=1 --set shadows=0 # no filter, no tiles
 bad 1 'max_objects is 1' compare "$cube" --size 8x8 --set max_objects=1
 bad 1 'max_lights is 2' compare "$cube" --size 8x8 --set lights=spot,point,spot --set max_lights=2
 bad 1 'surface_lights is 1' compare "$cube" --size 8x8 --set lights=directional,directional --set surface_lights=1
 good compare "$cube" --size 8x8 --set lights=directional,directional --set surface_lights=2 --set max_lights=2 --set max_objects=2
 good info "$cube" --size 8x8 --set receiver_plane=0 --set receiver_plane@0=1 # what one light uses is built
-for knob in raw_views runtime_knobs incremental static_layer caster_culling; do
+for knob in raw_views runtime_knobs incremental; do
     for on in 0 1; do
         good render "$cube" -o "$tmp/b.png" --size 64x48 --set $knob=$on --set shadows=1
         [ $on = 0 ] && mv "$tmp/b.png" "$tmp/a.png"

@@ -112,7 +112,7 @@ static void random_view(void)
     SET_KNOB(&frame, persp_step, steps[rng_below(&random_state, 3)]);
     SET_KNOB(&frame, edge, rng_below(&random_state, 2) ? rng_range(&random_state, 1, 8) : 0);
     view.depth_bits = depth_bits[rng_below(&random_state, 3)];
-    view.filter = (uint8_t)rng_below(&random_state, GN_FILTER_MAX + 1);
+    view.filter = (uint8_t)rng_below(&random_state, (GN_FILTER_MAX < 4 ? GN_FILTER_MAX : 4) + 1U);
     view.filter_idx = (uint8_t)(view.filter ? view.filter - 1 : 0);
     view.tile_log2 = SIZE_LOG2;
     view.tile_texels = view.tile_rows = SIZE;
@@ -386,11 +386,11 @@ static void test_rows(void)
     CHECK_TALLY(sure, "what is far from the plane is not in doubt");
     printf("%ld receivers, %ld with contested texels, %ld asked themselves; off by at most", seen.asked, seen.contested,
            seen.between);
-    for (int i = 0; i <= GN_FILTER_MAX; i++) printf(" %.0f", seen.most[i]);
+    for (int i = 0; i <= GN_FILTER_MAX && i < 5; i++) printf(" %.0f", seen.most[i]);
     printf(" of 65536; rectangles: %ld lit, %ld dark, %ld mixed\n", n_said[GN_WINDOW_LIT], n_said[GN_WINDOW_DARK],
            n_said[GN_WINDOW_MIXED]);
     CHECK(seen.asked > 20000 && 4 * seen.contested < seen.asked && seen.between > 400);
-    for (int i = 1; i <= GN_FILTER_MAX; i++) CHECK(seen.mixed[i] > 200);
+    for (int i = 1; i <= GN_FILTER_MAX && i < 5; i++) CHECK(seen.mixed[i] > 200);
     for (int i = 0; i < 3; i++) CHECK(n_said[i] > 500);
     if (GN_FILTER_MAX >= 2) CHECK(seen.most[2] > rounding_of_places() / 8);
 }

@@ -31,7 +31,6 @@ static void write_checks(FILE *f, const compiled *c)
     const int n = settings_needs(&c->scene, settings_casts(&c->scene) && settings_shadow_lights(&c->scene), needs);
     fprintf(f, "\n/* What the model needs of the library's configuration. */\n");
     for (int i = 0; i < n; i++) write_check(f, needs[i].knob, "<", needs[i].value, needs[i].what);
-    if (c->rig) write_check(f, "clips", "<", 1, "clips of the model");
     write_check(f, "max_objects", "<", (int)c->fixed.scene.n_objects, "objects of the model");
     write_check(f, "max_lights", "<", (int)c->fixed.scene.n_lights, "lights of the model");
     write_check(f, "position_bits", "!=", c->set.quality.position_bits, "coordinates as they were written");

@@ -160,7 +160,7 @@ int compile_run_one(compile_run *run, compile_stage *st, const compiled *c, int 
 /* compile_casters.c: adds what the shadow tiles of the frame drawn last had to do with casters. */
 void compile_casters(compile_run *run, const gn_renderer *r);
 
-/* How far casters lie, of all or of those that boxes let through; and what is refused without caster_clipping. */
+/* How far casters lie, of all or of those that boxes let through; and what is refused without clipping. */
 enum { COMPILE_CASTER_TEXELS_MAX = 8192 };
 int compile_caster_texels(const compile_run *run, bool boxes);
 int compile_check_casters(const compiled *c, char *error, size_t error_bytes);

@@ -24,8 +24,7 @@ static bool is_set(const compiled *c, const char *key)
 static bool is_simple(const compiled *c)
 {
     return !c->set.feature.vertex_normals && !c->set.feature.vertex_colours && !c->set.feature.filter_max &&
-           !c->set.feature.disk_filter && !c->set.feature.blended_cascades && !c->set.feature.many_cascades &&
-           !c->requested.quality.vertex_light;
+           !c->set.feature.many_cascades && !c->requested.quality.vertex_light;
 }
 
 static bool serves(const compiled *general, const compiled *compact, const board *b, double *change)

@@ -144,8 +144,7 @@ static void use(compiled *c, const char *knob, int *value, int needed, const cha
 
 static void use_filter(compiled *c, gn_filter filter, const char *what)
 {
-    if (filter == GN_FILTER_DISK) USE(disk_filter, 1, "the filter of %s", what);
-    else USE(filter_max, (int)filter, "the filter of %s", what);
+    USE(filter_max, (int)filter, "the filter of %s", what);
 }
 
 static void use_light(compiled *c, const gn_light *l, bool casts, const char *name)
@@ -154,9 +153,9 @@ static void use_light(compiled *c, const gn_light *l, bool casts, const char *na
     const int32_t *r = l->bias_receiver_q16;
     if (l->kind != GN_LIGHT_DIRECTIONAL) USE(punctual_lights, 1, "light '%s'", name);
     if (l->shadow_strength_uq16 && l->mode != GN_LIGHT_BAKED && casts) USE(shadows, 1, "light '%s'", name);
-    if (r[0] || r[1] || r[2] || r[3]) USE(receiver_bias, 1, "bias_receiver of light '%s'", name);
-    if (l->bias_caster_q16) USE(caster_bias, 1, "bias_caster of light '%s'", name);
-    if (l->receiver_plane) USE(receiver_plane, 1, "receiver_plane of light '%s'", name);
+    if (r[0] || r[1] || r[2] || r[3]) USE(other_biases, 1, "bias_receiver of light '%s'", name);
+    if (l->bias_caster_q16) USE(other_biases, 1, "bias_caster of light '%s'", name);
+    if (l->receiver_plane) USE(other_biases, 1, "receiver_plane of light '%s'", name);
     if (l->auto_bias != GN_AUTO_BIAS_OFF) USE(auto_bias, 1, "auto_bias of light '%s'", name);
     if (l->softness == GN_SOFTNESS_SOFT && (s->filter != GN_FILTER_DISK || s->other_filter != GN_FILTER_DISK))
         USE(filter_max, GN_FILTER_5X5, "soft light '%s'", name);
@@ -177,21 +176,21 @@ static void use_texture(compiled *c, const gn_texture *t, const char *name)
     if (!t) return;
     USE(textures, 1, "object '%s'", name);
     use_format(c, t, name);
-    if (t->flags & GN_TEXTURE_MIPMAPPED) USE(texture_levels, 1, "the texture of object '%s'", name);
+    if (t->flags & GN_TEXTURE_MIPMAPPED) USE(textures, 2, "the texture of object '%s'", name);
 }
 
 static void use_object(compiled *c, const gn_object *o, const char *name)
 {
     const uint32_t *s = o->specular_uq16;
-    if (o->visible_alpha != GN_ALPHA_OPAQUE) USE(visible_alpha, 1, "object '%s'", name);
-    if (o->caster_alpha != GN_ALPHA_OPAQUE) USE(caster_alpha, 1, "object '%s'", name);
+    if (o->visible_alpha != GN_ALPHA_OPAQUE) USE(alpha, 1, "object '%s'", name);
+    if (o->caster_alpha != GN_ALPHA_OPAQUE) USE(alpha, 1, "object '%s'", name);
     use_texture(c, o->texture, name);
     use_texture(c, o->emissive_texture, name);
-    if (o->emissive_texture) USE(emissive_textures, 1, "object '%s'", name);
+    if (o->emissive_texture) USE(emissive, 1, "object '%s'", name);
     if (s[0] || s[1] || s[2]) USE(specular, 1, "object '%s'", name);
     if (o->emissive_uq16[0] || o->emissive_uq16[1] || o->emissive_uq16[2]) USE(emissive, 1, "object '%s'", name);
-    if (o->mask_u8 || o->mask_image) USE(masks, 1, "object '%s'", name);
-    if (o->baked_uq12) USE(baked_light, 1, "object '%s'", name);
+    if (o->mask_u8 || o->mask_image) USE(baked, 1, "object '%s'", name);
+    if (o->baked_uq12) USE(baked, 1, "object '%s'", name);
     if (o->skin) USE(vertex_joints, o->skin->per_vertex, "object '%s'", name);
 }
 
@@ -200,13 +199,13 @@ static void use_shadows(compiled *c)
     const gn_shadow_settings *s = &c->fixed.scene.shadow;
     use_filter(c, (gn_filter)s->filter, "directional lights");
     use_filter(c, (gn_filter)s->other_filter, "spot and point lights");
-    if (s->blend != GN_BLEND_HARD) USE(blended_cascades, 1, "%s", "the setting cascade_blend");
+    if (s->blend != GN_BLEND_HARD) USE(many_cascades, 2, "%s", "the setting cascade_blend");
     if (s->main_light) USE(main_light, 1, "%s", "the setting main_light");
     if (s->n_cascades > 1) USE(many_cascades, 1, "%s", "the setting cascades");
-    if (s->tile_sizes == GN_TILES_IMPORTANCE) USE(tile_importance, 1, "%s", "the setting tiles");
-    if (s->tile_sizes == GN_TILES_WORTH) USE(tight_fit, 1, "%s", "the setting tiles");
-    if (s->fit == GN_FIT_TIGHT) USE(tight_fit, 1, "%s", "the setting fit");
-    if (s->mixing != GN_MIXING_NONE) USE(masks, 1, "%s", "the setting mixing");
+    if (s->tile_sizes == GN_TILES_IMPORTANCE) USE(tile_sizes, 1, "%s", "the setting tiles");
+    if (s->tile_sizes == GN_TILES_WORTH) USE(tile_sizes, 2, "%s", "the setting tiles");
+    if (s->fit == GN_FIT_TIGHT) USE(tile_sizes, 2, "%s", "the setting fit");
+    if (s->mixing != GN_MIXING_NONE) USE(baked, 1, "%s", "the setting mixing");
 }
 
 /* Everything that a scene can use to 0; the rest makes the same picture with and without. */
@@ -214,34 +213,23 @@ static void use_nothing(compiled *c)
 {
 #define NOTHING(name) (c->set.feature.name = 0, because(c, #name, "nothing uses it"))
     NOTHING(shadows);
-    NOTHING(blended_cascades);
     NOTHING(filter_max);
-    NOTHING(disk_filter);
     NOTHING(punctual_lights);
     NOTHING(main_light);
     NOTHING(many_cascades);
-    NOTHING(tile_importance);
-    NOTHING(tight_fit);
-    NOTHING(caster_alpha);
-    NOTHING(visible_alpha);
+    NOTHING(tile_sizes);
+    NOTHING(alpha);
     NOTHING(textures);
     NOTHING(texture_formats);
-    NOTHING(texture_levels);
     NOTHING(specular);
     NOTHING(emissive);
-    NOTHING(emissive_textures);
     NOTHING(orthographic);
-    NOTHING(masks);
-    NOTHING(baked_light);
-    NOTHING(receiver_bias);
-    NOTHING(caster_bias);
-    NOTHING(receiver_plane);
+    NOTHING(baked);
+    NOTHING(other_biases);
     NOTHING(auto_bias);
     NOTHING(vertex_joints);
     NOTHING(vertex_normals);
     NOTHING(vertex_colours);
-    NOTHING(clips);
-    if (!c->symbol) NOTHING(picking);
     c->set.feature.raw_views = c->set.feature.runtime_knobs = 0;
     because(c, "raw_views", "for host tools");
     because(c, "runtime_knobs", "for host tools");
@@ -270,13 +258,10 @@ static void choose_speed(compiled *c)
     settings *s = &c->set;
     size_t scheduled = 0;
     for (int i = 0; i < 4; i++) scheduled += c->fixed.scene.shadow.refresh[i] > 1;
-    if (!s->feature.shadows) {
-        s->feature.static_layer = 0;
-        because(c, "static_layer", "no shadows");
+    if (s->feature.shadows && c->fixed.scene.shadow.caster_culling && c->run.culled) {
+        s->feature.many_cascades = 3;
+        because(c, "many_cascades", "casters left out of larger cascades, all frames: %zu", c->run.culled);
     }
-    if (!c->fixed.scene.shadow.caster_culling) because(c, "caster_culling", "the setting caster_culling");
-    else because(c, "caster_culling", "casters left out of larger cascades, all frames: %zu", c->run.culled);
-    if (!s->feature.shadows || !c->run.culled) s->feature.caster_culling = 0;
     if (!s->feature.shadows || (!c->kept_tiles && !scheduled)) s->feature.incremental = 0;
     if (scheduled && s->feature.shadows) because(c, "incremental", "the setting refresh");
     else because(c, "incremental", "shadow tiles kept from the frame before, all frames: %zu", c->kept_tiles);
@@ -291,20 +276,16 @@ static void choose_casters(compiled *c)
 {
     settings *s = &c->set;
     const bool path = compile_simplifies(c) == TOOL_SIMPLIFY_PATH;
-    if (path && !c->run.clipped) s->feature.clipping = 0;
-    because(c, "clipping",
-            path ? "visible triangles that are clipped, all frames: %zu"
-                 : "scenes of --simplify none and safe may be moved otherwise",
-            c->run.clipped);
     if (!s->feature.shadows || !c->run.casters_unseen) s->feature.object_boxes = 0;
     because(c, "object_boxes", "casters that a shadow tile does not see, all frames: %zu", c->run.casters_unseen);
-    const int extent = compile_caster_texels(&c->run, s->feature.object_boxes);
-    if (!s->feature.shadows || (path && extent <= CASTER_TEXELS_ENOUGH)) s->feature.caster_clipping = 0;
-    if (!c->run.caster_extent_q16) because(c, "caster_clipping", "no caster of a directional light");
-    else if (path)
-        because(c, "caster_clipping", "casters lie up to %d texels from a tile's corner, of %d without", extent,
+    const int extent = s->feature.shadows ? compile_caster_texels(&c->run, s->feature.object_boxes) : 0;
+    if (path && !c->run.clipped && extent <= CASTER_TEXELS_ENOUGH) s->feature.clipping = 0;
+    if (!path) because(c, "clipping", "scenes of --simplify none and safe may be moved otherwise");
+    else if (c->run.clipped || extent <= CASTER_TEXELS_ENOUGH)
+        because(c, "clipping", "visible triangles that are clipped, all frames: %zu", c->run.clipped);
+    else
+        because(c, "clipping", "casters lie up to %d texels from a tile's corner, of %d without", extent,
                 CASTER_TEXELS_ENOUGH);
-    else because(c, "caster_clipping", "scenes of --simplify none and safe may be moved otherwise");
 }
 
 /* What the tool has done already. */

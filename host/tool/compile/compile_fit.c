@@ -11,7 +11,8 @@ static long aligned(long bytes, long to)
 
 long compile_short_enums_less(const compiled *c)
 {
-    const bool fits = c->set.feature.shadows && c->set.feature.tight_fit, groups = c->set.quality.triangle_groups > 0;
+    const bool fits = c->set.feature.shadows && c->set.feature.tile_sizes > 1,
+               groups = c->set.quality.triangle_groups > 0;
     if (c->set.build.compact) return aligned(c->set.capacity.max_objects, 4) % 8 ? 16 : 8; /* 12 before the flags */
     return fits != groups ? 8 : 16; /* 12, and what aligns the next */
 }

@@ -105,7 +105,10 @@ static compiled apply(const search *s, const variant *v)
     }
     if (v->lean >= 1 && c.set.capacity.vertex_cache > SMALL_VERTEX_CACHE)
         c.set.capacity.vertex_cache = SMALL_VERTEX_CACHE;
-    if (v->lean >= LEAN_BARE) c.set.feature.object_boxes = c.set.feature.incremental = c.set.feature.caster_culling = 0;
+    if (v->lean >= LEAN_BARE) {
+        c.set.feature.object_boxes = c.set.feature.incremental = 0;
+        c.fixed.scene.shadow.caster_culling = 0;
+    }
     if (v->lean == LEAN_MAX && !q->triangle_groups && !c.set.build.compact) q->triangle_groups = GROUPS;
     return c;
 }
@@ -314,7 +317,7 @@ static void say_variant(const search *s, const variant *v, const compile_memory 
     if (v->lean >= LEAN_BARE) {
         if (on->feature.object_boxes) say(out, bytes, &n, " --set object_boxes=0");
         if (on->feature.incremental) say(out, bytes, &n, " --set incremental=0");
-        if (on->feature.caster_culling) say(out, bytes, &n, " --set caster_culling=0");
+        if (s->c->fixed.scene.shadow.caster_culling) say(out, bytes, &n, " --set caster_culling=0");
     }
     say(out, bytes, &n, ": %ld bytes of RAM, %ld of flash, colours off by %.1f of 255 (RMS)",
         compile_ram_bytes(m, s->b), compile_rom_bytes(m), sqrt(v->change));

@@ -4,49 +4,46 @@
 #define FLASH(name, m0, m4) static const int name##_bytes[FLASH_CORES] = {m0, m4};
 #include "flash_table.h"
 
+/* A feature with levels from 1 on. */
+static long of_level(int level, const int *const *bytes, flash_core core)
+{
+    return level > 0 ? bytes[level - 1][core] : 0;
+}
+
 /* Features whose code does not depend on shadows. */
 static long of_surfaces(const settings *s, flash_core core)
 {
     long bytes = 0;
     if (!s->feature.vertex_normals) bytes += no_vertex_normals_bytes[core];
     if (s->feature.vertex_colours) bytes += vertex_colours_bytes[core];
-    if (s->feature.textures) bytes += textures_bytes[core];
+    bytes += of_level(s->feature.textures, (const int *const[]){textures_bytes, textures_2_bytes}, core);
     if (s->feature.specular) bytes += specular_bytes[core];
-    if (s->feature.masks) bytes += masks_bytes[core];
-    if (s->feature.baked_light) bytes += baked_light_bytes[core];
-    if (s->feature.visible_alpha) bytes += visible_alpha_bytes[core];
+    if (s->feature.baked) bytes += baked_bytes[core];
+    if (s->feature.alpha) bytes += alpha_bytes[core];
     return bytes;
 }
 
 static long of_filter(const settings *s, flash_core core)
 {
-    const int *const by_max[] = {filter_max_0_bytes, filter_max_1_bytes, NULL, filter_max_3_bytes, filter_max_4_bytes};
+    const int *const by_max[] = {filter_max_0_bytes, filter_max_1_bytes, NULL,
+                                 filter_max_3_bytes, filter_max_4_bytes, filter_max_5_bytes};
     const int *row = by_max[s->feature.filter_max];
-    long bytes = row ? row[core] : 0;
-    if (s->feature.disk_filter) bytes += disk_filter_bytes[core];
-    return bytes;
+    return row ? row[core] : 0;
 }
 
 static long of_shadows(const settings *s, flash_core core)
 {
     long bytes = of_filter(s, core);
     if (s->feature.punctual_lights) bytes += punctual_lights_bytes[core];
-    if (s->feature.blended_cascades) bytes += blended_cascades_bytes[core];
     if (s->feature.main_light) bytes += main_light_bytes[core];
-    if (s->feature.caster_culling) bytes += caster_culling_bytes[core];
-    if (s->feature.caster_alpha) bytes += caster_alpha_bytes[core];
-    if (s->feature.receiver_bias) bytes += receiver_bias_bytes[core];
-    if (s->feature.caster_bias) bytes += caster_bias_bytes[core];
-    if (s->feature.receiver_plane) bytes += receiver_plane_bytes[core];
+    if (s->feature.other_biases) bytes += other_biases_bytes[core];
     if (s->quality.edge) bytes += edge_bytes[core];
     if (s->feature.auto_bias) bytes += auto_bias_bytes[core];
-    if (s->feature.incremental) bytes += incremental_bytes[core];
-    if (s->feature.many_cascades) bytes += many_cascades_bytes[core];
-    if (s->feature.tile_importance) bytes += tile_importance_bytes[core];
-    if (s->feature.tight_fit) bytes += tight_fit_bytes[core];
+    bytes += of_level(s->feature.incremental, (const int *const[]){incremental_bytes, incremental_2_bytes}, core);
+    bytes += of_level(s->feature.many_cascades,
+                      (const int *const[]){many_cascades_bytes, many_cascades_2_bytes, many_cascades_3_bytes}, core);
+    bytes += of_level(s->feature.tile_sizes, (const int *const[]){tile_sizes_bytes, tile_sizes_2_bytes}, core);
     if (s->feature.object_boxes) bytes += object_boxes_bytes[core];
-    if (s->feature.caster_clipping) bytes += caster_clipping_bytes[core];
-    if (s->feature.static_layer) bytes += static_layer_bytes[core];
     return bytes;
 }
 

@@ -1,7 +1,7 @@
 /* The library in compact arithmetic: all of lib/ once more, as one file, with a prefix. */
 #undef GN_SEPARATE_FILES
-#undef GN_STATIC_LAYER
-#undef GN_CASTER_CULLING
+#undef GN_INCREMENTAL
+#undef GN_MANY_CASCADES
 #undef GN_MAX_WIDTH
 #undef GN_MAX_HEIGHT
 #undef GN_MAX_LIGHTS

@@ -137,6 +137,21 @@ static const char *why_gone(const char *key)
         {"shadow_depth_frac", "4 bits always"},
         {"shadow_subpixel_bits", "10 bits always"},
         {"weight_bits", "follows from persp_step: 12 with 1, else 8"},
+        {"blended_cascades", "many_cascades=2 has it"},
+        {"disk_filter", "filter_max=5 has it"},
+        {"static_layer", "incremental=2 has it"},
+        {"tile_importance", "tile_sizes=1 has it"},
+        {"tight_fit", "tile_sizes=2 has it"},
+        {"caster_alpha", "alpha has it"},
+        {"visible_alpha", "alpha has it"},
+        {"masks", "baked has it"},
+        {"baked_light", "baked has it"},
+        {"receiver_bias", "other_biases has it"},
+        {"caster_bias", "other_biases has it"},
+        {"emissive_textures", "emissive has it, with textures"},
+        {"caster_clipping", "clipping has it"},
+        {"clips", "always there, and linked where gn_pose is called"},
+        {"picking", "always there, and linked where gn_pick is called"},
         {"kernel", "3x3, 5x5 and 7x7 are tents, which are exact and cheaper"},
     };
     for (size_t i = 0; i < sizeof gone / sizeof *gone; i++)
@@ -168,7 +183,7 @@ int settings_apply(settings *out, scene *s, const char *key, const char *value, 
     if ((taken = apply_own(out, s, key, value, error, error_bytes))) return taken < 0 ? -1 : 0;
     const char *at = strchr(key, '@');
     if (at) return apply_to_light(out, s, key, at, value, error, error_bytes);
-    /* main_light, caster_culling, receiver_plane, auto_bias and texture_levels are built and used, or neither: knobs
+    /* main_light and auto_bias are built and used, or neither: knobs
      * and settings of the scene at once */
     const bool is_knob = settings_is_knob(key);
     const char *word = as_word(key, value);

@@ -47,8 +47,7 @@ size_t settings_shadow_lights(const scene *s)
 
 static void needs_of_filter(need_list *list, const char *setting, scene_filter filter)
 {
-    if (filter == SCENE_FILTER_DISK) need(list, "disk_filter", 1, "%s disk", setting);
-    else if (filter > SCENE_FILTER_HARD)
+    if (filter > SCENE_FILTER_HARD)
         need(list, "filter_max", (int)filter, "%s %s", setting, settings_filter_names[filter]);
 }
 
@@ -57,11 +56,12 @@ static void needs_of_shadows(need_list *list, const scene *s)
     needs_of_filter(list, "filter", s->shadow.filter);
     needs_of_filter(list, "other_filter", s->shadow.other_filter);
     if (s->shadow.blend != SCENE_BLEND_HARD)
-        need(list, "blended_cascades", 1, "cascade_blend %s", settings_blend_names[s->shadow.blend]);
+        need(list, "many_cascades", 2, "cascade_blend %s", settings_blend_names[s->shadow.blend]);
     if (s->shadow.main_light) need(list, "main_light", 1, "main_light 1");
     if (s->shadow.n_cascades > 1) need(list, "many_cascades", 1, "cascades %d", s->shadow.n_cascades);
-    if (s->shadow.tiles == SCENE_TILES_IMPORTANCE) need(list, "tile_importance", 1, "tiles importance");
-    if (s->shadow.mixing != SCENE_MIX_NONE) need(list, "masks", 1, "mixing");
+    if (s->shadow.caster_culling) need(list, "many_cascades", 3, "caster_culling 1");
+    if (s->shadow.tiles == SCENE_TILES_IMPORTANCE) need(list, "tile_sizes", 1, "tiles importance");
+    if (s->shadow.mixing != SCENE_MIX_NONE) need(list, "baked", 1, "mixing");
 }
 
 /* F5: soft is at least 5x5, hard is 2x2 where the atlas's filter is not hard itself. */
@@ -81,9 +81,9 @@ static void needs_of_light(need_list *list, const scene *s, const scene_light *l
     for (int i = 0; i < 4; i++) biased |= l->bias_receiver[i] > 0;
     if (l->kind == SCENE_LIGHT_SPOT) need(list, "punctual_lights", 1, "spot light '%s'", l->name);
     if (l->kind == SCENE_LIGHT_POINT) need(list, "punctual_lights", 1, "point light '%s'", l->name);
-    if (biased) need(list, "receiver_bias", 1, "bias_receiver of light '%s'", l->name);
-    if (l->bias_caster > 0) need(list, "caster_bias", 1, "bias_caster of light '%s'", l->name);
-    if (l->receiver_plane) need(list, "receiver_plane", 1, "receiver_plane of light '%s'", l->name);
+    if (biased) need(list, "other_biases", 1, "bias_receiver of light '%s'", l->name);
+    if (l->bias_caster > 0) need(list, "other_biases", 1, "bias_caster of light '%s'", l->name);
+    if (l->receiver_plane) need(list, "other_biases", 1, "receiver_plane of light '%s'", l->name);
     if (l->auto_bias) need(list, "auto_bias", 1, "auto_bias of light '%s'", l->name);
     if (!shadows || !requests_shadow(l)) return;
     need(list, "shadows", 1, "the shadow of light '%s'", l->name);
@@ -107,23 +107,23 @@ static void needs_of_object(need_list *list, const scene *s, const scene_object 
     const size_t shown[] = {o->texture_idx, o->emissive_texture_idx};
     if (o->n_joints)
         need(list, "vertex_joints", joints_of(&s->meshes[o->mesh_idx]), "the skin of object '%s'", o->name);
-    if (o->visible_alpha != SCENE_ALPHA_OPAQUE) need(list, "visible_alpha", 1, "alpha of object '%s'", o->name);
+    if (o->visible_alpha != SCENE_ALPHA_OPAQUE) need(list, "alpha", 1, "alpha of object '%s'", o->name);
     for (int i = 0; i < 2; i++) {
         if (shown[i] >= s->n_textures) continue;
         need(list, "textures", 1, "the texture of object '%s'", o->name);
         if (s->textures[shown[i]].mipmapped)
-            need(list, "texture_levels", 1, "the texture of object '%s', whose sampler has a mipmap,", o->name);
+            need(list, "textures", 2, "the texture of object '%s', whose sampler has a mipmap,", o->name);
     }
     if (o->emissive_texture_idx < s->n_textures)
-        need(list, "emissive_textures", 1, "the emissive texture of object '%s'", o->name);
+        need(list, "emissive", 1, "the emissive texture of object '%s'", o->name);
     if (o->specular[0] > 0 || o->specular[1] > 0 || o->specular[2] > 0)
         need(list, "specular", 1, "specular of object '%s'", o->name);
     if (o->emissive[0] > 0 || o->emissive[1] > 0 || o->emissive[2] > 0)
         need(list, "emissive", 1, "the emissive colour of object '%s'", o->name);
-    if (o->baked) need(list, "baked_light", 1, "baked light of object '%s'", o->name);
+    if (o->baked) need(list, "baked", 1, "baked light of object '%s'", o->name);
     if (o->caster == SCENE_CASTER_CLIP || o->caster == SCENE_CASTER_DITHER)
-        need(list, "caster_alpha", 1, "the shadow of object '%s', cut by alpha,", o->name);
-    if (o->mask || o->mask_texture_idx != SCENE_NONE) need(list, "masks", 1, "the shadow mask of object '%s'", o->name);
+        need(list, "alpha", 1, "the shadow of object '%s', cut by alpha,", o->name);
+    if (o->mask || o->mask_texture_idx != SCENE_NONE) need(list, "baked", 1, "the shadow mask of object '%s'", o->name);
 }
 
 /* A build refuses what it lacks even where nothing comes of it; only what shadows alone are made with it does not look
@@ -158,7 +158,8 @@ void settings_trim(settings *set, const scene *s)
     if (!shadows) set->feature.shadows = 0;
     if (!punctual) set->feature.punctual_lights = 0;
     if (!main_light) set->feature.main_light = 0;
-    if (s->shadow.fit == SCENE_FIT_STABLE && s->shadow.tiles != SCENE_TILES_WORTH) set->feature.tight_fit = 0;
+    if (s->shadow.fit == SCENE_FIT_STABLE && s->shadow.tiles != SCENE_TILES_WORTH)
+        set->feature.tile_sizes = s->shadow.tiles == SCENE_TILES_IMPORTANCE;
 }
 
 static void drop(double **array)
@@ -183,7 +184,7 @@ int settings_enforce(const settings *set, scene *s, int width, int height, char 
         if (!set->feature.vertex_colours) drop(&s->meshes[i].rgb);
     }
     for (size_t i = 0; i < s->n_lights && !set->feature.shadows; i++) s->lights[i].shadow = false;
-    if (!set->feature.tight_fit || !set->feature.shadows) {
+    if (set->feature.tile_sizes < 2 || !set->feature.shadows) {
         s->shadow.fit = SCENE_FIT_STABLE;
         if (s->shadow.tiles == SCENE_TILES_WORTH) s->shadow.tiles = SCENE_TILES_EQUAL;
     }

@@ -24,9 +24,9 @@ static long put(layout *l, long n, long size, long align)
 static long put_atlas(layout *l, const settings *s, long side, long texels, long depth_bits)
 {
     if (!texels) texels = side * side;
-    long bytes = 0, layers = s->feature.static_layer ? 2 : 1;
+    long bytes = 0, layers = s->feature.incremental > 1 ? 2 : 1;
     for (long i = 0; i < layers; i++) bytes += put(l, texels * depth_bits / 8, 1, 4);
-    if (s->feature.disk_filter) bytes += put(l, texels / 64, 4, 2);
+    if (s->feature.filter_max > 4) bytes += put(l, texels / 64, 4, 2);
     return bytes;
 }
 
@@ -41,10 +41,10 @@ static long n_views(const settings *s)
 static void put_views(layout *l, const settings *s)
 {
     const long views = n_views(s);
-    long view =
-        180 + (s->feature.disk_filter ? 4 : 0) + (s->feature.auto_bias ? 8 : 0) + (s->feature.tight_fit ? 8 : 0);
+    long view = 180 + (s->feature.filter_max > 4 ? 4 : 0) + (s->feature.auto_bias ? 8 : 0) +
+                (s->feature.tile_sizes > 1 ? 8 : 0);
     put(l, views, (view + 7) / 8 * 8, 8);
-    if (s->feature.tight_fit) put(l, views, 56, 8); /* seen */
+    if (s->feature.tile_sizes > 1) put(l, views, 56, 8); /* seen */
 }
 
 /* gn_frame from its memory of tiles on */
@@ -62,7 +62,7 @@ static void put_shadows(layout *l, const settings *s, settings_ram_parts *r)
 /* gn_alpha_cut of lib/geometry/gn_geometry_types.h */
 static long cut_bytes(const settings *s)
 {
-    if (!s->feature.caster_alpha) return 0;
+    if (!s->feature.alpha) return 0;
     if (!s->feature.textures) return 24;
     return 216;
 }
@@ -78,7 +78,7 @@ static long casting_bytes(const settings *s)
 static long corner_bytes(const settings *s)
 {
     layout light = {0, 4}, all = {0, 4};
-    put(&light, s->feature.masks ? 2 : 1, 4, 4);
+    put(&light, s->feature.baked ? 2 : 1, 4, 4);
     if (s->feature.shadows) put(&light, 3, 4, 4);
     if (s->feature.specular) {
         put(&light, 1, 4, 4);
@@ -89,7 +89,7 @@ static long corner_bytes(const settings *s)
     put(&all, 8, 4, 4); /* state to base_q24 */
     if (s->feature.vertex_colours) put(&all, 3, 4, 4);
     if (s->feature.textures) put(&all, 2, 4, 4);
-    if (s->feature.masks) put(&all, 2, 4, 4);
+    if (s->feature.baked) put(&all, 2, 4, 4);
     if (s->feature.vertex_normals) put(&all, 3, 4, 4);
     if (s->feature.punctual_lights) put(&all, 3, 4, 4);
     put(&all, s->capacity.surface_lights, light.size, 4);
@@ -98,7 +98,7 @@ static long corner_bytes(const settings *s)
 
 static int has_levels(const settings *s)
 {
-    return s->feature.textures && s->feature.texture_levels;
+    return s->feature.textures > 1;
 }
 
 static int wide_coordinates(const settings *s);
@@ -130,7 +130,7 @@ static long patch_shared_bytes(const settings *s)
 
 static int has_glow(const settings *s)
 {
-    return s->feature.textures && s->feature.emissive && s->feature.emissive_textures;
+    return s->feature.textures && s->feature.emissive;
 }
 
 /* gn_drawing of lib/shade/gn_lattice_types.h */
@@ -150,7 +150,7 @@ static long lattice_bytes(const settings *s)
     if (s->feature.shadows && s->feature.punctual_lights) put(&all, 8, 68, 4); /* forms */
     put(&all, s->capacity.surface_lights, 12, 4);                              /* light */
     put(&all, 1, 200, 4);                                                      /* face_q30 to bits */
-    if (s->feature.shadows && (s->feature.receiver_plane || s->quality.edge))
+    if (s->feature.shadows && (s->feature.other_biases || s->quality.edge))
         put(&all, 4, 4, 4); /* slope_view to slope_h_q14 */
     const long corners = 12 * corner_bytes(s), patch = patch_bytes(s);
     put(&all, 1, corners > patch ? corners : patch, 4); /* from */
@@ -171,20 +171,20 @@ static long lattice_bytes(const settings *s)
 static void put_work(layout *out, const settings *s)
 {
     layout surface = {0, 8}, all = {0, 8};
-    int per_light = (s->feature.shadows && s->feature.blended_cascades) || s->feature.punctual_lights ? 7
-                    : s->feature.shadows                                                              ? 4
-                                                                                                      : 1;
-    long values = (s->feature.textures ? 2 : 0) + (s->feature.masks ? 4 : 0) + (s->feature.baked_light ? 3 : 0) + 5 +
+    int per_light = (s->feature.shadows && s->feature.many_cascades > 1) || s->feature.punctual_lights ? 7
+                    : s->feature.shadows                                                               ? 4
+                                                                                                       : 1;
+    long values = (s->feature.textures ? 2 : 0) + (s->feature.baked ? 4 : 0) + (s->feature.baked ? 3 : 0) + 5 +
                   (long)per_light * s->capacity.surface_lights;
     put(&surface, 1, s->feature.orthographic ? 244 : 200, 8); /* object to the colours of attribute_q16 */
     put(&surface, 15, 4, 4);                                  /* v_q16 to hi_q16 */
-    if (s->feature.masks) put(&surface, 12, 4, 4);
-    if (s->feature.baked_light) put(&surface, 9, 4, 4);
+    if (s->feature.baked) put(&surface, 12, 4, 4);
+    if (s->feature.baked) put(&surface, 9, 4, 4);
     if (s->feature.textures) put(&surface, 6, 8, 8);
     if (has_levels(s)) put(&surface, 1, 28, 8);
     if (has_glow(s)) put(&surface, 1, 4, 4);
     if (has_levels(s) && has_glow(s)) put(&surface, 1, 8, 8); /* glow_depth2_q32 */
-    if (s->feature.receiver_plane || s->quality.edge || s->feature.auto_bias) put(&surface, 3, 4, 4);
+    if (s->feature.other_biases || s->quality.edge || s->feature.auto_bias) put(&surface, 3, 4, 4);
     put(&surface, s->capacity.surface_lights, s->quality.vertex_light ? 44 : 36, 4);
     pad(&surface, surface.align);
     put(&all, 1, 40, 4);  /* frame to rows */
@@ -202,7 +202,7 @@ static void put_work(layout *out, const settings *s)
     pad(&all, all.align);
     const long casting = casting_bytes(s), clipping = 264, seen = s->feature.punctual_lights ? 1008 : 988;
     long largest = casting > clipping ? casting : clipping;
-    if (s->feature.shadows && s->feature.tight_fit && seen > largest) largest = seen;
+    if (s->feature.shadows && s->feature.tile_sizes > 1 && seen > largest) largest = seen;
     put(out, 1, all.size > largest ? all.size : largest, 8);
 }
 
@@ -245,7 +245,7 @@ settings_ram_parts settings_ram(const settings *s)
     long offset = s->capacity.max_tile_refs > 65535 ? 4 : 2;
     int punctual = s->feature.punctual_lights;
     const long groups = s->quality.triangle_groups;
-    const int fits = s->feature.shadows && s->feature.tight_fit;
+    const int fits = s->feature.shadows && s->feature.tile_sizes > 1;
     put(&frame, 1, (s->feature.orthographic ? 260 : 252) + (groups ? 4 : 0) + (fits ? 4 : 0), 8); /* scene to detail */
     if (s->feature.shadows) {
         put(&frame, 1, 8, 4);  /* n_cascades to frame_count */
@@ -253,8 +253,8 @@ settings_ram_parts settings_ram(const settings *s)
     }
     r.lights = put(&frame, s->capacity.max_lights, punctual ? 176 : 36, punctual ? 8 : 4);
     if (s->feature.shadows) put_views(&frame, s);
-    int boxes = punctual ||
-                (s->feature.shadows && (s->feature.object_boxes || s->feature.caster_culling || s->feature.tight_fit));
+    int boxes = punctual || (s->feature.shadows &&
+                             (s->feature.object_boxes || s->feature.many_cascades > 2 || s->feature.tile_sizes > 1));
     r.objects = boxes ? put(&frame, s->capacity.max_objects, punctual ? 36 : 24, 4) : 0;
     r.objects += put(&frame, s->capacity.max_objects, 1, 1); /* flags */
     r.triangles = put(&frame, groups ? 1 : s->capacity.max_triangles, wide_coordinates(s) ? 44 : 32, 4);

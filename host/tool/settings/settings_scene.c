@@ -92,10 +92,10 @@ static const scene_knob scene_knobs[] = {
      "compiled: in boxes for the whole animation"},
     SHADOW_("main_light", SWITCH, main_light, 0, 1,
             "only the brightest directional light has cascades, others one tile each (D10); also the feature"),
-    SHADOW_("caster_culling", SWITCH, caster_culling, 0, 1, "as the feature (D8)"),
+    SHADOW_("caster_culling", SWITCH, caster_culling, 0, 1,
+            "casters whose shadows lie wholly in a smaller cascade are not drawn into larger ones (D8)"),
     LIGHT_("shadow", SWITCH, shadow, 0, 1, "the light requests a shadow"),
-    LIGHT_("receiver_plane", SWITCH, receiver_plane, 0, 1,
-           "every tap compares with the receiver's plane (B5); also the feature"),
+    LIGHT_("receiver_plane", SWITCH, receiver_plane, 0, 1, "every tap compares with the receiver's plane (B5)"),
     {"auto_bias", OF_LIGHTS, WORD, offsetof(scene_light, auto_bias), 0, 0, auto_names,
      "the least bias that leaves a plane no acne (B6), depth by default; setting bias_normal or bias_receiver ends "
      "it; also the feature"},

@@ -302,7 +302,7 @@ static void shorten(char *name)
     static const char *const shrink[][2] = {
         {"other_depth_bits=", "o.depth "}, {"depth_bits=", "depth "},  {"cascades=", "casc. "},
         {"persp_step=", "step "},          {"subpixel_bits=", "sub "}, {"tile_width=", "tw "},
-        {"tile_height=", "th "},           {"refresh=", "ref. "},      {"static_layer=", "layer "},
+        {"tile_height=", "th "},           {"refresh=", "ref. "},      {"incremental=", "kept "},
         {"triangle_groups=", "groups "},   {"tiles=", "tiles "},       {"edge=", "edge "},
     };
     for (size_t i = 0; i < sizeof drop / sizeof *drop; i++)

@@ -76,7 +76,7 @@ static void plan_one_at_a_time(sweep_plan *list, sweep_config base)
         {SWEEP_PERSP_STEP, {"1", "4", "16"}},
         {SWEEP_SUBPIXEL_BITS, {"4", "8"}},
         {SWEEP_REFRESH, {"8", "4", "1,8", "1,4", "1,2,4,8", "2", "1,2", "1,1,1,8", "1,1,1,4", "1,1,1,2"}},
-        {SWEEP_STATIC_LAYER, {"1"}},
+        {SWEEP_STATIC_LAYER, {"2"}},
         {SWEEP_TRIANGLE_GROUPS, {"256", "64"}},
         {SWEEP_FIT, {"stable"}},
         {SWEEP_TILES, {"equal"}},
