@@ -4,7 +4,7 @@
 #include "base/gn_math.h"
 #include "base/gn_q.h"
 #include "light/gn_bias.h"
-#include "light/gn_cascade.h"
+#include "light/gn_lights.h"
 
 /* Filter radius: the largest distance to the centre of a texel that the filter reads, per axis; texels, Q16. */
 static int32_t taps_q16(const gn_light_view *view)

@@ -5,7 +5,7 @@
 #include "base/gn_math.h"
 #include "base/gn_q.h"
 #include "light/gn_bias.h"
-#include "light/gn_cascade.h"
+#include "light/gn_lights.h"
 #include "scene/gn_scene.h"
 
 GN_HOT int32_t gn_bias_reach_q16(const gn_frame *frame, const gn_light_view *view, const gn_light *light)

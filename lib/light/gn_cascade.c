@@ -3,7 +3,7 @@
 
 #include "base/gn_math.h"
 #include "base/gn_q.h"
-#include "light/gn_cascade.h"
+#include "light/gn_lights.h"
 
 /* k^2 = (W^2 + H^2) / (H focal)^2, Q24, clamped to 2^14 (half-diagonal of 89.5 degrees). */
 int64_t gn_cascade_tan2_q24(const gn_frame *frame)

@@ -3,7 +3,6 @@
 
 #include "base/gn_hint.h"
 #include "light/gn_lights.h"
-#include "light/gn_object.h"
 #include "light/gn_punctual.h"
 
 typedef struct {

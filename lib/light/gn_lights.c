@@ -5,7 +5,6 @@
 #include "base/gn_math.h"
 #include "base/gn_q.h"
 #include "light/gn_lights.h"
-#include "light/gn_object.h"
 #include "light/gn_punctual.h"
 #include "scene/gn_scene.h"
 

@@ -5,7 +5,7 @@
 #include "base/gn_q.h"
 #include "geometry/gn_skin.h"
 #include "geometry/gn_xform.h"
-#include "light/gn_object.h"
+#include "light/gn_lights.h"
 #include "scene/gn_scene.h"
 
 /* Least and largest of n coordinates, three apart. */

@@ -15,11 +15,8 @@
 #include "scene/gn_sides.h"
 #include "shadow/gn_blocks.h"
 #include "shadow/gn_caster.h"
-#include "shadow/gn_cull.h"
-#include "shadow/gn_kept.h"
-#include "shadow/gn_ortho.h"
+#include "shadow/gn_atlas.h"
 #include "shadow/gn_persp.h"
-#include "shadow/gn_static_layer.h"
 #include "shadow/gn_texel.h"
 
 typedef gn_caster_job caster_job;

@@ -1,7 +1,7 @@
 /* Which casters are drawn into a tile. */
 #include "gn_internal.h"
 
-#include "shadow/gn_cull.h"
+#include "shadow/gn_atlas.h"
 
 /* Whether the object casts at all, and in this layer. [M1] */
 static int in_layer(uint32_t flags, gn_layer layer)

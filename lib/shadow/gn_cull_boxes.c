@@ -3,8 +3,8 @@
 
 #include "base/gn_math.h"
 #include "base/gn_q.h"
-#include "shadow/gn_cull.h"
-#include "shadow/gn_ortho.h"
+#include "shadow/gn_atlas.h"
+#include "shadow/gn_caster.h"
 
 /* Half extent of a box along an axis, Q16, rounded up. */
 static int64_t extent_q16(const int32_t axis_q30[3], const int32_t half_q16[3])

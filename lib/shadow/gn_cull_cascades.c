@@ -5,7 +5,7 @@
 #include "base/gn_q.h"
 #include "light/gn_bias.h"
 #include "shadow/gn_filter.h"
-#include "shadow/gn_cull.h"
+#include "shadow/gn_atlas.h"
 
 void gn_cull_begin(gn_frame *frame)
 {

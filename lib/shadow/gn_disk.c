@@ -6,7 +6,7 @@
 #include "base/gn_q.h"
 #include "base/gn_tables.h"
 #include "shadow/gn_blocks.h"
-#include "shadow/gn_disk.h"
+#include "shadow/gn_lookup.h"
 
 #define DISK_RADIUS_MAX_Q16 (8 << 16)
 

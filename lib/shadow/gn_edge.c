@@ -2,7 +2,7 @@
 #include "gn_internal.h"
 
 #include "base/gn_count.h"
-#include "shadow/gn_edge.h"
+#include "shadow/gn_lookup.h"
 
 #if GN_EDGE_BUILT
 

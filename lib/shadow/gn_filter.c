@@ -4,10 +4,8 @@
 #include "base/gn_count.h"
 #include "base/gn_hint.h"
 #include "base/gn_q.h"
-#include "shadow/gn_disk.h"
-#include "shadow/gn_edge.h"
-#include "shadow/gn_filter.h"
 #include "shadow/gn_lookup.h"
+#include "shadow/gn_filter.h"
 #include "shadow/gn_tent.h"
 #include "shadow/gn_texel.h"
 

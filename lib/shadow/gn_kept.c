@@ -4,7 +4,7 @@
 #include "base/gn_signature.h"
 #include "geometry/gn_skin.h"
 #include "shadow/gn_blocks.h"
-#include "shadow/gn_kept.h"
+#include "shadow/gn_atlas.h"
 
 static uint64_t view_signature(const gn_frame *frame, const gn_light_view *view)
 {

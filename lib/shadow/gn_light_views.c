@@ -5,15 +5,13 @@
 #include "base/gn_math.h"
 #include "base/gn_q.h"
 #include "light/gn_bias.h"
-#include "light/gn_cascade.h"
+#include "light/gn_lights.h"
 #include "shadow/gn_blocks.h"
-#include "shadow/gn_cull.h"
-#include "shadow/gn_kept.h"
-#include "shadow/gn_light_views.h"
-#include "shadow/gn_ortho.h"
+#include "shadow/gn_atlas.h"
+#include "shadow/gn_views.h"
+#include "shadow/gn_caster.h"
 #include "shadow/gn_persp.h"
 #include "shadow/gn_texel.h"
-#include "shadow/gn_tiles.h"
 
 void gn_light_view_axes(int32_t axis[3][3], const int32_t w_q30[3])
 {

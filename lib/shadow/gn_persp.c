@@ -7,7 +7,7 @@
 #include "light/gn_bias.h"
 #include "scene/gn_sides.h"
 #include "shadow/gn_persp.h"
-#include "shadow/gn_seen.h"
+#include "shadow/gn_views.h"
 
 #define GN_NEAR_MAX_Q16 (8192 << 16) /* as far as lights may have it */
 #define GN_GUARD_TEXELS 8192         /* casters are cut at this distance from the tile's centre */

@@ -6,12 +6,9 @@
 
 #include "base/gn_math.h"
 #include "base/gn_q.h"
-#include "light/gn_cascade.h"
 #include "light/gn_lights.h"
-#include "shadow/gn_light_views.h"
+#include "shadow/gn_views.h"
 #include "shadow/gn_persp.h"
-#include "shadow/gn_seen.h"
-#include "shadow/gn_seen_directions.h"
 
 /* ---- Boxes and parts of the frustum, from the camera --------------------------------------------------------------
  */

@@ -3,7 +3,7 @@
 
 #include "base/gn_math.h"
 #include "base/gn_q.h"
-#include "shadow/gn_seen_directions.h"
+#include "shadow/gn_views.h"
 
 #if GN_TIGHT_FIT
 

@@ -2,7 +2,7 @@
  * as a copy of it, so that only these are drawn anew. */
 #include "gn_internal.h"
 
-#include "shadow/gn_static_layer.h"
+#include "shadow/gn_atlas.h"
 #include "shadow/gn_texel.h"
 
 /* The view's tile of the static layer. [A5] */

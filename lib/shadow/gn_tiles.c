@@ -5,11 +5,9 @@
 #include "base/gn_hint.h"
 #include "base/gn_math.h"
 #include "base/gn_q.h"
-#include "light/gn_cascade.h"
 #include "light/gn_lights.h"
 #include "scene/gn_scene.h"
-#include "shadow/gn_seen.h"
-#include "shadow/gn_tiles.h"
+#include "shadow/gn_views.h"
 
 #define GN_ATLAS_TILES_MAX     16U
 #define GN_CASCADED_LIGHTS_MAX 4U /* shadowed lights that have cascades [D1] */

@@ -4,7 +4,7 @@
 #include "gn_stages.h"
 #include "base/gn_hint.h"
 #include "light/gn_lights.h"
-#include "shadow/gn_light_views.h"
+#include "shadow/gn_views.h"
 
 /* Not inlined: a stage is counted by its name. */
 GN_NOINLINE gn_status gn_views_setup(gn_frame *frame, gn_scratch *scratch)

@@ -4,7 +4,6 @@
 #include "base/gn_count.h"
 #include "base/gn_kernel.h"
 #include "base/gn_q.h"
-#include "shadow/gn_edge.h"
 #include "shadow/gn_lookup.h"
 #include "shadow/gn_tent.h"
 #include "shadow/gn_texel_rows.h"

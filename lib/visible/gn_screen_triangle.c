@@ -5,10 +5,8 @@
 #include "base/gn_hint.h"
 #include "base/gn_math.h"
 #include "base/gn_q.h"
-#include "geometry/gn_pixel_mask.h"
 #include "geometry/gn_walk.h"
 #include "scene/gn_sides.h"
-#include "visible/gn_group.h"
 #include "visible/gn_screen_triangle.h"
 #include "visible/gn_setup.h"
 

@@ -12,9 +12,8 @@
 #include "geometry/gn_walk.h"
 #include "geometry/gn_xform.h"
 #include "scene/gn_scene.h"
-#include "visible/gn_group.h"
-#include "visible/gn_screen_rect.h"
 #include "visible/gn_screen_triangle.h"
+#include "visible/gn_screen_rect.h"
 #include "visible/gn_setup.h"
 
 /* View position of a vertex, without a cache. */

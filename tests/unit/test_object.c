@@ -3,7 +3,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "light/gn_object.h"
+#include "light/gn_lights.h"
 #include "check.h"
 #include "rng.h"
 

@@ -2,9 +2,9 @@
  * must stay within the bound that docs/NUMERICS.md derives for the case at hand. With "--table": the largest error
  * seen, per stage. */
 #include "../host/ref/ref.h"
-#include "../lib/light/gn_cascade.h"
+#include "../lib/light/gn_lights.h"
 #include "../lib/shade/gn_light.h"
-#include "../lib/shadow/gn_ortho.h"
+#include "../lib/shadow/gn_caster.h"
 #include "../lib/shade/gn_pixel.h"
 #include "../lib/geometry/gn_plane.h"
 #include "../lib/base/gn_q.h"

@@ -4,9 +4,8 @@
 
 #include "exact.h"
 #include "knobs.h"
-#include "geometry/gn_pixel_mask.h"
-#include "visible/gn_setup.h"
 #include "geometry/gn_walk.h"
+#include "visible/gn_setup.h"
 #include "gnomon.h"
 #include "rng.h"
 

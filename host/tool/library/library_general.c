@@ -1,6 +1,6 @@
 /* The library in general arithmetic. */
 #include "library_calls.h"
-#include "shadow/gn_tiles.h"
+#include "shadow/gn_views.h"
 
 static int get_turn(const void *renderer, uint32_t light_idx, uint32_t view_idx)
 {
