@@ -218,7 +218,7 @@
 #define GN_ORTHOGRAPHIC (!GN_COMPACT)
 #endif
 #ifndef GN_CLIPPING
-#define GN_CLIPPING (!GN_COMPACT)
+#define GN_CLIPPING (GN_COMPACT ? 0 : 2)
 #endif
 #ifndef GN_RAW_VIEWS
 #define GN_RAW_VIEWS 0
@@ -254,7 +254,7 @@
 #define GN_RECEIVER_BIAS    (GN_OTHER_BIASES)
 #define GN_CASTER_BIAS      (GN_OTHER_BIASES)
 #define GN_RECEIVER_PLANE   (GN_OTHER_BIASES)
-#define GN_CASTER_CLIPPING  (GN_CLIPPING)
+#define GN_CASTER_CLIPPING  ((GN_CLIPPING) >= 2)
 
 /* Whether the boxes of objects are needed. */
 #define GN_BOXES (GN_PUNCTUAL_LIGHTS || (GN_SHADOWS && (GN_OBJECT_BOXES || GN_CASTER_CULLING || GN_TIGHT_FIT)))

@@ -140,9 +140,9 @@
     X(object_boxes, OBJECT_BOXES, 0, 1, "casters whose box lies outside a shadow tile are skipped",                    \
       "flash, 24 bytes per object; the same picture with and without")                                                 \
     X(orthographic, ORTHOGRAPHIC, 0, 1, "orthographic cameras", "flash; 48 bytes of RAM")                              \
-    X(clipping, CLIPPING, 0, 1,                                                                                        \
-      "visible triangles may cross the near plane, or extend far beyond the picture, directional casters more than "   \
-      "8192 texels beyond their tile; without, such a frame is refused",                                               \
+    X(clipping, CLIPPING, 0, 2,                                                                                        \
+      "1: visible triangles may cross the near plane, or extend far beyond the picture; 2: also directional casters "  \
+      "more than 8192 texels beyond their tile; without, such a frame is refused",                                     \
       "flash")                                                                                                         \
     X(raw_views, RAW_VIEWS, 0, 1, "views of depth, normals, shadow and triangle identity (host tools)", "flash")       \
     X(runtime_knobs, RUNTIME_KNOBS, 0, 1, "quality knobs as data (host tools)", "everything is built")

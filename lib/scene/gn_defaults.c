@@ -79,8 +79,8 @@ static int four_cascades_fit(const gn_light *lights, uint32_t n_lights)
 {
     uint32_t n_suns = 0;
     for (uint32_t i = 0; i < n_lights; i++) n_suns += lights[i].kind == GN_LIGHT_DIRECTIONAL;
-    return GN_SHADOWS && GN_MANY_CASCADES && GN_ATLAS_SIZE >= 64 && GN_ATLAS_TEXELS == GN_ATLAS_SIZE * GN_ATLAS_SIZE &&
-           4 * n_suns <= GN_MAX_SHADOW_TILES;
+    return GN_SHADOWS && GN_MANY_CASCADES > 0 && GN_ATLAS_SIZE >= 64 &&
+           GN_ATLAS_TEXELS == GN_ATLAS_SIZE * GN_ATLAS_SIZE && 4 * n_suns <= GN_MAX_SHADOW_TILES;
 }
 
 gn_scene gn_scene_default(const gn_camera *camera, const gn_object *objects, uint32_t n_objects, const gn_light *lights,

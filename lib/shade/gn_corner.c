@@ -210,7 +210,7 @@ GN_HOT static int find_point(const gn_lattice *l, const gn_frame *frame, const g
     int32_t dx = c->x - plane->x, dy = c->y - plane->y, w = along(&plane->w, dx, dy);
     if (w < plane->w_least || w >= 1 << 30) return 0;
     int32_t clz = gn_clz32((uint32_t)w), shift = plane->z_shift - clz;
-    uint32_t recip = gn_recip_norm((uint32_t)w << clz, 1);
+    uint32_t recip = gn_recip_norm((uint32_t)w << clz, GN_RECIP_STEPS(frame));
     if (shift < 1 || shift > 31) return 0;
     uint32_t z = gn_umul_high(s->depth_scale.mant, recip);
     z = ((z >> (shift - 1)) + 1) >> 1;
@@ -266,7 +266,7 @@ GN_HOT static void find_unit(const gn_frame *frame, const gn_surface *s, corner_
     GN_UNROLL
     for (int i = 0; i < 3; i++) p->unit_q30[i] = p->n_q30[i];
     if (GN_SMOOTH(s) && (s->n_punctual || GN_VERTEX_COSINES != 3 || !GN_K(frame, vertex_light)))
-        gn_length_unit(gn_length_of(1, p->n_q30), p->n_q30, p->unit_q30);
+        gn_length_unit(gn_length_of(GN_RECIP_STEPS(frame), p->n_q30), p->n_q30, p->unit_q30);
 }
 
 /* ---- Attributes -------------------------------------------------------------------------------------------------- */

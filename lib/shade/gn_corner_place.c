@@ -53,7 +53,7 @@ GN_HOT static inline int32_t plane_depth(const gn_lattice *l, const gn_frame *fr
     if (GN_FLAT_Q16(frame)) return gn_max32(1, gn_min32(gn_corner_flat_depth(p, s, x, y, b_q28), s->z_max_q16));
 #endif
     int32_t w = gn_max32(p->w.at + p->w.dx * (x - p->x) + p->w.dy * (y - p->y), 1 << 10), clz = gn_clz32((uint32_t)w);
-    uint32_t z = gn_umul_high(s->depth_scale.mant, gn_recip_norm((uint32_t)w << clz, 1));
+    uint32_t z = gn_umul_high(s->depth_scale.mant, gn_recip_norm((uint32_t)w << clz, GN_RECIP_STEPS(frame)));
     int32_t shift = p->z_shift - clz;
     if (shift < 1) return s->z_max_q16;
     z = shift > 31 ? 0 : ((z >> (shift - 1)) + 1) >> 1;
@@ -153,7 +153,7 @@ GN_HOT static GN_NOINLINE int place_punctual(const gn_frame *frame, const gn_sur
     if (!at->seen) return 1;
     if (gn_abs32(p[0]) >> 1 >= (uint32_t)z || gn_abs32(p[1]) >> 1 >= (uint32_t)z) return 0;
     int32_t clz = gn_clz32((uint32_t)z), focal2 = (int32_t)view->fit.persp.focal2_q16, middle = view->tile_texels << 15;
-    uint32_t recip = gn_recip_norm((uint32_t)z << clz, 1);
+    uint32_t recip = gn_recip_norm((uint32_t)z << clz, GN_RECIP_STEPS(frame));
     int32_t half = (int32_t)(recip >> 1);
     GN_KEEP(half); /* signed: one multiplication */
     GN_KEEP(focal2);

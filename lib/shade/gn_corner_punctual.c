@@ -36,7 +36,7 @@ GN_HOT int32_t gn_corner_irradiance(const gn_frame *frame, const gn_light_state 
     out->arrives = GN_CORNER_DARK;
     if (facing_q16 <= 0) return 0;
     if (d2 >= light->range2_q32 || d2 >> 62) return 0;
-    int steps = light->kind == GN_LIGHT_SPOT && light->angle_scale.exp >= GN_NARROW_EXP ? 2 : 1;
+    int steps = light->kind == GN_LIGHT_SPOT && light->angle_scale.exp >= GN_NARROW_EXP ? 2 : GN_RECIP_STEPS(frame);
     int32_t shift = gn_clz64(d2) & ~1, half = (shift >> 1) - 1, most = INT32_MAX >> half, factor = 1 << 30;
     uint32_t root = gn_rsqrt_norm((uint32_t)((d2 << shift) >> 32), steps);
     int32_t root_q31 = (int32_t)(root >> 1);

@@ -208,7 +208,7 @@ GN_HOT int gn_corner_place_flat(gn_lattice *l, const gn_frame *frame, const gn_s
     /* what roundings of slopes do not matter to, nor carry to 2^30 */
     if ((uint32_t)(z - forms->z_least) >= (uint32_t)((1 << 30) - forms->z_least)) return 0;
     int32_t clz = gn_clz32((uint32_t)z), down = 12 - view->tile_log2, near = value_at(&forms->near, dx, dy);
-    uint32_t recip = gn_recip_norm((uint32_t)z << clz, 1); /* 2^63 / (z 2^clz) */
+    uint32_t recip = gn_recip_norm((uint32_t)z << clz, GN_RECIP_STEPS(frame)); /* 2^63 / (z 2^clz) */
     uint32_t share = near < 0 ? 0 : gn_umul_high((uint32_t)near, recip);
     int32_t half = (int32_t)(recip >> 1);
     GN_KEEP(half);

@@ -85,7 +85,7 @@ GN_HOT static int32_t seen_depth(const gn_lattice *l, const gn_frame *frame, con
     if (w < p->w_least || w >= 1 << 30) return 0;
     int32_t clz = gn_clz32((uint32_t)w), shift = p->z_shift - clz;
     if (shift < 1 || shift > 31) return 0;
-    uint32_t z = gn_umul_high(s->depth_scale.mant, gn_recip_norm((uint32_t)w << clz, 1));
+    uint32_t z = gn_umul_high(s->depth_scale.mant, gn_recip_norm((uint32_t)w << clz, GN_RECIP_STEPS(frame)));
     z = ((z >> (shift - 1)) + 1) >> 1;
     return z < (uint32_t)s->z_min_q16 >> 1 || z >> 1 > (uint32_t)s->z_max_q16 ? 0 : (int32_t)z;
 }

@@ -333,7 +333,7 @@ int32_t gn_ortho_triangle(const gn_frame *frame, const gn_light_view *view, gn_c
         if (n_texels != GN_NO_BOX) return n_texels;
     }
     if (misses_tile(view, polygon->p) || !wide_caster_begin(&caster, view, polygon->p, casting->job.sides)) return -1;
-    if (GN_CASTER_ALPHA && GN_TEXTURES && alpha && alpha->textured) alpha_plane(frame, view, alpha, polygon->p);
+    if (GN_CASTER_ALPHA && GN_TEXTURES > 0 && alpha && alpha->textured) alpha_plane(frame, view, alpha, polygon->p);
     if (GN_CASTER_CLIPPING) clip_to_reach(polygon, &casting->with.uncut);
     else if (!within_reach(polygon->p)) return GN_ORTHO_TOO_FAR;
     if (polygon->n >= 3)

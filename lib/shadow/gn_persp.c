@@ -305,7 +305,7 @@ GN_HOT int32_t gn_persp_triangle(const gn_frame *frame, const gn_light_view *vie
     gn_caster caster;
     gn_plane plane;
     if (!persp_caster(&caster, &plane, view, corner, casting->job.sides)) return -1;
-    if (GN_CASTER_ALPHA && GN_TEXTURES && alpha && alpha->textured)
+    if (GN_CASTER_ALPHA && GN_TEXTURES > 0 && alpha && alpha->textured)
         gn_alpha_plane(alpha, frame, corner, fit->focal2_q16, view->tile_texels, 2);
     if (any) gn_clip(polygon, &casting->with.clipping.uncut, GN_OUT_ALL, fit->clip_q16, fit->guard_q16, 0);
     int32_t *x = casting->with.clipping.x, *y = casting->with.clipping.y;

@@ -49,7 +49,7 @@ flags_of() {
             OBJECT_BOXES) echo "-DGN_$feature=0" ;;
             VERTEX_JOINTS) echo "-DGN_$feature=4" ;;
             MANY_CASCADES) echo "-DGN_$feature=3" ;;
-            TEXTURES | INCREMENTAL | TILE_SIZES) echo "-DGN_$feature=2" ;;
+            TEXTURES | INCREMENTAL | TILE_SIZES | CLIPPING) echo "-DGN_$feature=2" ;;
             *) [ "$feature" = FILTER_MAX ] || echo "-DGN_$feature=1" ;;
             esac
         done

@@ -16,7 +16,7 @@ most() {
     FILTER_MAX) echo 5 ;;
     VERTEX_JOINTS) echo 4 ;;
     MANY_CASCADES) echo 3 ;;
-    TEXTURES | INCREMENTAL | TILE_SIZES) echo 2 ;;
+    TEXTURES | INCREMENTAL | TILE_SIZES | CLIPPING) echo 2 ;;
     TEXTURE_FORMATS) echo 1023 ;;
     *) echo 1 ;;
     esac
@@ -145,6 +145,7 @@ FILTER_MAX 4 gn_disk_.*|gn_blocks_.*
 MANY_CASCADES 2 gn_cull_shown_nearer
 TEXTURES 1 gn_texture_(level_at|level_depth2|use_level)
 INCREMENTAL 1 gn_static_layer_.*
+CLIPPING 1 clip_side|clip_to_reach
 TILE_SIZES 1 gn_seen_.*|gn_ortho_(fit_tight|covers)|sides_by_worth
 LIST
 

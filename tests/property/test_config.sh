@@ -29,7 +29,7 @@ most() {
     FILTER_MAX) echo 5 ;;
     VERTEX_JOINTS) echo 4 ;;
     MANY_CASCADES) echo 3 ;;
-    TEXTURES | INCREMENTAL | TILE_SIZES) echo 2 ;;
+    TEXTURES | INCREMENTAL | TILE_SIZES | CLIPPING) echo 2 ;;
     TEXTURE_FORMATS) echo 1023 ;;
     *) echo 1 ;;
     esac

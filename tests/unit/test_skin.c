@@ -213,7 +213,7 @@ static void begin_scene(int variant)
     ls_begin(&ls);
     ls_add_light(&ls, GN_LIGHT_DIRECTIONAL);
     if (GN_PUNCTUAL_LIGHTS) ls_add_random_light(&ls, &r, variant & 1 ? GN_LIGHT_SPOT : GN_LIGHT_POINT);
-    ls.scene.shadow.n_cascades = variant & 2 && GN_MANY_CASCADES ? 3 : 1;
+    ls.scene.shadow.n_cascades = variant & 2 && GN_MANY_CASCADES > 0 ? 3 : 1;
     ls.scene.shadow.fit = variant & 1 && GN_TIGHT_FIT ? GN_FIT_TIGHT : GN_FIT_STABLE;
     ls.light[0].bias_caster_q16 = variant & 4 && GN_CASTER_BIAS ? 1 << 15 : 0;
     ls.scene.camera.half_height_q16 = variant & 8 && GN_ORTHOGRAPHIC ? GN_Q16(2.5) : 0;

@@ -64,9 +64,10 @@ int compile_check_casters(const compiled *c, char *error, size_t error_bytes)
     }
     const bool boxes = c->requested.feature.object_boxes && c->run.casters_unseen;
     const int extent = compile_caster_texels(&c->run, boxes);
-    if (c->requested.feature.clipping || !c->requested.feature.shadows || extent < COMPILE_CASTER_TEXELS_MAX) return 0;
+    if (c->requested.feature.clipping > 1 || !c->requested.feature.shadows || extent < COMPILE_CASTER_TEXELS_MAX)
+        return 0;
     snprintf(error, error_bytes,
-             "setting 'clipping': 0, and casters lie up to %d texels from a shadow tile's corner, of %d", extent,
-             COMPILE_CASTER_TEXELS_MAX);
+             "setting 'clipping': %d, and casters lie up to %d texels from a shadow tile's corner, of %d",
+             c->requested.feature.clipping, extent, COMPILE_CASTER_TEXELS_MAX);
     return -1;
 }

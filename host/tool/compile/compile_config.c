@@ -279,9 +279,9 @@ static void choose_casters(compiled *c)
     if (!s->feature.shadows || !c->run.casters_unseen) s->feature.object_boxes = 0;
     because(c, "object_boxes", "casters that a shadow tile does not see, all frames: %zu", c->run.casters_unseen);
     const int extent = s->feature.shadows ? compile_caster_texels(&c->run, s->feature.object_boxes) : 0;
-    if (path && !c->run.clipped && extent <= CASTER_TEXELS_ENOUGH) s->feature.clipping = 0;
+    if (path && extent <= CASTER_TEXELS_ENOUGH) s->feature.clipping = c->run.clipped > 0;
     if (!path) because(c, "clipping", "scenes of --simplify none and safe may be moved otherwise");
-    else if (c->run.clipped || extent <= CASTER_TEXELS_ENOUGH)
+    else if (extent <= CASTER_TEXELS_ENOUGH)
         because(c, "clipping", "visible triangles that are clipped, all frames: %zu", c->run.clipped);
     else
         because(c, "clipping", "casters lie up to %d texels from a tile's corner, of %d without", extent,

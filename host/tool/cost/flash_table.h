@@ -33,7 +33,8 @@ FLASH(tile_sizes, 308, 396)                /* with */
 FLASH(tile_sizes_2, 9396, 8496)            /* with 2 */
 FLASH(object_boxes, 948, 896)              /* with */
 FLASH(orthographic, 1768, 1740)            /* with */
-FLASH(clipping, 1192, 1212)                /* with */
+FLASH(clipping, 736, 800)                  /* with */
+FLASH(clipping_2, 1192, 1212)              /* with 2 */
 FLASH(edge, 2808, 2660)                    /* edge 4 */
 FLASH(preset_accurate, -38676, -35844)     /* quality of preset accurate */
 FLASH(accurate_unshadowed, -47544, -44336) /* the same without shadows */

@@ -149,7 +149,7 @@ static const char *why_gone(const char *key)
         {"receiver_bias", "other_biases has it"},
         {"caster_bias", "other_biases has it"},
         {"emissive_textures", "emissive has it, with textures"},
-        {"caster_clipping", "clipping has it"},
+        {"caster_clipping", "clipping=2 has it"},
         {"clips", "always there, and linked where gn_pose is called"},
         {"picking", "always there, and linked where gn_pick is called"},
         {"kernel", "3x3, 5x5 and 7x7 are tents, which are exact and cheaper"},
