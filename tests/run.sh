@@ -81,20 +81,22 @@ job test_oiio build/test_oiio
 job bench 'sh tests/bench/bench.sh >build/tmp/bench.log 2>&1 && echo "1 passed, 0 failed" || { cat build/tmp/bench.log; exit 1; }'
 job run 'make -s run >build/tmp/run.log 2>&1 && echo "1 passed, 0 failed" || { cat build/tmp/run.log; exit 1; }'
 
-# Under sanitizers with Clang: what needs the library alone, the tool and the boards, and the extremes of the specification. Hardly optimised:
-# its checks are made before it optimises. The oracles, which draw pictures by the hundred, and programs with floors for the random scenes
-# of GCC (the compiler chooses the order of random numbers) are left to make soak.
-programs=$(for name in $(names tool firmware) test_extremes test_extremes_light; do echo "build/test/clang/$name"; done)
-build alone-programs $programs BUILD=build/test/clang CC=clang OPT=-O1 SAN="$sanitizers"
-for program in build/test/clang/test_*; do job "clang-O1/$(basename "$program")" "$program"; done
-if [ "$THOROUGH" ]; then # every program under those of GCC, but for pictures, which have campaigns of their own
+# Once under sanitizers, with Clang, not optimised, as it takes ten times as long to optimise what it sanitizes as to run it: what needs the
+# library alone has constants for knobs, as firmware has, the others are the tool's, the boards' and those that choose their knobs. The oracles,
+# which draw pictures by the hundred, and programs with floors for the random scenes of GCC (the compiler chooses the order of random numbers)
+# are left to make soak.
+programs=$(for name in $(names tool firmware) arrival casters corner radiance refused runs tiles; do echo "build/test/clang/test_${name#test_}"; done)
+build $programs BUILD=build/test/clang CC=clang OPT=-O0 SAN="$sanitizers"
+for program in $programs; do job "clang-O0/${program##*/}" "$program"; done
+if [ "$THOROUGH" ]; then # all of it optimised, too, and every program with GCC, but for pictures, which have campaigns of their own
+    build alone-programs BUILD=build/test/clang-O1 CC=clang OPT=-O1 SAN="$sanitizers"
+    for program in build/test/clang-O1/test_*; do job "clang-O1/${program##*/}" "$program"; done
     build test-programs BUILD=build/test/gcc CC=gcc HOST_OPT=-O1 SAN="$sanitizers"
     for name in $(names unit oracle reference property tool firmware); do
         case " $pictures test_golden_random " in *" $name "*) ;; *) job "gcc-O2/$name" "build/test/gcc/$name" ;; esac
     done
 fi
 
-# Firmware has constants for knobs; not optimised, as Clang takes ten times as long to optimise what it sanitizes as to run it.
 # Of one preset the atlases differ: a view of one must not point into the other.
 # constants NAME FLAGS: warnings of a configuration are for test_config.sh, which compiles the one file that users do
 constants() {
