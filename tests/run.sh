@@ -13,7 +13,7 @@
 #   bench/      instructions against baselines
 #   web/        the playground as WebAssembly in node; the page in a browser: make test-playground, which takes minutes
 #
-# THOROUGH=1, as make soak runs it: also combinations whose parts are tested each.
+# THOROUGH=1, as make soak runs it: also combinations whose parts are tested each, and every program under the sanitizers of both compilers.
 cd "$(dirname "$0")/.." || exit 1
 run=build/tmp/run
 export WERROR=-Werror # of every make
