@@ -65,7 +65,7 @@ sanitizers="-g1 -fsanitize=address,undefined -fno-sanitize-recover=all" # -g1: l
 
 # Every program with GCC, optimised as users do. What takes long goes first, so that none of it is left alone in the end; of scripts, before
 # those that fill two cores, those that fill one.
-build all test-programs build/test_oiio build/make_report build/gen_tables
+build all test-programs build/test_oiio build/make_report build/gen_tables SAN=-g0 # a quarter of the time to compile is for debuggers
 pictures="test_accuracy test_rows test_seams test_views"
 for name in $pictures test_fit test_valley; do job $name build/$name; done
 scripts="tests/firmware/test_absent.sh tests/tool/test_sweep.sh tests/tool/test_compile.sh tests/tool/test_tool.sh tests/firmware/test_boards.sh

@@ -12,13 +12,14 @@
 # panels    10^6 damaged programs of calls to panel drivers, on failing buses (tests/firmware/test_panel_fuzz.c), an hour
 # math      every operand of the reciprocal and of the root (tests/unit/test_math.c)
 # files     10^6 damaged files of each of six kinds, scenes and pictures (tests/tool/test_fuzz.c), an hour; KINDS="png glb": of these
+# valley    folds at every angle (tests/oracle/test_valley.c), of which make test has every second of each combination
 # models    the accuracy of meshes that MODELS names (tests/oracle/test_accuracy.c), a minute each
 # machines  the golden frames and the panel tests on big-endian hosts and as WebAssembly (tests/firmware/machines.sh), ten minutes
 # accuracy, rows, seams, views    hundreds of pictures against floors, which make test draws without sanitizers: a quarter of an hour
 # suite     make test with THOROUGH=1: also the combinations whose parts it tests each, and every program under the sanitizers of both compilers, an hour
 cd "$(dirname "$0")/.." || exit 1
 build=build/soak
-: "${SEED:=$(date +%Y%m%d)}" "${CAMPAIGNS:=random shipped fuzz files panels math culling fit census accuracy rows seams views machines suite ${MODELS:+models }extremes}"
+: "${SEED:=$(date +%Y%m%d)}" "${CAMPAIGNS:=random shipped fuzz files panels math culling fit valley census accuracy rows seams views machines suite ${MODELS:+models }extremes}"
 asked=$SCENES
 passed=0 failed=0
 
@@ -124,7 +125,7 @@ for name in $CAMPAIGNS; do
     fuzz) fuzz ;;
     suite) suite ;;
     machines) machines ;;
-    census | culling | math | models | accuracy | rows | seams | views) campaign $name 0 ;;
+    census | culling | math | valley | models | accuracy | rows | seams | views) campaign $name 0 ;;
     *) echo "no such campaign: $name" && failed=$((failed + 1)) ;;
     esac
 done
