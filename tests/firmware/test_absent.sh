@@ -1,7 +1,7 @@
 #!/bin/sh
 # Off means absent: a feature that is not built leaves no symbol and takes no flash. And no call of the compiler's library but for what a core lacks.
 # Sizes are of Cortex-M3 where its compiler is installed, else of this machine. "--table" prints them.
-# That nothing is called which is not there: here of all but one feature, THOROUGH=1: but any.
+# That nothing is called which is not there: here of all but one feature.
 cd "$(dirname "$0")/../.." || exit 1
 . tests/support/check.sh
 
@@ -71,12 +71,9 @@ if [ "$1" = --table ]; then
     printf '%-18s %8s %14s %14s\n' feature alone "on its basis" "off, of all" "" "$none" "" "$all"
 fi
 idle= # what has nothing to do without shadows
-# Those of the list of symbols below, whose objects it looks at; THOROUGH=1: all.
-listed=$(sed -n "/<<.LIST.$/,/^LIST$/s/^\([A-Z_]*\) .*/\1/p" tests/firmware/test_absent.sh)
 for feature in $features; do
     # The alpha of casters keeps the textures' records.
     [ "$(under $feature | cut -d ' ' -f 1)" != SHADOWS ] || [ $feature = CASTER_ALPHA ] || idle="$idle $feature"
-    [ "$1" = --table ] || [ "$THOROUGH" ] || echo "$listed" | grep -q -x "$feature" || continue
     without "$feature"
     ${whole_prefix}nm -u "$tmp/all-$feature.o" | grep ' gn_' >"$tmp/found" && fail "$feature is off, and missed: $(tr -s ' \n' ' ' <"$tmp/found")" || pass
     saved=$((all - $(size_of "all-$feature" "$whole_prefix")))

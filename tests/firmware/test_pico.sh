@@ -17,7 +17,7 @@ cube="APP=play SCENE=host/scenes/cube.gltf PRESET=balanced FW_OPT=-O1"
 small="--size 96x64 --frames 9-10 --set output=rgb565"
 pico firmware APP=clock && pass || fail "the clock does not build: $(grep -m 1 -E 'error|region' "$tmp/log")"
 pico firmware $cube IMAGE=test-cube SCENE_FLAGS="$small" && pass || fail "the cube does not build: $(grep -m 1 -E 'error|region' "$tmp/log")"
-pico firmware APP=show SCENE=host/scenes/cube.gltf FW_OPT=-O0 && [ -s build/firmware/pico/show-cube.uf2 ] && pass || fail "any scene on the display does not build: $(grep -m 1 -E 'error|region' "$tmp/log")"
+pico firmware APP=show SCENE=host/scenes/cube.gltf FW_OPT=-O1 && [ -s build/firmware/pico/show-cube.uf2 ] && pass || fail "any scene on the display does not build: $(grep -m 1 -E 'error|region' "$tmp/log")"
 if ! make -s build/node_modules/rp2040js/package.json BOARD=pico >"$tmp/log" 2>&1; then
     echo "not run: $(head -n 1 "$tmp/log")"
     finish
