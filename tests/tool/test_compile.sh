@@ -143,6 +143,14 @@ flash_said() { "$tool" info host/scenes/cube.gltf --size 64x48 --frame 0 --flash
 [ "$(flash_said)" = "$(flash_said --optimise -O2)" ] && [ $((10 * $(flash_said))) -gt $((12 * $(flash_said --optimise -Os))) ] && pass ||
     fail "flash without a board: $(flash_said), with -O2 $(flash_said --optimise -O2), with -Os $(flash_said --optimise -Os)"
 
+# the library for it, where size comes first: no warning
+root=$PWD
+mkdir -p "$tmp/objects"
+for name in mixed; do
+    (cd "$tmp/objects" && arm-none-eabi-gcc -mcpu=cortex-m0 -mthumb -std=c99 -Os $warn -ffreestanding -isystem "$root/boards/common/include" -I"$root/lib" -I"$root/$tmp/$name" \
+        '-DGN_USER_CONFIG="gn_scene_config.h"' -c "$root"/lib/*.c) >"$tmp/log" 2>&1 && pass || fail "$name: the library at -Os: $(grep -m 1 -E 'error|warning' "$tmp/log")"
+done
+
 # ---- Boards ------------------------------------------------------------------------------------------------------------------------
 
 "$tool" compile docs/scenes/near.gltf -o "$tmp/near" --board microbit --size 128x64 --set preset=tiny --set tiles=equal >"$tmp/out" 2>&1 && pass || fail "near.gltf does not fit a micro:bit: $(cat "$tmp/out")"

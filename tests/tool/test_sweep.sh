@@ -243,7 +243,8 @@ good compare host/scenes/fence.gltf --size $size --json --with truth $(sed 1q "$
 good advise host/scenes/desk.gltf --quick --size $size --ram 100000
 grep -q '^  with ' "$tmp/out" && fail "advice for desk has something to say of fits" || pass
 
-# budgets that nothing fits: what is named would do, and a byte less would not
+# a budget of both kinds, and those that nothing fits: what is named would do, and a byte less would not
+good advise host/scenes/fence.gltf --quick --size $size --ram 100000 --instructions-per-pixel 100000
 bad 1 'no configuration fits into 1000 bytes at 32x24; the least RAM found: [0-9]* bytes and .* by --set' advise host/scenes/fence.gltf --quick --size $size --ram 1000
 least=$(sed -n 's/.*the least RAM found: \([0-9]*\) bytes.*/\1/p' "$tmp/err")
 good advise host/scenes/fence.gltf --quick --size $size --ram "$least"
