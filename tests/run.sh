@@ -13,7 +13,7 @@
 #   bench/      instructions against baselines
 #   web/        the playground as WebAssembly in node; the page in a browser: make test-playground, which takes minutes
 #
-# THOROUGH=1, as make soak runs it: also combinations whose parts are tested each.
+# THOROUGH=1, as make soak runs it: also combinations whose parts are tested each, and every program under the sanitizers of both compilers.
 cd "$(dirname "$0")/.." || exit 1
 run=build/tmp/run
 export WERROR=-Werror # of every make
@@ -63,37 +63,41 @@ names() { # names FOLDER...: the programs of these folders of tests/
 }
 sanitizers="-g1 -fsanitize=address,undefined -fno-sanitize-recover=all" # -g1: line numbers alone, less to write and to link
 
-# Pictures by the hundred, against floors: they take five times as long under sanitizers, where make soak runs them, too.
-# The random scenes of test_golden_random are others there: the compiler chooses the order of some random numbers.
-pictures="test_accuracy test_rows test_seams test_views test_golden_random"
-build all $(for name in $pictures test_fit test_extremes test_extremes_light test_extremes_many test_oiio make_report gen_tables; do echo "build/$name"; done)
-for name in $pictures; do job $name build/$name; done
-job test_fit build/test_fit # and a quarter of its scenes under sanitizers
-
-# Scripts that take long go first, so that none of them is left alone in the end; before those that fill two cores, those that fill one.
+# Every program with GCC, optimised as users do. What takes long goes first, so that none of it is left alone in the end; of scripts, before
+# those that fill two cores, those that fill one.
+build all test-programs build/test_oiio build/make_report build/gen_tables SAN=-g0 # a quarter of the time to compile is for debuggers
+pictures="test_accuracy test_rows test_seams test_views"
+for name in $pictures test_fit test_valley; do job $name build/$name; done
 scripts="tests/firmware/test_absent.sh tests/tool/test_sweep.sh tests/tool/test_compile.sh tests/tool/test_tool.sh tests/firmware/test_boards.sh
     tests/property/test_config.sh tests/oracle/test_compact.sh tests/firmware/test_size.sh tests/firmware/test_pico.sh"
 for script in $scripts $(ls tests/*/test_*.sh); do
     name=$(basename "$script" .sh).sh
     grep -q "^$name " build/tmp/jobs || job "$name" "sh $script build/gnomon"
 done
+for name in $(names unit oracle reference property tool firmware); do
+    grep -q "^$name " build/tmp/jobs || job "$name" "build/$name"
+done
 job test_oiio build/test_oiio
 job bench 'sh tests/bench/bench.sh >build/tmp/bench.log 2>&1 && echo "1 passed, 0 failed" || { cat build/tmp/bench.log; exit 1; }'
 job run 'make -s run >build/tmp/run.log 2>&1 && echo "1 passed, 0 failed" || { cat build/tmp/run.log; exit 1; }'
 
-# Every program with GCC; those that need the library alone with Clang, which sees other faults, too, hardly optimised: its checks are
-# made before it optimises.
-build test-programs BUILD=build/test/gcc CC=gcc HOST_OPT=-O1 SAN="$sanitizers"
-for name in $(names unit oracle reference property tool firmware); do
-    case " $pictures " in *" $name "*) continue ;; esac
-    few=
-    [ "$name$THOROUGH" != test_fit ] || few="SCENES=60 "
-    job "gcc-O2/$name" "${few}build/test/gcc/$name"
-done
-build alone-programs BUILD=build/test/clang CC=clang OPT=-O1 SAN="$sanitizers"
-for program in build/test/clang/test_*; do job "clang-O1/$(basename "$program")" "$program"; done
+# Once under sanitizers, with Clang, the library not optimised, as it takes ten times as long to optimise what it sanitizes as to run it: what needs the
+# library alone has constants for knobs, as firmware has, the others are the tool's, the boards' and those that choose their knobs. The oracles,
+# which draw pictures by the hundred, and programs with floors for the random scenes of GCC (the compiler chooses the order of random numbers)
+# or bytes of its sines (test_scenes) are left to make soak.
+programs=$(for name in $(names tool firmware | grep -v -x test_scenes) arrival casters corner radiance refused runs tiles; do echo "build/test/clang/test_${name#test_}"; done)
+build $programs BUILD=build/test/clang CC=clang OPT=-O0 HOST_OPT=-O1 SAN="$sanitizers"
+for program in $programs; do job "clang-O0/${program##*/}" "$program"; done
+if [ "$THOROUGH" ]; then # all of it optimised, too, and every program with GCC, but for pictures, which have campaigns of their own
+    build alone-programs BUILD=build/test/clang-O1 CC=clang OPT=-O1 SAN="$sanitizers"
+    for program in build/test/clang-O1/test_*; do job "clang-O1/${program##*/}" "$program"; done
+    build test-programs BUILD=build/test/gcc CC=gcc HOST_OPT=-O1 SAN="$sanitizers"
+    for name in $(names unit oracle reference property tool firmware); do
+        case " $pictures test_golden_random " in *" $name "*) ;; *) job "gcc-O2/$name" "build/test/gcc/$name" ;; esac
+    done
+fi
 
-# Firmware has constants for knobs; not optimised, as Clang takes ten times as long to optimise what it sanitizes as to run it. Of one preset the atlases differ: a view of one must not point into the other.
+# Of one preset the atlases differ: a view of one must not point into the other.
 # constants NAME FLAGS: warnings of a configuration are for test_config.sh, which compiles the one file that users do
 constants() {
     build constant-programs WERROR= BUILD=build/test/"$1" CC=clang OPT=-O0 SAN="$sanitizers" CONSTANTS="$2"
@@ -104,10 +108,8 @@ constants balanced "-DGN_PRESET=GN_PRESET_BALANCED -DGN_ATLAS_SIZE=64 -DGN_OTHER
 [ -z "$THOROUGH" ] || constants fast "-DGN_PRESET=GN_PRESET_FAST -DGN_ATLAS_SIZE=64 -DGN_OTHER_ATLAS_SIZE=64"
 [ -z "$THOROUGH" ] || constants accurate "-DGN_PRESET=GN_PRESET_ACCURATE -DGN_ATLAS_SIZE=128 -DGN_OTHER_ATLAS_SIZE=128"
 
-build build/test/threads/test_cores BUILD=build/test/threads OPT=-O1 SAN=-fsanitize=thread
+build build/test/threads/test_cores BUILD=build/test/threads CC=clang OPT=-O0 SAN=-fsanitize=thread
 job threads/test_cores build/test/threads/test_cores
-build build/test/memory/test_random BUILD=build/test/memory CC=clang OPT=-O1 SAN=-fsanitize=memory
-job memory/test_random "SCENES=4000 build/test/memory/test_random"
 
 # ---- What is run -----------------------------------------------------------------------------------------------------------
 

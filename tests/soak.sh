@@ -7,17 +7,19 @@
 # fuzz      scenes and files by coverage, where Clang has libFuzzer (tests/property/test_random.c, tests/tool/test_fuzz.c), MINUTES=60 each
 # extremes  20000 random scenes against the reference (tests/oracle/test_extremes_many.c), about an hour
 # census    planes at 100 times as many angles (tests/oracle/test_census.c)
+# fit       tight fits of 1000 random scenes (tests/oracle/test_fit.c), some minutes
 # culling   casters left out at many more places (tests/property/test_culling.c)
 # panels    10^6 damaged programs of calls to panel drivers, on failing buses (tests/firmware/test_panel_fuzz.c), an hour
 # math      every operand of the reciprocal and of the root (tests/unit/test_math.c)
 # files     10^6 damaged files of each of six kinds, scenes and pictures (tests/tool/test_fuzz.c), an hour; KINDS="png glb": of these
+# valley    folds at every angle (tests/oracle/test_valley.c), of which make test has every second of each combination
 # models    the accuracy of meshes that MODELS names (tests/oracle/test_accuracy.c), a minute each
 # machines  the golden frames and the panel tests on big-endian hosts and as WebAssembly (tests/firmware/machines.sh), ten minutes
 # accuracy, rows, seams, views    hundreds of pictures against floors, which make test draws without sanitizers: a quarter of an hour
-# suite     make test with THOROUGH=1: also the combinations whose parts it tests each, half an hour
+# suite     make test with THOROUGH=1: also the combinations whose parts it tests each, and every program under the sanitizers of both compilers, an hour
 cd "$(dirname "$0")/.." || exit 1
 build=build/soak
-: "${SEED:=$(date +%Y%m%d)}" "${CAMPAIGNS:=random shipped fuzz files panels math culling census accuracy rows seams views machines suite ${MODELS:+models }extremes}"
+: "${SEED:=$(date +%Y%m%d)}" "${CAMPAIGNS:=random shipped fuzz files panels math culling fit valley census accuracy rows seams views machines suite ${MODELS:+models }extremes}"
 asked=$SCENES
 passed=0 failed=0
 
@@ -118,11 +120,12 @@ for name in $CAMPAIGNS; do
     random) campaign random 1000000 ;;
     files | panels) campaign $name 1000000 ;;
     extremes) campaign extremes 20000 ;;
+    fit) campaign fit 1000 ;;
     shipped) shipped ;;
     fuzz) fuzz ;;
     suite) suite ;;
     machines) machines ;;
-    census | culling | math | models | accuracy | rows | seams | views) campaign $name 0 ;;
+    census | culling | math | valley | models | accuracy | rows | seams | views) campaign $name 0 ;;
     *) echo "no such campaign: $name" && failed=$((failed + 1)) ;;
     esac
 done

@@ -54,7 +54,7 @@ target_is matrix by tests/documents/test_matrix.sh 'matrix.sh --scene'
 target_is report by tests/tool/test_report.sh 'report.sh'
 target_is playground by tests/web/test_wasm.sh 'playground.html'
 target_is test-playground dry
-target_is tables by tests/documents/test_rules.sh '/gen_tables" >'
+target_is tables by tests/documents/test_rules.sh 'build/gen_tables >'
 target_is prefix by tests/property/test_mixed.sh 'gen_prefix.sh'
 target_is scenes here '^same$' sh -c 'make -s build/make_scenes >/dev/null && mkdir "$0/own" "$0/docs" && build/make_scenes "$0/own" "$0/docs" && diff -r "$0/own" host/scenes && diff -r -x "*.md" "$0/docs" docs/scenes && echo same' "$tmp"
 target_is clean by tests/documents/test_rules.sh 'make -s clean'

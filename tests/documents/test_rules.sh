@@ -9,7 +9,6 @@ none() {
 
 variable() { make -s --no-print-directory WERROR=-Werror --eval="print: ; @echo \$($1)" print; }
 warn=$(variable WARN)
-strict="-std=c99 -pedantic $warn -Ilib"
 
 # Comments and strings gone, line numbers kept.
 code() {
@@ -38,42 +37,33 @@ grep -E '[^A-Za-z0-9_.](([0-9]+\.[0-9]*|\.[0-9]+)([eE][-+]?[0-9]+)?|[0-9]+[eE][-
     grep -v -E '^lib/gnomon\.h:[0-9]+:#define GN_(FIX_|U?Q[0-9]+|TURN)\(' >"$tmp/found"
 none "floating-point constant in lib/ outside the macros of gnomon.h" "$tmp/found"
 
-for variant in general strict; do
-    mkdir -p "$tmp/$variant"
-    case $variant in
-    general) flags="-O0 -mgeneral-regs-only" ;; # any floating-point arithmetic is an error
-    strict) flags="-O1 -Wvla -ffreestanding" ;;
-    esac
-    for arithmetic in 0 1; do # of either, GN_COMPACT
-        if gcc -std=c99 -pedantic $warn -Ilib -DGN_RAW_VIEWS=$((1 - arithmetic)) -DGN_COMPACT=$arithmetic $flags -c -o "$tmp/$variant/$arithmetic.o" lib/gnomon.c \
-            >"$tmp/log" 2>&1; then pass
-        else fail "lib/ with GN_COMPACT=$arithmetic does not compile with $flags: $(grep -m 1 error "$tmp/log")"; fi
-    done
+# Any floating-point arithmetic is an error; nothing is inlined, for the graph of calls below.
+mkdir -p "$tmp/objects"
+for arithmetic in 0 1; do # of either, GN_COMPACT
+    if gcc -std=c99 -pedantic $warn -Ilib -DGN_RAW_VIEWS=$((1 - arithmetic)) -DGN_COMPACT=$arithmetic -O0 -mgeneral-regs-only -Wvla -ffreestanding -fno-inline \
+        -fdump-rtl-expand -c -o "$tmp/objects/$arithmetic.o" lib/gnomon.c >"$tmp/log" 2>&1; then pass
+    else fail "lib/ with GN_COMPACT=$arithmetic does not compile: $(grep -m 1 error "$tmp/log")"; fi
 done
-objdump -d --no-show-raw-insn "$tmp"/general/*.o | cut -s -f 2- | grep -E '%[xyz]mm|%st|^f(ld|st|add|mul|div|sub|ild|ist)' >"$tmp/found"
+objdump -d --no-show-raw-insn "$tmp"/objects/*.o | cut -s -f 2- | grep -E '%[xyz]mm|%st|^f(ld|st|add|mul|div|sub|ild|ist)' >"$tmp/found"
 none "floating-point instruction" "$tmp/found"
-[ "$(objdump -d "$tmp"/general/*.o | wc -l)" -gt 1000 ] && pass || fail "objdump shows no instructions"
+[ "$(objdump -d "$tmp"/objects/*.o | wc -l)" -gt 1000 ] && pass || fail "objdump shows no instructions"
 
-nm -A -u "$tmp"/strict/*.o | awk '{ print $NF }' | sort -u >"$tmp/undefined"
-nm -A --defined-only "$tmp"/strict/*.o | awk '{ print $NF }' | sort -u >"$tmp/defined"
+nm -A -u "$tmp"/objects/*.o | awk '{ print $NF }' | sort -u >"$tmp/undefined"
+nm -A --defined-only "$tmp"/objects/*.o | awk '{ print $NF }' | sort -u >"$tmp/defined"
 comm -23 "$tmp/undefined" "$tmp/defined" | grep -v -x -E \
     'mem(set|cpy|move|cmp)|_GLOBAL_OFFSET_TABLE_|__(u?(div|mod|divmod)|mul|ash[lr]|lshr|clz|popcount)[a-z]*[sdt]i[234]' >"$tmp/found"
 none "lib/ needs more than the mem functions and integer helpers" "$tmp/found"
 grep -x -q memset "$tmp/undefined" && pass || fail "nm lists no undefined symbols"
-nm -A --defined-only "$tmp"/strict/*.o | awk '$(NF - 1) ~ /^[dDbBCsSgG]$/ { print $1, $NF }' >"$tmp/found"
+nm -A --defined-only "$tmp"/objects/*.o | awk '$(NF - 1) ~ /^[dDbBCsSgG]$/ { print $1, $NF }' >"$tmp/found"
 none "writable static data in lib/" "$tmp/found"
-size -A "$tmp"/strict/*.o | awk '/:$/ { f = $1 } $1 ~ /^\.(data|bss|tdata|tbss)/ && $2 > 0 { print f, $1, $2 }' >"$tmp/found"
+size -A "$tmp"/objects/*.o | awk '/:$/ { f = $1 } $1 ~ /^\.(data|bss|tdata|tbss)/ && $2 > 0 { print f, $1, $2 }' >"$tmp/found"
 none ".data or .bss in lib/ is not empty" "$tmp/found"
-size -A "$tmp"/strict/*.o | grep -q '^\.text' && pass || fail "size lists no sections"
+size -A "$tmp"/objects/*.o | grep -q '^\.text' && pass || fail "size lists no sections"
 grep -E '\<(malloc|calloc|realloc|free|alloca|setjmp|longjmp|goto)\>' "$tmp/lib_code" >"$tmp/found"
 none "malloc and the like in lib/" "$tmp/found"
 
-# No recursion: the graph of calls, from the relocations of each function compiled into its own section, has no cycle.
-mkdir -p "$tmp/calls"
-for arithmetic in 0 1; do
-    gcc -std=c99 -Ilib -DGN_RAW_VIEWS=$((1 - arithmetic)) -DGN_COMPACT=$arithmetic -O0 -fno-inline -fdump-rtl-expand -c -o "$tmp/calls/$arithmetic.o" lib/gnomon.c
-done >"$tmp/log" 2>&1
-find "$tmp/calls" -name '*.expand' | xargs cat | awk '
+# No recursion: the graph of calls has no cycle.
+find "$tmp/objects" -name '*.expand' | xargs cat | awk '
     /^;; Function / { from = $3 }
     /\(call / && match($0, /symbol_ref[^"]*\("[^"]*"/) { to = substr($0, RSTART, RLENGTH); gsub(/.*\("|"/, "", to); print from, to }' |
     sort -u >"$tmp/graph"
@@ -212,23 +202,10 @@ none "tabs outside Makefile" "$tmp/found"
 
 # ---- Generated files and documents -----------------------------------------------------------------------------------------
 
-if make -s BUILD="$tmp/gen" "$tmp/gen/gen_tables" >"$tmp/log" 2>&1 && "$tmp/gen/gen_tables" >"$tmp/gn_tables.c"; then
+if make -s build/gen_tables >"$tmp/log" 2>&1 && build/gen_tables >"$tmp/gn_tables.c"; then
     if cmp -s "$tmp/gn_tables.c" lib/base/gn_tables.c; then pass; else fail "lib/base/gn_tables.c is not what host/generate/gen_tables.c writes: make tables"; fi
 else
     fail "gen_tables does not build: $(grep -m 1 error "$tmp/log")"
-fi
-
-if [ -f README.md ]; then
-    awk '/^```c$/ { inside = 1; text = ""; next } /^```/ { if (inside && text ~ /gnomon\.h/) { printf "%s", text; exit } inside = 0 }
-        inside { text = text $0 "\n" }' README.md >"$tmp/example.c"
-    if [ ! -s "$tmp/example.c" ]; then fail "README.md has no C example that includes gnomon.h"
-    elif ! gcc $strict -O1 -o "$tmp/example" "$tmp/example.c" lib/gnomon.c >"$tmp/log" 2>&1; then
-        fail "README.md's example does not build: $(grep -m 1 -E 'error|undefined' "$tmp/log")"
-    elif ! (cd "$tmp" && timeout 20 ./example >example.out 2>&1 </dev/null); then
-        fail "README.md's example exits with a failure"
-    else pass; fi
-else
-    fail "there is no README.md"
 fi
 
 # ---- Makefile --------------------------------------------------------------------------------------------------------------

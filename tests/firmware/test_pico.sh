@@ -6,14 +6,14 @@ cd "$(dirname "$0")/../.." || exit 1
 
 pico() { make -s --no-print-directory BOARD=pico "$@" >"$tmp/log" 2>&1; }
 # hardly optimised: compiling it takes longer than running it
-host() { make -s --no-print-directory BOARD=host FW_OPT=-O0 "$@" >"$tmp/host.log" 2>&1; }
+host() { make -s --no-print-directory BOARD=host "$@" FW_OPT=-O0 >"$tmp/host.log" 2>&1; }
 finish() {
     echo "$passed passed, $failed failed"
     [ "$failed" = 0 ]
     exit
 }
 
-cube="APP=play SCENE=host/scenes/cube.gltf PRESET=balanced"
+cube="APP=play SCENE=host/scenes/cube.gltf PRESET=balanced FW_OPT=-O1"
 small="--size 96x64 --frames 9-10 --set output=rgb565"
 pico firmware APP=clock && pass || fail "the clock does not build: $(grep -m 1 -E 'error|region' "$tmp/log")"
 pico firmware $cube IMAGE=test-cube SCENE_FLAGS="$small" && pass || fail "the cube does not build: $(grep -m 1 -E 'error|region' "$tmp/log")"

@@ -1,5 +1,5 @@
 #!/bin/sh
-# Budgets of flash, RAM and stack on the targets, and what linked images must not hold. Figures: tests/firmware/size.sh.
+# Budgets of flash, RAM and stack on the targets, and what linked images must not hold. Figures: tests/firmware/size.sh. THOROUGH=1: of every preset.
 cd "$(dirname "$0")/../.." || exit 1
 . tests/support/check.sh
 
@@ -73,7 +73,7 @@ emulated small "$(sh tests/firmware/size.sh --flags small | sed 's/-DGN_CLIPPING
 
 # ---- Budgets ----------------------------------------------------------------------------------------------------------------
 
-for configuration in smallest small tiny fast balanced accurate full; do within stack Cortex-M3 $configuration gn_render 1064; done
+for configuration in smallest small ${THOROUGH:+tiny fast} balanced accurate full; do within stack Cortex-M3 $configuration gn_render 1064; done
 within flash Cortex-M3 full linked 60300
 within flash Cortex-M3 accurate linked 60800
 within flash Cortex-M3 smallest linked 8600

@@ -352,7 +352,7 @@ static void add_lamp(scene_light_kind kind, double away, const double to[3], dou
 {
     f.light.kind = kind;
     f.light.shadow = false;
-    f.light.range = INFINITY;
+    f.light.range = HUGE_VAL;
     f.light.near = 0.01;
     f.light.inner = 0.1;
     f.light.outer = 0.2;

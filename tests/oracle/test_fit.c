@@ -407,7 +407,7 @@ static void check_scene(fixture *f, long i)
 int main(void)
 {
     static fixture f;
-    const long n_scenes = option("SCENES", SLOW_LIBRARY ? 80 : 240);
+    const long n_scenes = option("SCENES", 80);
     for (long i = 0; i < n_scenes; i++) {
         build(&f);
         check_scene(&f, i);

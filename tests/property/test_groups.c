@@ -49,7 +49,7 @@ static long compare(const char *path, int preset, int groups, int width, int hei
     engine_picture records, grouped;
     const size_t n = (size_t)width * (size_t)height;
     if (!draw(&records, path, preset, 0, width, height, what)) {
-        CHECK(!"records");
+        CHECK(false);
         printf("  %s: %s\n", path, error);
         return 0;
     }

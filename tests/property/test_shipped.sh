@@ -1,6 +1,6 @@
 #!/bin/sh
-# Random scenes (test_random.c) on configurations as they ship, constants for knobs, under the address and undefined-behaviour
-# sanitizers: presets, compact, size first, short positions and normals, atlases of unequal sizes, capacities that are often too small.
+# Random scenes (test_random.c) on configurations as they ship, constants for knobs, under the address, undefined-behaviour and
+# memory sanitizers: presets, compact, size first, short positions and normals, atlases of unequal sizes, capacities that are often too small.
 # A good frame after a refused one is a fresh renderer's. In one build there are poisoned gaps between the arrays of the state.
 # SOAK=1: 100000 scenes of each; SEED=n others.
 cd "$(dirname "$0")/../.." || exit 1
@@ -11,10 +11,11 @@ scenes=500
 export SCENES
 
 # random NAME LIB FLAGS...: not optimised, which takes the compiler a tenth of the time
+sanitizer=address,undefined
 random() {
     name=$1 lib=$2
     shift 2
-    if ! clang -std=c11 -w -g1 -O0 -fsanitize=address,undefined -fno-sanitize-recover=all -D_POSIX_C_SOURCE=200809L "-I$lib" -Itests/support "$@" -o "$tmp/$name" \
+    if ! clang -std=c11 -w -g1 -O0 -fsanitize=$sanitizer -fno-sanitize-recover=all -D_POSIX_C_SOURCE=200809L "-I$lib" -Itests/support "$@" -o "$tmp/$name" \
         "$lib/gnomon.c" tests/property/test_random.c -lm 2>"$tmp/log"; then fail "$name does not build: $(grep -m 1 -E 'error|undefined' "$tmp/log")"
     elif "$tmp/$name" >"$tmp/out" 2>&1; then
         pass
@@ -30,7 +31,7 @@ random() {
 faults="20261123:59136 20261124:26880"
 random tiny lib -DGN_PRESET=GN_PRESET_TINY
 faults=
-random fast lib -DGN_PRESET=GN_PRESET_FAST -DGN_ATLAS_SIZE=32 -DGN_OTHER_ATLAS_SIZE=128
+[ -z "$SOAK" ] || random fast lib -DGN_PRESET=GN_PRESET_FAST -DGN_ATLAS_SIZE=32 -DGN_OTHER_ATLAS_SIZE=128 # those of capacities and of fuzz are of this preset, too
 random accurate lib -DGN_PRESET=GN_PRESET_ACCURATE -DGN_ATLAS_SIZE=128 -DGN_OTHER_ATLAS_SIZE=64 -DGN_INCREMENTAL=2 -DGN_MANY_CASCADES=3
 random size-first lib -DGN_SIZE_FIRST=1 -DGN_PRESET=GN_PRESET_TINY -DGN_POSITION_BITS=16 -DGN_NORMAL_BITS=8 -DGN_OTHER_ATLAS_SIZE=32
 random capacities lib -DGN_PRESET=GN_PRESET_FAST -DGN_MAX_TRIANGLES=12 -DGN_MAX_TILE_REFS=24 -DGN_MAX_OBJECTS=3 -DGN_MAX_LIGHTS=3 -DGN_SURFACE_LIGHTS=2 \
@@ -38,7 +39,10 @@ random capacities lib -DGN_PRESET=GN_PRESET_FAST -DGN_MAX_TRIANGLES=12 -DGN_MAX_
 random least lib -DGN_PRESET=GN_PRESET_TINY -DGN_PUNCTUAL_LIGHTS=0 -DGN_ALPHA=0 -DGN_OTHER_BIASES=0 -DGN_FILTER_MAX=0 -DGN_TEXTURE_FORMATS=1 \
     -DGN_INCREMENTAL=0 -DGN_ORTHOGRAPHIC=0 -DGN_OTHER_FORMATS=0 -DGN_BAKED=0 -DGN_TEXTURES=1
 random compact lib -DGN_COMPACT=1
-random compact-short lib -DGN_COMPACT=1 -DGN_SIZE_FIRST=1 -DGN_POSITION_BITS=16
+[ -z "$SOAK" ] || random compact-short lib -DGN_COMPACT=1 -DGN_SIZE_FIRST=1 -DGN_POSITION_BITS=16
+sanitizer=memory
+random memory lib -DGN_PRESET=GN_PRESET_BALANCED
+sanitizer=address,undefined
 
 # By coverage, shortly: that the target works. make soak lets it run.
 if ! clang -fsanitize=fuzzer -std=c11 -w -g1 -O0 -fsanitize=address,undefined -fno-sanitize-recover=all -DLIBFUZZER -D_POSIX_C_SOURCE=200809L -Ilib -Itests/support \

@@ -123,7 +123,7 @@ for name in sundial desk room mixed-tiny fence avenue-accurate compact cube-fits
 done
 
 # flash: the scene's data to its alignment, the library's code within a fifth
-for name in sundial room mixed-tiny short compact unshadowed ${THOROUGH:+compact-avenue mixed-fits}; do
+for name in sundial mixed-tiny compact ${THOROUGH:+room short unshadowed compact-avenue mixed-fits}; do
     arm="arm-none-eabi-gcc -mcpu=cortex-m0 -mthumb -std=c99 -Os -ffreestanding -isystem boards/common/include -Ilib -I$tmp/$name"
     $arm '-DGN_USER_CONFIG="gn_scene_config.h"' -c -o "$tmp/data.o" "$tmp/$name/scene.c" 2>"$tmp/log"
     data=$(arm-none-eabi-size -A "$tmp/data.o" | awk '$1 ~ /^\.rodata/ { n += $2 } END { print n + 0 }')
@@ -134,7 +134,7 @@ for name in sundial room mixed-tiny short compact unshadowed ${THOROUGH:+compact
     else fail "$name: code is said to be ${said#* } bytes, is $code: sh host/generate/gen_flash.sh > host/tool/cost/flash_table.h"; fi
 done
 # with -O2, as boards are built; without a board info and compile estimate that build
-for name in sundial compact; do
+for name in sundial ${THOROUGH:+compact}; do
     said=$(sed -n 's/^ \* Flash, bytes: .*; with -O2, as boards build it, \([0-9]*\) and [0-9]*\.$/\1/p' "$tmp/$name/gn_scene_config.h")
     code=$(sh host/generate/gen_flash.sh -- cortex-m0 -O2 -I"$tmp/$name" '-DGN_USER_CONFIG="gn_scene_config.h"')
     if [ $((5 * ${said:-0})) -ge $((4 * code)) ] && [ $((5 * ${said:-0})) -le $((6 * code)) ]; then pass; else fail "$name: code with -O2 is said to be ${said:-nothing} bytes, is $code"; fi

@@ -222,7 +222,7 @@ done
 held="--size $size --set preset=tiny --set filter=hard --set persp_step=1"
 good advise host/scenes/desk.gltf --quick $held --ram 30000 --json
 advised=$(field instructions_per_pixel later) db=$(field truth_psnr_db later) arguments=$(sed -n 's/.*"arguments": "\([^"]*\)".*/\1/p' "$tmp/out")
-for tile in "16 4" "16 16" "32 4" "32 16" "64 4" "64 8" "64 16" "128 8"; do
+for tile in "16 4" "32 4" "32 16" "64 4" ${THOROUGH:+"16 16" "64 8" "64 16" "128 8"}; do
     # shellcheck disable=SC2086
     run compare host/scenes/desk.gltf --json $held $arguments --set tile_width="${tile% *}" --set tile_height="${tile#* }"
     [ "$(field ram_bytes)" -le 30000 ] || continue
@@ -231,7 +231,7 @@ for tile in "16 4" "16 16" "32 4" "32 16" "64 4" "64 8" "64 16" "128 8"; do
     awk -F '"' -v tile="$tile" -v advised="$advised" -v db="$db" 'NR > 1 { split($3, v, ","); if (v[16] < advised - 1e-4 && v[18] >= db) print tile ": " v[16] " < " advised }' "$tmp/tile.csv" >>"$tmp/cheaper"
     n_tiles=$((n_tiles + 1))
 done
-[ "${n_tiles:-0}" -gt 3 ] && [ ! -s "$tmp/cheaper" ] && pass || fail "of $n_tiles other tiles, cheaper than advised: $(head -n 2 "$tmp/cheaper")"
+[ "${n_tiles:-0}" -ge 3 ] && [ ! -s "$tmp/cheaper" ] && pass || fail "of $n_tiles other tiles, cheaper than advised: $(head -n 2 "$tmp/cheaper")"
 
 # advice takes tight fits where they pay, and says what they are good for: what compare says of the same atlas
 good advise host/scenes/fence.gltf --quick --size $size --set preset=accurate --ram 100000

@@ -11,7 +11,7 @@ static double duration_of(const gltf *g, const json_value *animation)
     double duration = 0;
     for (size_t i = 0; samplers && i < samplers->n_children; i++) {
         const json_value *input = json_get(samplers->children[i], "input");
-        const bool known = input && input->type == JSON_NUMBER && input->number < SIZE_MAX / 2;
+        const bool known = input && input->type == JSON_NUMBER && input->number >= 0 && input->number <= INT32_MAX;
         const json_value *times = known ? json_at(g->accessors, (size_t)input->number) : NULL;
         const json_value *most = json_at(json_get(times, "max"), 0);
         if (most && most->type == JSON_NUMBER && most->number > duration) duration = most->number;

@@ -133,7 +133,7 @@ static int store(const fixed_rig *r, const samples *s, const scene_channel *from
         else rig_vector(r, idx, from->what, s->value + 4 * i, xyz + 3 * i);
         if (!tick) continue;
         const double exact = floor(ldexp(s->time[i], 16 - tick_log2) + 0.5);
-        const long least = i ? tick[i - 1] + 1L : 0, at = exact > least ? (long)exact : least;
+        const long least = i ? tick[i - 1] + 1L : 0, at = exact > (double)least ? (long)exact : least;
         tick[i] = (uint16_t)(at < TICKS_MAX ? at : TICKS_MAX);
     }
     return 0;
