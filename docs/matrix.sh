@@ -18,7 +18,7 @@ trap 'exit 1' HUP INT TERM
 
 # ---- Configurations -----------------------------------------------------------------------------------------------------------
 
-features=$(sed -n '/GN_FEATURE_KNOBS/,$s/^    X([a-z_0-9]*, \([A-Z_0-9]*\), .*/\1/p' lib/gn_knobs.h | grep -v -e RUNTIME_KNOBS -e RAW_VIEWS)
+features=$(sed -n '/GN_FEATURE_KNOBS/,$s/^    X([a-z_0-9]*, \([A-Z_0-9]*\), .*/\1/p' lib/gn_knobs.h)
 most() { case $1 in FILTER_MAX) echo 5 ;; VERTEX_JOINTS) echo 4 ;; TEXTURE_FORMATS) echo 1023 ;; MANY_CASCADES) echo 3 ;; TEXTURES | INCREMENTAL | TILE_SIZES | CLIPPING) echo 2 ;; *) echo 1 ;; esac; }
 # Formats of textures, in the order of gn_scene_types.h
 FORMATS="RGBA8888 RGB565 RGB565A1 PALETTE8 PALETTE4 PALETTE1 GREY8 GREY4 ALPHA8 ALPHA4"
@@ -78,7 +78,7 @@ scene() {
         mv "$work/config.h" "$work/full-$1/gn_scene_config.h"
     done
     cp -r "$work/full-$1" "$work/any-$1"
-    sed "s/^\(#define GN_RUNTIME_KNOBS\)  *[0-9]*/\1 1/" "$work/full-$1/gn_scene_config.h" >"$work/any-$1/gn_scene_config.h"
+    sed "s/^#define GN_SCENE_CONFIG_H/&\n#define GN_RUNTIME_KNOBS 1/" "$work/full-$1/gn_scene_config.h" >"$work/any-$1/gn_scene_config.h"
     for kind in own full any; do echo "$kind-$1 -I$work/$kind-$1 -DGN_USER_CONFIG=\"gn_scene_config.h\""; done
 }
 # data NAME: bytes of the scene in flash, and of what moves in RAM

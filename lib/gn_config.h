@@ -25,7 +25,7 @@
     defined(GN_BAKED_LIGHT) || defined(GN_RECEIVER_BIAS) || defined(GN_CASTER_BIAS) || defined(GN_RECEIVER_PLANE) ||   \
     defined(GN_BLENDED_CASCADES) || defined(GN_CASTER_CULLING) || defined(GN_DISK_FILTER) ||                           \
     defined(GN_TEXTURE_LEVELS) || defined(GN_STATIC_LAYER) || defined(GN_TILE_IMPORTANCE) || defined(GN_TIGHT_FIT) ||  \
-    defined(GN_CASTER_CLIPPING) || defined(GN_CLIPS) || defined(GN_PICKING)
+    defined(GN_CASTER_CLIPPING) || defined(GN_CLIPS) || defined(GN_PICKING) || defined(GN_RAW_VIEWS)
 #error "the configuration sets a knob that is part of another one now"
 #endif
 
@@ -220,12 +220,6 @@
 #ifndef GN_CLIPPING
 #define GN_CLIPPING (GN_COMPACT ? 0 : 2)
 #endif
-#ifndef GN_RAW_VIEWS
-#define GN_RAW_VIEWS 0
-#endif
-#ifndef GN_RUNTIME_KNOBS
-#define GN_RUNTIME_KNOBS 0
-#endif
 
 /* How the library is built. A program may be compiled with another size_first or error_fields than the library: no type
  * depends on them. */
@@ -238,6 +232,11 @@
 #endif
 #ifndef GN_ERROR_FIELDS
 #define GN_ERROR_FIELDS 0
+#endif
+
+/* No knob: quality knobs as data, with all that they may need, for host tools. */
+#ifndef GN_RUNTIME_KNOBS
+#define GN_RUNTIME_KNOBS 0
 #endif
 
 /* What the features above stand for, by parts of the library. */
@@ -255,6 +254,7 @@
 #define GN_CASTER_BIAS      (GN_OTHER_BIASES)
 #define GN_RECEIVER_PLANE   (GN_OTHER_BIASES)
 #define GN_CASTER_CLIPPING  ((GN_CLIPPING) >= 2)
+#define GN_RAW_VIEWS        ((GN_OTHER_FORMATS) >= 2)
 
 /* Whether the boxes of objects are needed. */
 #define GN_BOXES (GN_PUNCTUAL_LIGHTS || (GN_SHADOWS && (GN_OBJECT_BOXES || GN_CASTER_CULLING || GN_TIGHT_FIT)))

@@ -127,7 +127,10 @@
       "flash")                                                                                                         \
     X(validation, VALIDATION, 0, 1,                                                                                    \
       "scenes are checked before they are drawn; without, an invalid scene has undefined behaviour", "flash")          \
-    X(other_formats, OTHER_FORMATS, 0, 1, "pixel formats other than RGB565: RGB888, grey, one bit", "flash")           \
+    X(other_formats, OTHER_FORMATS, 0, 2,                                                                              \
+      "pixel formats other than RGB565: 1 RGB888, grey, one bit; 2 also views of depth, normals, shadow and triangle " \
+      "identity, for host tools",                                                                                      \
+      "flash")                                                                                                         \
     X(many_cascades, MANY_CASCADES, 0, 3,                                                                              \
       "cascades per light: 0 one; 1 up to four; 2 with soft and dithered blending between them; 3 also casters whose " \
       "shadows lie wholly in a smaller cascade are not drawn into larger ones: 0.5 % more instructions in the scenes " \
@@ -143,9 +146,7 @@
     X(clipping, CLIPPING, 0, 2,                                                                                        \
       "1: visible triangles may cross the near plane, or extend far beyond the picture; 2: also directional casters "  \
       "more than 8192 texels beyond their tile; without, such a frame is refused",                                     \
-      "flash")                                                                                                         \
-    X(raw_views, RAW_VIEWS, 0, 1, "views of depth, normals, shadow and triangle identity (host tools)", "flash")       \
-    X(runtime_knobs, RUNTIME_KNOBS, 0, 1, "quality knobs as data (host tools)", "everything is built")
+      "flash")
 
 #if GN_RUNTIME_KNOBS
 #define GN_K(frame, name) ((frame)->knobs.name)

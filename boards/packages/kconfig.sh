@@ -18,7 +18,7 @@ int main(void)
 }
 LIST
 ${CC:-cc} -std=c99 -w -Ilib -o "$work/list" "$work/list.c" && "$work/list" >"$work/all" || exit 1
-grep -v -E '^(RUNTIME_KNOBS|RAW_VIEWS|ATLAS_TEXELS|OTHER_ATLAS_TEXELS)\|' "$work/all" >"$work/knobs" # atlases: by their size
+grep -v -E '^(ATLAS_TEXELS|OTHER_ATLAS_TEXELS)\|' "$work/all" >"$work/knobs" # atlases: by their size
 
 case $1 in
 options)

@@ -30,7 +30,7 @@ if [ "$1" = -- ]; then
     exit
 fi
 
-features=$(sed -n '/GN_FEATURE_KNOBS/,$s/^    X([a-z_0-9]*, \([A-Z_0-9]*\), .*/\1/p' lib/gn_knobs.h | grep -v -e RUNTIME_KNOBS -e RAW_VIEWS)
+features=$(sed -n '/GN_FEATURE_KNOBS/,$s/^    X([a-z_0-9]*, \([A-Z_0-9]*\), .*/\1/p' lib/gn_knobs.h)
 # One directional light with a filtered shadow on smooth meshes
 typical="SHADOWS VERTEX_NORMALS"
 # flags NAME...: these features; FILTER_MAX as it is given, else 2

@@ -54,7 +54,7 @@ GN_STATIC_ASSERT(compact_keeps_nothing, GN_COMPACT_IS_(!GN_INCREMENTAL && !GN_OB
 GN_STATIC_ASSERT(compact_has_one_background_colour, GN_COMPACT_IS_(!GN_TILE_DRAWING));
 GN_STATIC_ASSERT(compact_has_perspective_cameras, GN_COMPACT_IS_(!GN_ORTHOGRAPHIC));
 GN_STATIC_ASSERT(compact_has_no_skins, GN_COMPACT_IS_(!GN_VERTEX_JOINTS));
-GN_STATIC_ASSERT(compact_has_rgb565, GN_COMPACT_IS_(!GN_OTHER_FORMATS));
+GN_STATIC_ASSERT(compact_has_rgb565, GN_COMPACT_IS_(!GN_OTHER_FORMATS || GN_RAW_VIEWS));
 GN_STATIC_ASSERT(compact_has_records, GN_COMPACT_IS_(!GN_TRIANGLE_GROUPS));
 
 #endif

@@ -16,13 +16,15 @@ enum {
     gn_knob_index_light,
     gn_knob_index_mesh,
     GN_QUALITY_KNOBS(GN_KNOB_INDEX_) GN_CAPACITY_KNOBS(GN_KNOB_INDEX_) GN_FEATURE_KNOBS(GN_KNOB_INDEX_)
-        gn_knob_index_compact
+        gn_knob_index_compact,
+    gn_knob_index_runtime
 };
 #define GN_CONFIG_SIGNATURE                                                                                            \
     (GN_SIGN_(gn_knob_index_version, GN_VERSION_MAJOR * 65536 + GN_VERSION_MINOR * 256 + GN_VERSION_PATCH) +           \
      GN_SIGN_(gn_knob_index_scene, sizeof(gn_scene)) + GN_SIGN_(gn_knob_index_object, sizeof(gn_object)) +             \
      GN_SIGN_(gn_knob_index_light, sizeof(gn_light)) + GN_SIGN_(gn_knob_index_mesh, sizeof(gn_mesh)) +                 \
-     GN_SIGN_(gn_knob_index_compact, GN_COMPACT) GN_QUALITY_KNOBS(GN_KNOB_SIGN_) GN_CAPACITY_KNOBS(GN_KNOB_SIGN_)      \
-         GN_FEATURE_KNOBS(GN_KNOB_SIGN_))
+     GN_SIGN_(gn_knob_index_compact, GN_COMPACT) +                                                                     \
+     GN_SIGN_(gn_knob_index_runtime, GN_RUNTIME_KNOBS) GN_QUALITY_KNOBS(GN_KNOB_SIGN_)                                 \
+         GN_CAPACITY_KNOBS(GN_KNOB_SIGN_) GN_FEATURE_KNOBS(GN_KNOB_SIGN_))
 
 #endif

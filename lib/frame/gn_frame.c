@@ -68,8 +68,8 @@ static gn_field wrong_format(const gn_picture *picture)
 {
     const uint32_t format = (uint32_t)picture->format;
     const int raw = GN_RAW_VIEWS && format == GN_FORMAT_RAW32;
-    if (!raw && (format > GN_FORMAT_MONO1 ||
-                 (!GN_OTHER_FORMATS && format != GN_FORMAT_RGB565 && format != GN_FORMAT_RGB565_SWAPPED)))
+    if (!raw && (format > GN_FORMAT_MONO1 || ((!GN_OTHER_FORMATS || GN_COMPACT) && format != GN_FORMAT_RGB565 &&
+                                              format != GN_FORMAT_RGB565_SWAPPED)))
         return GN_AT(GN_FIELD_PICTURE_FORMAT);
     const int view_ok = raw ? (uint32_t)picture->view - 1U < GN_VIEW_TRIANGLE : picture->view == GN_VIEW_COLOUR;
     return view_ok ? GN_FIELD_NONE : GN_AT(GN_FIELD_PICTURE_VIEW);

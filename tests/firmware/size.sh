@@ -32,7 +32,7 @@ cores() {
     done | sort -u -k 1,1
 }
 
-features=$(sed -n '/GN_FEATURE_KNOBS/,$s/^    X([a-z_0-9]*, \([A-Z_0-9]*\), .*/\1/p' lib/gn_knobs.h | grep -v -e RUNTIME_KNOBS -e RAW_VIEWS)
+features=$(sed -n '/GN_FEATURE_KNOBS/,$s/^    X([a-z_0-9]*, \([A-Z_0-9]*\), .*/\1/p' lib/gn_knobs.h)
 off() { for feature in $features; do [ "$feature" = "${1:-}" ] || echo "-DGN_$feature=0"; done; }
 CONFIGURATIONS="smallest small tiny fast balanced accurate full"
 flags_of() {

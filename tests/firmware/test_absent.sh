@@ -5,7 +5,7 @@
 cd "$(dirname "$0")/../.." || exit 1
 . tests/support/check.sh
 
-features=$(sed -n '/GN_FEATURE_KNOBS/,$s/^    X([a-z_0-9]*, \([A-Z_0-9]*\), .*/\1/p' lib/gn_knobs.h | grep -v -e RUNTIME_KNOBS)
+features=$(sed -n '/GN_FEATURE_KNOBS/,$s/^    X([a-z_0-9]*, \([A-Z_0-9]*\), .*/\1/p' lib/gn_knobs.h)
 cc=gcc prefix=
 if command -v arm-none-eabi-gcc >/dev/null 2>&1; then
     cc="arm-none-eabi-gcc -mcpu=cortex-m3 -mthumb" prefix=arm-none-eabi-
@@ -16,7 +16,7 @@ most() {
     FILTER_MAX) echo 5 ;;
     VERTEX_JOINTS) echo 4 ;;
     MANY_CASCADES) echo 3 ;;
-    TEXTURES | INCREMENTAL | TILE_SIZES | CLIPPING) echo 2 ;;
+    TEXTURES | INCREMENTAL | TILE_SIZES | CLIPPING | OTHER_FORMATS) echo 2 ;;
     TEXTURE_FORMATS) echo 1023 ;;
     *) echo 1 ;;
     esac

@@ -79,7 +79,7 @@ if [ -n "$target" ]; then
         predicted $preset shadows=0 punctual_lights=0 max_lights=3
         predicted $preset srgb=0 textures=0 specular=0 baked=0 alpha=0 filter_max=0
         predicted $preset shadows=0
-        predicted $preset raw_views=1
+        predicted $preset other_formats=2
         predicted $preset filter_max=4
         predicted $preset incremental=0
         predicted $preset vertex_joints=0 textures=1 auto_bias=0

@@ -489,11 +489,11 @@ int main(int argc, char **argv)
     use_what_is_built();
     if (argc > 1) {
         use_preset(GN_PRESET_BALANCED);
-        use.raw_views = 0;
+        use.other_formats = 1;
     }
     for (int i = 1; i < argc; i++) use_flag(argv[i]);
     int failed = pictures(use.other_formats ? GN_FORMAT_RGB888 : GN_FORMAT_RGB565_SWAPPED, GN_VIEW_COLOUR, 0);
-    for (uint8_t l = 0; !failed && use.raw_views && l < (use.punctual_lights ? LIGHTS : 2); l++)
+    for (uint8_t l = 0; !failed && use.other_formats > 1 && l < (use.punctual_lights ? LIGHTS : 2); l++)
         failed = pictures(GN_FORMAT_RAW32, GN_VIEW_SHADOW, l);
     if (!failed && argc == 1 && GN_VALIDATION) refuse();
     return failed;

@@ -10,7 +10,7 @@ warn=$(variable WARN)
 host_knobs=$(variable HOST_KNOBS | sed 's/-DGN_COUNTERS=1//') # the tool alone counts
 strict="-std=c99 -pedantic $warn -Ilib"
 
-features=$(sed -n '/GN_FEATURE_KNOBS/,$s/^    X([a-z_0-9]*, \([A-Z_0-9]*\), .*/\1/p' lib/gn_knobs.h | grep -v -e RUNTIME_KNOBS -e VALIDATION -e "^CLIPPING")
+features=$(sed -n '/GN_FEATURE_KNOBS/,$s/^    X([a-z_0-9]*, \([A-Z_0-9]*\), .*/\1/p' lib/gn_knobs.h | grep -v -e VALIDATION -e "^CLIPPING")
 # flags WORD...: "none" and "all" of the features, "tiny"..., NAME=VALUE of a knob, or a flag as it is; of a name the last value counts
 flags() {
     for word in "$@"; do
@@ -29,7 +29,7 @@ most() {
     FILTER_MAX) echo 5 ;;
     VERTEX_JOINTS) echo 4 ;;
     MANY_CASCADES) echo 3 ;;
-    TEXTURES | INCREMENTAL | TILE_SIZES | CLIPPING) echo 2 ;;
+    TEXTURES | INCREMENTAL | TILE_SIZES | CLIPPING | OTHER_FORMATS) echo 2 ;;
     TEXTURE_FORMATS) echo 1023 ;;
     *) echo 1 ;;
     esac
@@ -76,7 +76,7 @@ pairs() {
         more "none SHADOWS=1 TEXTURES=1 $cut=1"
         more "all TEXTURES=0 ALPHA=0 BAKED=0 $cut=1"
     done
-    for level in TEXTURES=1 MANY_CASCADES=1 MANY_CASCADES=2 TILE_SIZES=1 INCREMENTAL=1 FILTER_MAX=4; do echo "all $level"; done
+    for level in TEXTURES=1 MANY_CASCADES=1 MANY_CASCADES=2 TILE_SIZES=1 INCREMENTAL=1 OTHER_FORMATS=1 FILTER_MAX=4; do echo "all $level"; done
     echo "none SHADOWS=1"
     more "none SHADOWS=1 PUNCTUAL_LIGHTS=1"
     more "none SHADOWS=1 PUNCTUAL_LIGHTS=1 MAIN_LIGHT=1 OTHER_BIASES=1"
@@ -218,7 +218,7 @@ refused triangle_groups_have_tiles "-DGN_TRIANGLE_GROUPS=1 -DGN_TILE_WIDTH=8 -DG
 refused triangle_groups_have_up_to_128 "-DGN_TRIANGLE_GROUPS=1 -DGN_TILE_HEIGHT=1"
 for gone in TILE_LIGHTS LINEAR_KERNELS DEPTH_BLOCKS ATTEN_BITS NEWTON_STEPS SHADOW_DEPTH_FRAC SHADOW_SUBPIXEL_BITS WEIGHT_BITS; do refused "knob that is gone" "-DGN_$gone=0"; done
 for part in CASTER_ALPHA VISIBLE_ALPHA EMISSIVE_TEXTURES MASKS BAKED_LIGHT RECEIVER_BIAS CASTER_BIAS RECEIVER_PLANE BLENDED_CASCADES CASTER_CULLING DISK_FILTER \
-    TEXTURE_LEVELS STATIC_LAYER TILE_IMPORTANCE TIGHT_FIT CASTER_CLIPPING CLIPS PICKING; do
+    TEXTURE_LEVELS STATIC_LAYER TILE_IMPORTANCE TIGHT_FIT CASTER_CLIPPING CLIPS PICKING RAW_VIEWS; do
     refused "part of another one" "-DGN_$part=0"
 done
 refused transparent_layers_need_alpha "-DGN_TRANSPARENT_LAYERS=1 -DGN_ALPHA=0"
@@ -266,7 +266,7 @@ gn_status draw()
     return gn_get_detail(&renderer)->needed ? GN_ERR_NO_BEGIN : gn_status_text(status)[0] ? status : GN_OK;
 }
 EOF_C
-for words in "" none all "SHADOWS=0 RAW_VIEWS=1" RUNTIME_KNOBS=1 accurate; do
+for words in "" none all "SHADOWS=0 OTHER_FORMATS=2" RUNTIME_KNOBS=1 accurate; do
     if g++ -std=c++11 -Wall -Wextra -pedantic -Werror -Ilib $(flags $words) -fsyntax-only "$tmp/user.cpp" 2>"$tmp/message"; then pass
     else fail "C++ $words: $(grep -m 1 error "$tmp/message")"; fi
 done

@@ -552,7 +552,7 @@ bad 1 'max_lights is 2' compare "$cube" --size 8x8 --set lights=spot,point,spot 
 bad 1 'surface_lights is 1' compare "$cube" --size 8x8 --set lights=directional,directional --set surface_lights=1
 good compare "$cube" --size 8x8 --set lights=directional,directional --set surface_lights=2 --set max_lights=2 --set max_objects=2
 good info "$cube" --size 8x8 --set receiver_plane=0 --set receiver_plane@0=1 # what one light uses is built
-for knob in raw_views runtime_knobs incremental; do
+for knob in object_boxes incremental; do
     for on in 0 1; do
         good render "$cube" -o "$tmp/b.png" --size 64x48 --set $knob=$on --set shadows=1
         [ $on = 0 ] && mv "$tmp/b.png" "$tmp/a.png"

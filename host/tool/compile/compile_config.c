@@ -230,9 +230,6 @@ static void use_nothing(compiled *c)
     NOTHING(vertex_joints);
     NOTHING(vertex_normals);
     NOTHING(vertex_colours);
-    c->set.feature.raw_views = c->set.feature.runtime_knobs = 0;
-    because(c, "raw_views", "for host tools");
-    because(c, "runtime_knobs", "for host tools");
 }
 
 static void choose_features(compiled *c)
@@ -307,7 +304,7 @@ static void choose_checks(compiled *c)
             c->fixed.scene.background_gradient ? "the background's gradient"
             : path                             ? "no gradient; for a program that draws: --simplify none or safe"
                    : "programs may draw behind and over scenes of --simplify none and safe");
-    if (rgb565) c->set.feature.other_formats = 0;
+    c->set.feature.other_formats = !rgb565;
     because(c, "other_formats", rgb565 ? "the panel takes RGB565" : "the panel takes another than RGB565");
 }
 

@@ -84,9 +84,8 @@ void settings_trim(settings *set, const scene *s);
 
 /* Makes the scene what a build with these features and capacities draws, for both engines alike: shadows, vertex
  * normals and vertex colours that are not built go. What a build would refuse (whatever settings_needs names, a picture
- * that does not fit) is refused: -1 with one line in error. incremental and static_layer
- * change no picture; raw_views and runtime_knobs are the host tool's own. Other capacities are known once a picture is
- * rendered: settings_suffice. */
+ * that does not fit) is refused: -1 with one line in error. incremental
+ * changes no picture. Other capacities are known once a picture is rendered: settings_suffice. */
 int settings_enforce(const settings *set, scene *s, int width, int height, char *error, size_t error_bytes);
 
 /* RAM of the library (gn_renderer) under this configuration on a 32-bit target, by part and in all. */

@@ -105,8 +105,7 @@ void settings_init(settings *out)
     static const settings defaults = {.output = GN_FORMAT_RGB888, .capacity.vertex_cache = 32};
     *out = defaults;
     for (size_t i = 0; i < groups[FEATURE].n; i++) *field(out, &feature_knobs[i]) = feature_knobs[i].hi;
-    out->feature.raw_views = out->feature.runtime_knobs = 0; /* no picture needs these */
-    out->feature.incremental = 1;
+    out->feature.incremental = out->feature.other_formats = 1; /* no picture needs more */
     settings_preset(out, SETTINGS_BALANCED);
 }
 
