@@ -3,7 +3,8 @@
 #   sh tests/bench/bench_target.sh            fails if a total is more than 2 % above the baseline
 #   sh tests/bench/bench_target.sh --quick    the workload on the Cortex-M3 alone
 #   sh tests/bench/bench_target.sh --document writes the baseline's figures into docs/data/SPEED.md; --check: whether they are there
-#   sh tests/bench/bench_target.sh --lines CORE PRESET...    lines of the baseline: the own scenes on one core; PRESET models: the characters
+#   sh tests/bench/bench_target.sh --lines CORE PRESET...    lines of the baseline: the own scenes on one core
+#   sh tests/bench/bench_target.sh --lines CORE models FILE...    the same of characters: those of tests/bench/scenes, or other models, as tests/bench/bench_models.txt has them
 #   sh tests/bench/bench_target.sh --write    makes the new figures the baseline, and writes them into docs/data/SPEED.md
 # Environment: BUILD, GNOMON.
 set -eu
@@ -15,7 +16,7 @@ BASELINE=tests/bench/bench_target_baseline.txt
 DOC=docs/data/SPEED.md
 CASES="flat gouraud flat-shadow gouraud-shadow"
 SCENES="sundial avenue desk room fence mixed"
-MODELS="hound walker" # of tests/bench/scenes
+MODELS="tests/bench/scenes/hound.gltf tests/bench/scenes/walker.gltf"
 STAGES=$(sh boards/tools/count.sh --stages)
 
 # core, board, and what it is configured by: built with -O2, or as the core's name ends; light found at vertices alone, the longest steps, bands as wide as the picture
@@ -77,9 +78,13 @@ small() {
 }
 
 # Characters: first frames
-models() { # models CORE
-    for model in $MODELS; do
-        one "model $1 $model fast" "bench-$1-$model" "$1" 0 SCENE="tests/bench/scenes/$model.gltf" PRESET=fast SCENE_FLAGS="--size 240x320 --frames 0-1 --set output=rgb565"
+models() { # models CORE FILE...
+    core=$1
+    shift
+    for model in "$@"; do
+        name=$(basename "${model%.*}")
+        one "model $core $name fast" "bench-$core-$name" "$core" 0 SCENE="$model" PRESET=fast \
+            SCENE_FLAGS="--size 240x320 --frames 0-1 --set output=rgb565 --set filter=3x3 --set texture_size=128"
     done
 }
 
@@ -94,7 +99,7 @@ measure() { # measure QUICK
     scenes M3-Os balanced
     small
     for core in M0 M4 RV32; do scenes "$core" balanced; done
-    for core in M3 M0 RV32; do models "$core"; done
+    for core in M3 M0 RV32; do models "$core" $MODELS; done
 }
 
 # The total leaves out what runs before the first stage.
@@ -184,7 +189,15 @@ for core in M3 RV32; do sh boards/tools/count.sh --ready "$(board_of $core)"; do
 make -s BOARD=mps2-an385 APP=bench BUILD="$BUILD" "$BUILD/firmware/bench/bench_meshes.h" >/dev/null # makes the workload
 if [ "${1:-}" = --lines ]; then
     shift
-    [ "$2" = models ] && models "$1" || scenes "$@"
+    core=$1
+    shift
+    case $1 in
+    models)
+        shift
+        models "$core" "$@"
+        ;;
+    *) scenes "$core" "$@" ;;
+    esac
     exit
 fi
 if [ "${1:-}" = --write ]; then
