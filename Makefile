@@ -122,8 +122,8 @@ prefix: ## regenerate lib/gn_prefix.h
 	@mkdir -p $(BUILD)
 	@sh host/generate/gen_prefix.sh >$(BUILD)/gn_prefix.h && mv $(BUILD)/gn_prefix.h lib/gn_prefix.h
 
-scenes: $(BUILD)/make_scenes ## regenerate host/scenes/*.gltf and docs/scenes/*.gltf
-	$(BUILD)/make_scenes host/scenes docs/scenes
+scenes: $(BUILD)/make_scenes ## regenerate host/scenes/, docs/scenes/ and tests/bench/scenes/
+	$(BUILD)/make_scenes host/scenes docs/scenes tests/bench/scenes
 
 clean: ## remove the build folder
 	rm -rf $(BUILD)

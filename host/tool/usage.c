@@ -28,7 +28,8 @@ static const command_help commands[] = {
      "gnomon compare host/scenes/desk.gltf --with truth -o desk"},
     {"info", BY_INFO, "SCENE", "what the scene needs, and what in the file was ignored",
      "Which light has which shadow tiles, and with which bias; how much RAM the presets take; whether it fits a board, "
-     "and if not, the nearest settings that do.",
+     "and if not, the nearest settings that do. Frames per second, RAM and flash on parts that people own, an "
+     "estimate.",
      "gnomon info host/scenes/room.gltf --board mps2-an385"},
     {"sweep", BY_SWEEP, "SCENE", "many configurations: RAM, instructions, error, and the front that nothing beats",
      "Shows what each setting buys. A scene that moves is measured over frame N and the eight after it, with the "

@@ -56,12 +56,12 @@ function knobMeanings(tables) {
   return meanings;
 }
 
-// The clock and the speed of cores, as boards.txt lists them.
+// The clock and the speed of cores, as part_table.h lists them: lines NAME("text", 1.5, ...).
 function readBoards(text, files) {
-  const lines = text.split('\n').filter((line) => line && line[0] !== '#').map((line) => line.split(' '));
-  const clocks = new Map(lines.filter((line) => line[0] === 'board').map(([, name, mhz]) => [name, Number(mhz)]));
-  const without = new Set(lines.filter((line) => line[0] === 'without').map(([, name]) => name));
-  const cores = lines.filter((line) => line[0] === 'core').map(([, has, ratio, cycles]) => ({has, ratio: Number(ratio), cycles: Number(cycles)}));
+  const lines = [...text.matchAll(/^([A-Z]+)(\(".*\))$/gm)].map(([, kind, values]) => [kind, ...JSON.parse(`[${values.slice(1, -1)}]`)]);
+  const clocks = new Map(lines.filter(([kind]) => kind === 'BOARD').map(([, name, mhz]) => [name, mhz]));
+  const without = new Set(lines.filter(([kind]) => kind === 'WITHOUT').map(([, name]) => name));
+  const cores = lines.filter(([kind]) => kind === 'CORE').map(([, has, , ratio, cycles]) => ({has, ratio, cycles}));
   const boards = [];
   for (const [path, bytes] of files) {
     const name = (/^boards\/([^/]*)\/board\.mk$/.exec(path) || [])[1];

@@ -768,7 +768,7 @@ async function begin() {
   slow = new Thread(source, wasm, files);
   queue = new Queue(slow);
   meanings = knobMeanings((await live.ask({run: ['knobs']})).out);
-  boards = readBoards(new TextDecoder().decode(files.get('boards.txt')), files);
+  boards = readBoards(new TextDecoder().decode(files.get('part_table.h')), files);
   makeBoards();
   makePresets();
   makeKnobs();

@@ -16,7 +16,7 @@ for board in boards/*/link.ld; do
     cp "$board" "$folder/board.mk" "$tmp/$folder"
 done
 for file in gnomon.h gnomon.c; do awk -f boards/packages/one_file.awk -v root=lib lib/$file >"$tmp/library/$file"; done
-cp LICENSE host/web/sketch.ino host/web/boards.txt "$tmp"
+cp LICENSE host/web/sketch.ino host/tool/cost/part_table.h "$tmp"
 (cd "$tmp" && find . -type f | sed 's|^\./||' | LC_ALL=C sort | tar -c --format=ustar --owner=0 --group=0 --numeric-owner --mode=0644 --mtime=@0 -T - | gzip -9 -n | base64 -w 0) >"$tmp.64"
 
 # A line @NAME@ of the page becomes a file.

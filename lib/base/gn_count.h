@@ -1,5 +1,5 @@
-/* Event counts for the host tool's cost model (gnomon sweep). In a firmware build GN_COUNT is empty. A program that
- * compiles lib/ with GN_COUNTERS=1 defines gn_count(), so that the library keeps no state of its own.
+/* Event counts for the host tool's cost model (gnomon info, sweep). In a firmware build GN_COUNT is empty. A program
+ * that compiles lib/ with GN_COUNTERS=1 defines gn_count(), so that the library keeps no state of its own.
  */
 #ifndef GN_COUNT_H
 #define GN_COUNT_H
@@ -15,12 +15,17 @@
     X(tile_texels, "texel of a shadow tile that was cleared, and bounded by blocks")                                   \
     X(casters, "caster triangle seen by an orthographic view")                                                         \
     X(casters_persp, "caster triangle seen by a perspective view")                                                     \
+    X(caster_vertices, "vertex that a light's view transforms")                                                        \
     X(caster_walks, "caster triangle, or a piece of one, that is walked")                                              \
     X(caster_rows, "row of texels of a caster")                                                                        \
     X(texels, "texel of a caster, 16 bits")                                                                            \
     X(texels_wide, "texel of a caster, 8 or 32 bits")                                                                  \
     X(texels_cut, "texel of a caster that alpha may cut")                                                              \
+    X(boxed, "vertex of a mesh whose box is found")                                                                    \
+    X(posed, "position of a vertex that joints move")                                                                  \
+    X(posed_normals, "normal of a vertex that joints move")                                                            \
     X(triangles, "triangle given")                                                                                     \
+    X(vertices, "vertex that the camera transforms")                                                                   \
     X(visible, "visible triangle")                                                                                     \
     X(tile_refs, "triangle met by a screen tile")                                                                      \
     X(screen_tiles, "screen tile")                                                                                     \
@@ -45,6 +50,9 @@
     X(cells_drawn, "cell of several colours")                                                                          \
     X(patches, "small triangle that is shaded from its record")                                                        \
     X(patch_pixels, "pixel of one")                                                                                    \
+    X(patch_normals, "normal of a vertex of one")                                                                      \
+    X(patch_lit, "light with an edge, or a colour, that a pixel of one asks for")                                      \
+    X(patch_textured, "pixel of one whose colour is a texture's")                                                      \
     X(parts, "part of a surface of one colour")                                                                        \
     X(windows, "window of texels for several cells")                                                                   \
     X(window_texels, "texel compared with a plane")                                                                    \

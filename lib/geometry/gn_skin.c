@@ -1,6 +1,7 @@
 /* Skins: vertices where up to four joints take them. [R12] */
 #include "gn_internal.h"
 
+#include "base/gn_count.h"
 #include "base/gn_q.h"
 #include "geometry/gn_skin.h"
 #include "geometry/gn_xform.h"
@@ -82,6 +83,7 @@ void gn_skin_position(int32_t out_q16[3], const gn_object *object, uint32_t vert
     const int32_t down = gn_max32(16 - gn_clz32((size + (size >> 12)) | 1U), 0), round = 1 << down >> 1,
                   x = (p[0] + round) >> down, y = (p[1] + round) >> down, z = (p[2] + round) >> down,
                   half = (x + y + z) >> 1, one = mesh->pos_frac_bits - 1 - down;
+    GN_COUNT(posed, 1);
     weighted_sum sum_x = {0, 0, 0}, sum_y = {0, 0, 0}, sum_z = {0, 0, 0};
     for (uint32_t i = 0; i < of.n; i++) {
         const gn_affine *joint = &of.joint[of.idx[i]];
@@ -121,6 +123,7 @@ void gn_skin_normal(int32_t out_q30[3], const gn_object *object, const int32_t m
     const gn_vertex_joints of = gn_skin_joints(object->skin, vertex_idx);
     int32_t mean[3][3], inverse[3][3], posed[3];
     int64_t n[3]; /* 3 * 2^60 */
+    GN_COUNT(posed_normals, 1);
     mean_matrix(mean, &of);
     gn_xform_normal_matrix(inverse, (const int32_t(*)[3])mean);
     gn_xform_normal(posed, (const int32_t(*)[3])inverse, object->mesh->nrm_q15 + 3 * (size_t)vertex_idx);

@@ -1,6 +1,7 @@
 /* Boxes of objects: axis-aligned bounds in the world, by which lights, views and tiles leave objects out. */
 #include "gn_internal.h"
 
+#include "base/gn_count.h"
 #include "base/gn_math.h"
 #include "base/gn_q.h"
 #include "geometry/gn_skin.h"
@@ -41,6 +42,7 @@ static int mesh_box(const gn_object *object, int32_t centre[3], int32_t half[3])
 {
     const gn_mesh *mesh = object->mesh;
     int32_t lo[3], hi[3];
+    GN_COUNT(boxed, mesh->n_vertices);
     if (GN_SIZE_FIRST || GN_SKIN(object)) posed_extent(object, lo, hi);
     else
         for (int k = 0; k < 3; k++) stored_extent(mesh->pos + k, mesh->n_vertices, &lo[k], &hi[k]);

@@ -112,6 +112,7 @@ GN_HOT static void add_light_nodes(gn_shading *s, const gn_patch_light *light, c
     const uint32_t r = light->colour[0], g = light->colour[1], b = light->colour[2], *attenuation = p->attenuation;
     const int32_t down = light->down;
     int32_t(*node)[3] = p->node_q24;
+    GN_COUNT(patch_lit, n);
     if (light->view) gn_patch_attenuation(s, light, span, x, y, n);
     for (int32_t(*end)[3] = node + n; node < end; node++, attenuation++, e.at += e.step) {
         uint32_t irradiance = (uint32_t)gn_max32(0, gn_min32(e.at, 32767));
@@ -136,6 +137,7 @@ GN_HOT static void tint_nodes(gn_patch *p, const gn_patch_span *span, int32_t n)
 /* Texels of a row. */
 GN_HOT static void find_row_texels(gn_patch *p, const gn_patch_span *span, int32_t n)
 {
+    GN_COUNT(patch_textured, n);
     const gn_row_value u = gn_patch_row(&p->texel_q17[0], span), v = gn_patch_row(&p->texel_q17[1], span);
     const gn_texture_line texels = {{u.at, v.at}, {u.step, v.step}, {0, 0}};
     gn_texture_row(p->texture, &texels, (1U << n) - 1, p->texel);

@@ -158,6 +158,7 @@ GN_HOT static inline void patch_normal(gn_shading *s, int k, int32_t out_q14[3])
     const uint32_t vertex_idx = r->vertex[k], tag = gn_vertex_tag(r->tri->source.object_idx, vertex_idx);
     gn_patch_normal *entry = &s->patches.normal[vertex_idx & (GN_PATCH_NORMALS - 1)];
     if (entry->tag != tag) {
+        GN_COUNT(patch_normals, 1);
         entry->packed = make_patch_normal(s, vertex_idx);
         entry->tag = tag;
     }

@@ -92,6 +92,7 @@ static gn_status transform(const caster_job *job, const uint16_t idx[3], int64_t
     for (int i = 0; i < 3; i++) {
         if (idx[i] >= mesh->n_vertices)
             return GN_FAIL_AT(job->frame, GN_ERR_MESH_INDEX, job->object_idx, GN_FIELD_MESH_IDX);
+        GN_COUNT(caster_vertices, 1);
         light_position(corner[i], job, idx[i]);
     }
     if (GN_CASTER_BIAS && job->shrink_q16) shrink(job, idx, corner);
@@ -152,6 +153,7 @@ static inline int cached_corners(gn_casting *casting, const uint16_t idx[3], con
         if (vertex_idx >= mesh->n_vertices) return 0;
         gn_caster_corner *entry = &job->cache[gn_vertex_slot(vertex_idx, job->cache_mask)];
         if (!gn_vertex_hit(&entry->vertex, tag)) {
+            GN_COUNT(caster_vertices, 1);
             entry = (gn_caster_corner *)gn_vertex_claim_corner(&entry->vertex, tag, &before[0]->vertex,
                                                                &before[1]->vertex, &spare[i].vertex);
             if (!fill_corner(entry, job, vertex_idx)) {

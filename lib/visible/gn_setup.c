@@ -39,6 +39,7 @@ int gn_setup_vertex(int32_t out_q16[3], gn_vertex_entry *cache, const gn_xform *
     if (!gn_vertex_hit(entry, tag)) {
         gn_vertex_drop(entry);
         if (!view_position(entry->v_q16, xform, object, vertex_idx)) return 0;
+        GN_COUNT(vertices, 1);
         gn_vertex_claim(entry, tag);
     }
     for (int i = 0; i < 3; i++) out_q16[i] = entry->v_q16[i];
@@ -223,6 +224,7 @@ static inline gn_status fetch_corners(const setup_job *job, const uint16_t *idx,
         if (vertex_idx >= n_vertices) return GN_ERR_MESH_INDEX;
         setup_corner *entry = &job->cache[gn_vertex_slot(vertex_idx, job->cache_mask)];
         if (!gn_vertex_hit(&entry->vertex, tag)) {
+            GN_COUNT(vertices, 1);
             entry = (setup_corner *)gn_vertex_claim_corner(&entry->vertex, tag, &at[-1]->vertex, &at[-2]->vertex,
                                                            &spare[at - c - 2].vertex);
             if (!(GN_SIZE_FIRST ? fill_corner_small(job, entry, vertex_idx) : fill_corner_fast(job, entry, vertex_idx)))

@@ -4,6 +4,7 @@
 #   sh tests/bench/bench_target.sh --quick    the workload on the Cortex-M3 alone
 #   sh tests/bench/bench_target.sh --document writes the baseline's figures into docs/data/SPEED.md; --check: whether they are there
 #   sh tests/bench/bench_target.sh --lines CORE PRESET...    lines of the baseline: the own scenes on one core
+#   sh tests/bench/bench_target.sh --lines CORE models FILE...    the same of characters: those of tests/bench/scenes, or other models, as tests/bench/bench_models.txt has them
 #   sh tests/bench/bench_target.sh --write    makes the new figures the baseline, and writes them into docs/data/SPEED.md
 # Environment: BUILD, GNOMON.
 set -eu
@@ -15,6 +16,7 @@ BASELINE=tests/bench/bench_target_baseline.txt
 DOC=docs/data/SPEED.md
 CASES="flat gouraud flat-shadow gouraud-shadow"
 SCENES="sundial avenue desk room fence mixed"
+MODELS="tests/bench/scenes/hound.gltf tests/bench/scenes/walker.gltf"
 STAGES=$(sh boards/tools/count.sh --stages)
 
 # core, board, and what it is configured by: built with -O2, or as the core's name ends; light found at vertices alone, the longest steps, bands as wide as the picture
@@ -75,6 +77,17 @@ small() {
     done
 }
 
+# Characters: first frames
+models() { # models CORE FILE...
+    core=$1
+    shift
+    for model in "$@"; do
+        name=$(basename "${model%.*}")
+        one "model $core $name fast" "bench-$core-$name" "$core" 0 SCENE="$model" PRESET=fast \
+            SCENE_FLAGS="--size 240x320 --frames 0-1 --set output=rgb565 --set filter=3x3 --set texture_size=128"
+    done
+}
+
 measure() { # measure QUICK
     echo "# Written by tests/bench/bench_target.sh --write. Instructions of: $STAGES; then pixels, triangles, caster triangles, shadow texels drawn, bytes of lib/ in the image."
     echo "compiler $(arm-none-eabi-gcc --version | sed 1q); $(riscv64-unknown-elf-gcc --version | sed 1q)"
@@ -86,6 +99,7 @@ measure() { # measure QUICK
     scenes M3-Os balanced
     small
     for core in M0 M4 RV32; do scenes "$core" balanced; done
+    for core in M3 M0 RV32; do models "$core" $MODELS; done
 }
 
 # The total leaves out what runs before the first stage.
@@ -105,6 +119,8 @@ tables() {
             shadow[$2, key] = $7; begin[$2, key] = $5 + $6; prep[$2, key] = $8 + $9; raster[$2, key] = $10; shade[$2, key] = $11
             px[key] = $13; tri[key] = $14; caster[key] = $15; texels[key] = $16
         }
+        $1 == "model" { if ($2 == "M3") { row[++n_rows] = $3; triangles[$3] = $14; casters[$3] = $15 } stage[$2, $3, 0] = total(); for (i = 5; i <= 11; i++) stage[$2, $3, i] = $i }
+        function million(n) { return sprintf("%.2f", n / 1e6) }
         function net(c, what, set, i) {
             return work[c, what, set, i] - work[c, "flat-shadow", "empty", i] * (1 - n["visible_px", set] / (320 * 240))
         }
@@ -131,6 +147,17 @@ tables() {
                     solve(l, s, "covered_px"), solve(net(q, w, "L", 11), net(q, w, "S", 11), "visible_px"), net(q, w, "L", 11) / n["visible_px", "L"],
                     w ~ /shadow/ ? sprintf("%.0f", (work[q, w, "L", 7] - work[q, "flat-shadow", "empty", 7]) / n["casters", "L"]) : "",
                     drawing(q, w, "L") / 1e6, drawing(q, w, "S") / 1e6
+            }
+            if (n_rows) {
+                print "\nCharacters (`tests/bench/scenes`), a first frame of 240×320 in preset fast, with ground, sun and shadow (3×3). Millions of instructions:\n"
+                print "| character | M3 | RV32 | M0 | views, M3 | shadow tiles, M3 | setup and bins, M3 | raster, M3 | shading, M3 | visible triangles | caster triangles |"
+                print "| --- | --- | --- | --- | --- | --- | --- | --- | --- | --- | --- |"
+                for (i = 1; i <= n_rows; i++) {
+                    k = row[i]
+                    printf "| %s | %s | %s | %s | %s | %s | %s | %s | %s | %d | %d |\n", k, million(stage["M3", k, 0]), million(stage["RV32", k, 0]), million(stage["M0", k, 0]),
+                        million(stage["M3", k, 5] + stage["M3", k, 6]), million(stage["M3", k, 7]), million(stage["M3", k, 8] + stage["M3", k, 9]),
+                        million(stage["M3", k, 10]), million(stage["M3", k, 11]), triangles[k], casters[k]
+                }
             }
             if (!n_names) exit
             print "\nThe own scenes, frame 0 as `gnomon compile` configures it: a first frame, with every shadow tile drawn. Instructions per picture pixel:\n"
@@ -162,7 +189,15 @@ for core in M3 RV32; do sh boards/tools/count.sh --ready "$(board_of $core)"; do
 make -s BOARD=mps2-an385 APP=bench BUILD="$BUILD" "$BUILD/firmware/bench/bench_meshes.h" >/dev/null # makes the workload
 if [ "${1:-}" = --lines ]; then
     shift
-    scenes "$@"
+    core=$1
+    shift
+    case $1 in
+    models)
+        shift
+        models "$core" "$@"
+        ;;
+    *) scenes "$core" "$@" ;;
+    esac
     exit
 fi
 if [ "${1:-}" = --write ]; then
@@ -180,7 +215,7 @@ status=0
 [ "$(grep '^compiler' "$BASELINE")" = "$(grep '^compiler' "$DIR/target.txt")" ] || echo "bench: the baseline is of other compilers"
 awk '
     function total(    i, sum) { sum = 0; for (i = 5; i <= 12; i++) sum += $i; return sum }
-    $1 != "work" && $1 != "scene" { next }
+    $1 != "work" && $1 != "scene" && $1 != "model" { next }
     { key = $1 " " $2 " " $3 " " $4 }
     FNR == NR { then[key] = total(); next }
     {

@@ -56,7 +56,7 @@ target_is playground by tests/web/test_wasm.sh 'playground.html'
 target_is test-playground dry
 target_is tables by tests/documents/test_rules.sh 'build/gen_tables >'
 target_is prefix by tests/property/test_mixed.sh 'gen_prefix.sh'
-target_is scenes here '^same$' sh -c 'make -s build/make_scenes >/dev/null && mkdir "$0/own" "$0/docs" && build/make_scenes "$0/own" "$0/docs" && diff -r "$0/own" host/scenes && diff -r -x "*.md" "$0/docs" docs/scenes && echo same' "$tmp"
+target_is scenes here '^same$' sh -c 'make -s build/make_scenes >/dev/null && mkdir "$0/own" "$0/docs" "$0/bench" && build/make_scenes "$0/own" "$0/docs" "$0/bench" && diff -r "$0/bench" tests/bench/scenes && diff -r "$0/own" host/scenes && diff -r -x "*.md" "$0/docs" docs/scenes && echo same' "$tmp"
 target_is clean by tests/documents/test_rules.sh 'make -s clean'
 sed -n 's/^  make \([a-z-]*\) .*/\1/p' "$tmp/help" | grep -v -x -F -f "$tmp/known" >"$tmp/found"
 [ -s "$tmp/found" ] && fail "no test runs these targets: $(tr '\n' ' ' <"$tmp/found")" || pass

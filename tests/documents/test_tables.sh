@@ -20,6 +20,10 @@ for name in sizes speed builds; do
     agrees README.md $name "$tmp/$name" "sh docs/cost.sh"
     agrees docs/COST.md $name "$tmp/$name" "sh docs/cost.sh"
 done
+for name in cores parts characters model; do
+    sh docs/cost.sh --table $name >"$tmp/$name"
+    agrees docs/COST.md $name "$tmp/$name" "sh docs/cost.sh"
+done
 sh tests/firmware/size.sh --tables tests/firmware/size_baseline.txt >"$tmp/all"
 agrees docs/data/SIZES.md sizes "$tmp/all" "sh tests/firmware/size.sh --document"
 for bench in bench bench_target; do

@@ -15,6 +15,7 @@ static const char cube_path[] = "host/scenes/cube.gltf";
 static const char sundial_path[] = "host/scenes/sundial.gltf", avenue_path[] = "host/scenes/avenue.gltf";
 static const char desk_path[] = "host/scenes/desk.gltf", room_path[] = "host/scenes/room.gltf";
 static const char fence_path[] = "host/scenes/fence.gltf", mixed_path[] = "host/scenes/mixed.gltf";
+static const char hound_path[] = "tests/bench/scenes/hound.gltf", walker_path[] = "tests/bench/scenes/walker.gltf";
 
 static int load(scene *s, const char *path, int frame)
 {
@@ -28,7 +29,7 @@ static int load(scene *s, const char *path, int frame)
 /* --- The files -------------------------------------------------------------------------------------------------------
  */
 
-static void test_committed_bytes(const char *path, int (*write)(FILE *))
+static void test_committed_bytes(const char *path, int (*write)(FILE *), long n_most)
 {
     FILE *made = tmpfile(), *committed = fopen(path, "rb");
     if (CHECK(made && committed) && CHECK_EQ_INT(write(made), 0)) {
@@ -41,7 +42,7 @@ static void test_committed_bytes(const char *path, int (*write)(FILE *))
             at++;
         } while (a == b && a != EOF);
         if (!CHECK(a == b)) printf("  %s differs from the generator's output at byte %ld\n", path, at);
-        CHECK(at > 4000 && at < 100000);
+        CHECK(at > 4000 && at < n_most);
     }
     if (made) fclose(made);
     if (committed) fclose(committed);
@@ -600,6 +601,27 @@ static void test_mixed(void)
     scene_free(&s);
 }
 
+/* --- Characters ------------------------------------------------------------------------------------------------------
+ */
+
+/* A skinned, textured object of so many triangles on a ground that casts nothing, walking for so many frames. */
+static void test_character(const char *path, size_t n_least, size_t n_most, size_t n_joints, int last_frame)
+{
+    scene s;
+    if (!load(&s, path, last_frame)) return;
+    if (CHECK_EQ_INT(s.n_objects, 2) && CHECK_EQ_INT(s.n_lights, 1) && CHECK_EQ_INT(s.n_notes, 0)) {
+        const scene_object *body = s.objects[0].texture_idx != SCENE_NONE ? &s.objects[0] : &s.objects[1];
+        const size_t n = s.meshes[body->mesh_idx].n_triangles;
+        CHECK(n >= n_least && n <= n_most);
+        CHECK_EQ_INT(body->n_joints, n_joints);
+        CHECK(body->texture_idx != SCENE_NONE && body->moving);
+        CHECK(s.objects[body == &s.objects[0]].caster == SCENE_CASTER_OFF);
+    }
+    CHECK_EQ_INT((int)(s.duration * s.fps + 0.5), last_frame);
+    scene_free(&s);
+    test_closed_casters(path, 3 * n_least);
+}
+
 int main(void)
 {
     static const struct {
@@ -611,7 +633,7 @@ int main(void)
                {room_path, room_write, 1, 1100, 500, 300},      {fence_path, fence_write, 1, 800, 400, 300},
                {mixed_path, mixed_write, 5, 1100, 490, 300}};
     for (size_t i = 0; i < sizeof own / sizeof *own; i++) {
-        test_committed_bytes(own[i].path, own[i].write);
+        test_committed_bytes(own[i].path, own[i].write, 100000);
         test_budget(own[i].path, own[i].n_lights, own[i].n_most, own[i].n_most_visible);
         test_closed_casters(own[i].path, own[i].n_min_edges);
     }
@@ -631,7 +653,11 @@ int main(void)
                    {"docs/scenes/snake.gltf", gallery_snake_write},
                    {"docs/scenes/isometric.gltf", gallery_isometric_write}};
     for (size_t i = 0; i < sizeof gallery / sizeof *gallery; i++)
-        test_committed_bytes(gallery[i].path, gallery[i].write);
+        test_committed_bytes(gallery[i].path, gallery[i].write, 100000);
+    test_committed_bytes(hound_path, hound_write, 100000);
+    test_committed_bytes(walker_path, walker_write, 250000);
+    test_character(hound_path, 500, 700, 22, 18);
+    test_character(walker_path, 4000, 5000, 19, 24);
     test_cube();
     test_hours();
     test_desk();

@@ -28,7 +28,7 @@ check(engine.draw(['scenes/none.gltf']).status === 1, 'a file that is not there 
 
 // The page's own parts: boards by their whole names.
 const settings = new Map(fs.readdirSync('boards').filter((name) => fs.existsSync(`boards/${name}/link.ld`)).map((name) => [`boards/${name}/board.mk`, fs.readFileSync(`boards/${name}/board.mk`)]));
-const titles = new Map(readBoards(fs.readFileSync('host/web/boards.txt', 'utf8'), settings).map((board) => [board.name, board.title]));
+const titles = new Map(readBoards(fs.readFileSync('host/tool/cost/part_table.h', 'utf8'), settings).map((board) => [board.name, board.title]));
 for (const [name, title] of [['microbit', 'BBC micro:bit (nRF51822)'], ['pico', 'Raspberry Pi Pico (RP2040)'], ['stm32f429-discovery', 'STM32F429 Discovery']])
   check(titles.get(name) === title, `${name} is called ${titles.get(name)}`);
 

@@ -73,8 +73,8 @@ static void set_up_pins(void)
     set_function(PIN_CLOCK, FUNCTION_SPI);
     set_function(PIN_DATA, FUNCTION_SPI);
     REGISTER(SPI_CR1) = 0;
-    REGISTER(SPI_CPSR) = 10; /* 12.5 MHz; the controller's data sheet says up to 15 */
-    REGISTER(SPI_CR0) = 7;   /* 8 bits, mode 0 */
+    REGISTER(SPI_CPSR) = 2; /* 62.5 MHz, as the panel's maker drives it; the controller's data sheet promises 15 */
+    REGISTER(SPI_CR0) = 7;  /* 8 bits, mode 0 */
     REGISTER(SPI_DMACR) = SPI_DMA_TRANSMIT;
     REGISTER(SPI_CR1) = SPI_ENABLE;
 }

@@ -1,4 +1,5 @@
-/* make_scenes FOLDER GALLERY_FOLDER: writes the project's own scenes, and the small ones of the gallery. */
+/* make_scenes FOLDER GALLERY_FOLDER BENCH_FOLDER: writes the project's own scenes, the small ones of the gallery, and
+ * the characters of the bench. */
 #include <stdio.h>
 
 #include "scenes.h"
@@ -16,8 +17,8 @@ static int make(const char *folder, const char *name, int (*write)(FILE *))
 
 int main(int argc, char **argv)
 {
-    if (argc != 3) {
-        fprintf(stderr, "usage: make_scenes FOLDER GALLERY_FOLDER\n");
+    if (argc != 4) {
+        fprintf(stderr, "usage: make_scenes FOLDER GALLERY_FOLDER BENCH_FOLDER\n");
         return 2;
     }
     int failed = make(argv[1], "sundial.gltf", sundial_write);
@@ -40,5 +41,7 @@ int main(int argc, char **argv)
     failed |= make(argv[2], "glow.gltf", gallery_glow_write);
     failed |= make(argv[2], "isometric.gltf", gallery_isometric_write);
     failed |= make(argv[2], "snake.gltf", gallery_snake_write);
+    failed |= make(argv[3], "hound.gltf", hound_write);
+    failed |= make(argv[3], "walker.gltf", walker_write);
     return failed ? 1 : 0;
 }

@@ -13,7 +13,7 @@
 #define MESH_GRID (1.0 / 65536)
 #define MESH_PI   3.14159265358979323846
 
-enum { MESH_MAX_VERTICES = 1024, MESH_MAX_CORNERS = 3072 };
+enum { MESH_MAX_VERTICES = 2560, MESH_MAX_CORNERS = 13200 };
 
 typedef struct {
     double x, y, z;

@@ -38,4 +38,8 @@ int gallery_glow_write(FILE *file);
 int gallery_snake_write(FILE *file);
 int gallery_isometric_write(FILE *file);
 
+/* Characters for tests/bench, as the models that people load. */
+int hound_write(FILE *file);  /* some 600 flat triangles */
+int walker_write(FILE *file); /* some 4,000 smooth ones */
+
 #endif

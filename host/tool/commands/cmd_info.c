@@ -5,6 +5,7 @@
 
 #include "../settings/settings_parse.h"
 #include "info_memory.h"
+#include "info_parts.h"
 #include "info_settings.h"
 #include "../cli/remarks.h"
 #include "../cli/tool.h"
@@ -27,6 +28,7 @@ typedef struct {
     counts counts;
     settings_ram_parts ram[SETTINGS_PRESETS];
     info_memory memory;
+    info_parts parts;
 } report;
 
 static const char *const kind_names[] = {"directional", "spot", "point"};
@@ -218,6 +220,7 @@ static void print_json(const report *r)
         printf("%s\"%s\": %ld", i ? ", " : "", settings_preset_name[i], r->ram[i].total);
     printf("}");
     info_memory_json(&r->memory);
+    info_parts_json(&r->parts);
     info_settings_json(s, r->options);
     printf(", \"notes\": [");
     for (size_t i = 0; i < s->n_notes; i++) {
@@ -384,6 +387,7 @@ static void print_text(const report *r)
     info_settings_text(s, o);
     text_ram(r);
     info_memory_text(&r->memory);
+    info_parts_text(&r->parts);
     for (size_t i = 0; i < s->n_notes; i++) printf("  %s%s\n", i < s->n_ignored ? "ignored: " : "note: ", s->notes[i]);
 }
 
@@ -405,6 +409,7 @@ int tool_info(const tool_options *o)
         count(&s, &r.counts);
         failed = preset_ram(&set, &p.demand, &s, o, r.ram, error, sizeof error) ||
                  info_memory_find(&r.memory, o, error, sizeof error);
+        if (!failed) info_parts_find(&r.parts, o, r.memory.frames);
         if (!failed && o->json) print_json(&r);
         else if (!failed) print_text(&r);
         engine_free(&p);

@@ -6,6 +6,8 @@ static const double weight[GN_COUNT_N] = {
 #include "cost_table.h"
 };
 
+const int cost_error_percent = COST_ERROR_PERCENT;
+
 double cost_instructions(const count_all *counts)
 {
     double sum = 0;
