@@ -25,16 +25,17 @@
 /* A knob: as it is compiled, and as much of it as the frames used. */
 typedef struct {
     const char *name;
-    int built, used;
+    int least, built, used;
     const char *what; /* the reason */
     uses_owner owner;
     uint32_t idx, frame_idx;
 } knob;
 
 #define AS_BUILT_(name, MACRO, lo, hi, meaning, cost)                                                                  \
-    {#name, GN_##MACRO, GN_##MACRO, "as recorded", USES_SETTING, 0, 0},
-#define UNUSED_(name, MACRO, lo, hi, meaning, cost) {#name, GN_##MACRO, 0, "nothing uses it", USES_SETTING, 0, 0},
-static knob knobs[] = {GN_QUALITY_KNOBS(AS_BUILT_) GN_CAPACITY_KNOBS(UNUSED_) GN_FEATURE_KNOBS(UNUSED_)};
+    {#name, lo, GN_##MACRO, GN_##MACRO, "as recorded", USES_SETTING, 0, 0},
+#define FROM_NONE_(name, MACRO, lo, hi, meaning, cost)                                                                 \
+    {#name, lo, GN_##MACRO, 0, "nothing uses it", USES_SETTING, 0, 0},
+static knob knobs[] = {GN_QUALITY_KNOBS(AS_BUILT_) GN_CAPACITY_KNOBS(FROM_NONE_) GN_FEATURE_KNOBS(FROM_NONE_)};
 enum { N_KNOBS = sizeof knobs / sizeof *knobs };
 
 /* Knobs that stay as they are: less of them would not be refused, or is not known from the frames drawn so far. */
@@ -95,8 +96,9 @@ static void write_log(void)
     }
     fprintf(f, "gnomon-log " GN_VERSION_STRING "\npreset %d %d as recorded\n", GN_PRESET, GN_PRESET);
     for (int i = 0; i < N_KNOBS; i++) {
-        fprintf(f, "%s %d %d ", knobs[i].name, knobs[i].built, knobs[i].used);
-        write_reason(f, &knobs[i]);
+        const knob *k = &knobs[i];
+        fprintf(f, "%s %d %d ", k->name, k->built, k->used > k->least ? k->used : k->least);
+        write_reason(f, k);
         fprintf(f, "\n");
     }
     fprintf(f, "frames %u\n", (unsigned)n_frames);
@@ -112,14 +114,14 @@ static void use_capacities(const gn_frame *frame)
     use_at_least("max_width", frame->picture.width, "pixels: the picture");
     use_at_least("max_height", frame->picture.height, "pixels: the picture");
 #if GN_GROUPS
-    use_at_least("max_triangles", frame->stats.n_tile_triangles, "visible triangles of a screen tile at max");
+    use_at_least("max_triangles", frame->stats.n_tile_triangles, "visible triangles of a screen tile");
 #else
-    use_at_least("max_triangles", frame->stats.n_triangles, "visible triangles at max");
+    use_at_least("max_triangles", frame->stats.n_triangles, "visible triangles");
 #endif
-    use_at_least("max_tile_refs", frame->stats.n_tile_refs, "references at max");
-    use_at_least("max_lights", s->n_lights, "lights at max");
-    use_at_least("surface_lights", uses_surface_lights(frame), "lights reach one object at max");
-    use_at_least("max_objects", s->n_objects, "objects at max");
+    use_at_least("max_tile_refs", frame->stats.n_tile_refs, "references");
+    use_at_least("max_lights", s->n_lights, "lights");
+    use_at_least("surface_lights", uses_surface_lights(frame), "lights reach one object");
+    use_at_least("max_objects", s->n_objects, "objects");
 }
 
 /* What changes no picture, or what a frame tells and not its scene. */
