@@ -119,9 +119,9 @@ static void use_capacities(const gn_frame *frame)
     use_at_least("max_triangles", frame->stats.n_triangles, "visible triangles");
 #endif
     use_at_least("max_tile_refs", frame->stats.n_tile_refs, "references");
-    use_at_least("max_lights", s->n_lights, "lights");
+    use_at_least("max_lights", s->n_lights, "lights in a scene");
     use_at_least("surface_lights", uses_surface_lights(frame), "lights reach one object");
-    use_at_least("max_objects", s->n_objects, "objects");
+    use_at_least("max_objects", s->n_objects, "objects in a scene");
 }
 
 /* What changes no picture, or what a frame tells and not its scene. */

@@ -52,7 +52,7 @@ static int take_values(program_log *log, const logged_knob *k, const char *built
         log->less |= uses_both(k->name, most, *value) != most;
         if (strcmp(k->name, "texture_formats") == 0) *value &= most;
     } else if (strcmp(k->name, "max_triangles") == 0 || strcmp(k->name, "max_tile_refs") == 0) {
-        header_because(&log->reasons, k->name, "%d %s at max, and %d %% more", *value, why, o->margin);
+        header_because(&log->reasons, k->name, "%d %s, and %d %% more", *value, why, o->margin);
         *value = (int)header_with_margin((size_t)*value, o->margin);
     } else header_because(&log->reasons, k->name, "%s", why);
     if (*value > most) *value = most;
