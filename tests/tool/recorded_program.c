@@ -64,14 +64,29 @@ static void bare(void)
     light[0].auto_bias = GN_AUTO_BIAS_OFF;
 }
 
-/* A shadow of the simplest kind. */
-static void hard(void)
+static void sharp(void)
+{
+    scene.shadow.filter = scene.shadow.other_filter = GN_FILTER_HARD;
+}
+
+static void stable(void)
+{
+    scene.shadow.fit = GN_FIT_STABLE;
+    scene.shadow.tile_sizes = GN_TILES_EQUAL;
+}
+
+static void unbiased(void)
 {
     light[0].auto_bias = GN_AUTO_BIAS_OFF;
     light[0].bias_constant_q16 = GN_Q16(2);
-    scene.shadow.filter = scene.shadow.other_filter = GN_FILTER_HARD;
-    scene.shadow.fit = GN_FIT_STABLE;
-    scene.shadow.tile_sizes = GN_TILES_EQUAL;
+}
+
+/* A shadow of the simplest kind. */
+static void hard(void)
+{
+    sharp();
+    stable();
+    unbiased();
 }
 
 static void spot(void)
@@ -275,14 +290,14 @@ static void wide(void)
 static const struct {
     const char *name;
     void (*change)(void);
-} things[] = {THING(plain),    THING(bare),       THING(hard),      THING(spot),     THING(point),
-              THING(suns),     THING(filter),     THING(disk),      THING(soft),     THING(cascades),
-              THING(blend),    THING(importance), THING(alpha),     THING(caster),   THING(textured),
-              THING(grey),     THING(levels),     THING(specular),  THING(emissive), THING(glow),
-              THING(masked),   THING(lit),        THING(receiver),  THING(thin),     THING(plane),
-              THING(refresh),  THING(still),      THING(normals),   THING(colours),  THING(skinned),
-              THING(gradient), THING(behind),     THING(over),      THING(format),   THING(orthographic),
-              THING(objects),  THING(wide),       THING(main_light)};
+} things[] = {
+    THING(plain),    THING(bare),         THING(hard),       THING(sharp),    THING(stable),    THING(unbiased),
+    THING(spot),     THING(point),        THING(suns),       THING(filter),   THING(disk),      THING(soft),
+    THING(cascades), THING(blend),        THING(importance), THING(alpha),    THING(caster),    THING(textured),
+    THING(grey),     THING(levels),       THING(specular),   THING(emissive), THING(glow),      THING(masked),
+    THING(lit),      THING(receiver),     THING(thin),       THING(plane),    THING(refresh),   THING(still),
+    THING(normals),  THING(colours),      THING(skinned),    THING(gradient), THING(behind),    THING(over),
+    THING(format),   THING(orthographic), THING(objects),    THING(wide),     THING(main_light)};
 
 static void describe(void)
 {

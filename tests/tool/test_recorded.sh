@@ -10,7 +10,11 @@ things=$(grep -o 'THING([a-z_]*)' $program | sed 's/.*(\(.*\))/\1/' | grep -v -x
 [ "$(echo "$things" | wc -l)" -gt 30 ] && pass || fail "$(echo "$things" | wc -l) things are found in $program"
 
 record="-Ilib -Ihost/record -DGN_USER_CONFIG=\"recording.h\""
-gcc -std=c99 -Wall -Wextra -Werror $record -o "$tmp/record" $program host/record/recording.c >"$tmp/log" 2>&1 && pass || fail "the recording: $(grep -m 1 'error\|undefined' "$tmp/log")"
+gcc -std=c99 -Wall -Wextra -Werror $record -o "$tmp/record" $program host/record/recording.c >"$tmp/log" 2>&1 && pass || {
+    echo "the recording: $(grep -m 1 'error\|undefined' "$tmp/log")"
+    echo "$passed passed, 1 failed"
+    exit 1
+}
 clang -std=c99 -w -O0 -Ilib -o "$tmp/full" $program lib/gnomon.c || fail "the program does not compile"
 
 # build THING [OPTIONS...]: records it, and compiles the program with the configuration: $tmp/THING/run
@@ -34,7 +38,7 @@ done
 
 # ---- Any thing with the configuration of another: the same picture, or an error -----------------------------------------------
 
-for base in plain bare hard point; do
+for base in plain bare hard sharp stable unbiased point; do
     for thing in $things; do
         if "$tmp/$base/run" "$thing" >"$tmp/out"; then cmp -s "$tmp/out" "$tmp/$thing.full" && pass || fail "$thing with the configuration of $base: another picture"
         else grep -q '[a-z] [a-z]' "$tmp/out" && pass || fail "$thing with the configuration of $base: no text"; fi
@@ -45,7 +49,9 @@ refused() { # refused BASE THING WORDS
     "$tmp/$1/run" "$2" >"$tmp/out" && fail "$2 is not refused with the configuration of $1" || { grep -q "$3" "$tmp/out" && pass || fail "$2 with the configuration of $1: $(cat "$tmp/out")"; }
 }
 refused bare plain 'a shadow that is not built in'
-refused hard plain 'a bias or a shadow that is not built in\|shadow filter, one that is not built in'
+refused sharp plain 'shadow filter, one that is not built in'
+refused stable plain 'tile sizes, refresh or list length, or one that is not built in'
+refused unbiased plain 'a bias or a shadow that is not built in'
 for thing in suns spot main_light; do refused plain $thing 'more lights than GN_MAX_LIGHTS'; done
 refused plain point 'kind, mode or softness of light, or one that is not built in'
 for thing in filter disk; do refused plain $thing 'shadow filter, one that is not built in'; done
