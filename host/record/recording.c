@@ -90,9 +90,10 @@ static void write_reason(FILE *f, const knob *k)
 static void write_log(void)
 {
     FILE *f = fopen(LOG_NAME, "w");
+    changed = 0;
     if (!f) {
         fprintf(stderr, LOG_NAME " cannot be written\n");
-        exit(1);
+        return;
     }
     fprintf(f, "gnomon-log " GN_VERSION_STRING "\npreset %d %d as recorded\n", GN_PRESET, GN_PRESET);
     for (int i = 0; i < N_KNOBS; i++) {
@@ -103,7 +104,6 @@ static void write_log(void)
     }
     fprintf(f, "frames %u\n", (unsigned)n_frames);
     fclose(f);
-    changed = 0;
 }
 
 /* ---- What a frame takes ------------------------------------------------------------------------------------------ */
