@@ -29,7 +29,7 @@ HOST_CFLAGS := -std=c11 -D_POSIX_C_SOURCE=200809L $(HOST_OPT) -g $(WARN) $(SAN) 
 # The library, part by part: what changes is compiled again, and tests see its functions. Users compile lib/gnomon.c.
 LIB_SRC := $(filter-out lib/compact/%, $(wildcard lib/*/*.c))
 # main.c has no place beside a test's main(); generators, the report page and the playground are programs of their own.
-HOST_SRC := $(filter-out host/tool/main.c host/generate/% host/report/% host/web/%, $(sort $(shell find host -name '*.c')))
+HOST_SRC := $(filter-out host/tool/main.c host/generate/% host/report/% host/web/% host/record/recording.c, $(sort $(shell find host -name '*.c')))
 SCENE_SRC := $(filter-out %/make_scenes.c, $(wildcard host/generate/scenes/*.c))
 TEST_SRC := $(wildcard tests/*/test_*.c)
 TESTS := $(basename $(notdir $(TEST_SRC)))

@@ -239,6 +239,13 @@
 #define GN_RUNTIME_KNOBS 0
 #endif
 
+/* No knob: gnomon config wrote the configuration, from what a program used. Defaults are those of the library with all
+ * features, and what is not built is refused, also shadows, normals and colours: a scene is drawn as it was recorded,
+ * or not at all. */
+#ifndef GN_RECORDED
+#define GN_RECORDED 0
+#endif
+
 /* What the features above stand for, by parts of the library. */
 #define GN_DISK_FILTER      ((GN_FILTER_MAX) >= 5)
 #define GN_BLENDED_CASCADES ((GN_MANY_CASCADES) >= 2)

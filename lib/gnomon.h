@@ -68,7 +68,8 @@ extern "C" {
                                "at its own target")                                                                    \
     X(GN_ERR_OBJECT_TRANSFORM,                                                                                         \
       "object transform has exponent outside 0..14, an entry above 1.0, or a position outside +-8192")                 \
-    X(GN_ERR_MESH, "mesh has no vertices, no triangles, a null array, or more than 30 fraction bits")                  \
+    X(GN_ERR_MESH, "mesh has no vertices, no triangles, a null array, more than 30 fraction bits, or normals or "      \
+                   "colours that gnomon config left out")                                                              \
     X(GN_ERR_MESH_INDEX, "mesh index is not below its vertex count")                                                   \
     X(GN_ERR_VERTEX_RANGE, "vertex position is beyond +-2^30, or +-16384 units from the camera or a spot or point "    \
                            "light, or a triangle would have to "                                                       \
@@ -96,7 +97,7 @@ extern "C" {
       "light range, or distance of its near plane, below 1/256 unit, or near above 8192 units or not below range")     \
     X(GN_ERR_LIGHT_ANGLE, "spot angles outside 1 .. 179 degrees, or inner above outer")                                \
     X(GN_ERR_LIGHT_BIAS, "light strength, bias, near offset, colour exponent or mask channel out of range, or a bias " \
-                         "that is not built in")                                                                       \
+                         "or a shadow that is not built in")                                                           \
     X(GN_ERR_SURFACE_LIGHTS, "more lights can affect one surface than GN_SURFACE_LIGHTS")                              \
     X(GN_ERR_SHADOW_DISTANCE, "shadow distance outside 1/256 .. 8192 units, or not beyond the camera's near plane")    \
     X(GN_ERR_SHADOW_FADE, "distance fade or cascade fade outside 0.001 .. 1")                                          \

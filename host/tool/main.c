@@ -15,7 +15,7 @@ typedef struct {
 static const command commands[] = {
     {"render", BY_RENDER, tool_render}, {"compare", BY_COMPARE, tool_compare}, {"info", BY_INFO, tool_info},
     {"sweep", BY_SWEEP, tool_sweep},    {"advise", BY_ADVISE, tool_advise},    {"compile", BY_COMPILE, tool_compile},
-    {"asset", BY_ASSET, tool_asset},    {"bake", BY_BAKE, tool_bake},
+    {"asset", BY_ASSET, tool_asset},    {"config", BY_CONFIG, tool_config},    {"bake", BY_BAKE, tool_bake},
 };
 
 static int unknown_command(const char *name)

@@ -12,9 +12,9 @@
 enum { BUDGET_MAX = 1000000000 };
 
 const option options[] = {
-    {"-o", BY_RENDER | BY_COMPARE | BY_COMPILE | BY_ASSET | BY_BAKE, "PATH", "a path",
+    {"-o", BY_RENDER | BY_COMPARE | BY_COMPILE | BY_ASSET | BY_BAKE | BY_CONFIG, "PATH", "a path",
      "where the result goes: a PNG file (render), a folder (compare, compile), a .gltf or .glb file (bake), "
-     "two files without their endings (asset)"},
+     "two files without their endings (asset), a header (config)"},
     {"--engine", BY_RENDER, "NAME", "fixed, reference or truth",
      "fixed, the library; reference, the same in double precision; truth, a ray tracer with exact shadows (fixed)"},
     {"--with", BY_COMPARE, "NAME", "reference or truth",
@@ -33,7 +33,7 @@ const option options[] = {
     {"--frame", BY_ALL & ~BY_COMPILE, "N", "a frame from 0 to 100000000", "animation frame (0)"},
     {"--frames", BY_RENDER | BY_COMPILE | BY_INFO, "FIRST-LAST", "FIRST-LAST, frames from 0 to 100000000",
      "these frames (compile: all of the animation; info: frame 0 alone); render: as an animated PNG"},
-    {"--set", BY_ALL, "KEY=VALUE", "KEY=VALUE, at most 64 times",
+    {"--set", BY_ALL | BY_CONFIG, "KEY=VALUE", "KEY=VALUE, at most 64 times",
      "any knob or setting, in order: 'gnomon knobs' lists them; preset=tiny|fast|balanced|accurate sets many; "
      "KEY@LIGHT=VALUE for one light, by its number or name"},
     {"--orbit", BY_ALL, "YAW,PITCH,ZOOM",
@@ -65,7 +65,7 @@ const option options[] = {
     {"--flash", BY_COMPILE | BY_INFO, "BYTES", "a number of bytes from 1 to 1000000000", "the most flash"},
     {"--optimise", BY_COMPILE | BY_INFO, "-Os|-O2", "-Os, -O2, ...",
      "how the library is built, for the estimate of flash (as board.mk says; else -O2)"},
-    {"--margin", BY_COMPILE | BY_INFO, "PERCENT", "per cent from 0 to 1000",
+    {"--margin", BY_COMPILE | BY_INFO | BY_CONFIG, "PERCENT", "per cent from 0 to 1000",
      "capacity for more triangles and tile references than the frames took (10)"},
     {"--simplify", BY_COMPILE, "HOW", "none, safe or path",
      "leave out what changes no picture of any camera (safe), or none of the frames (path), or nothing (none) (path)"},
@@ -276,10 +276,12 @@ static int check_out_path(const tool_options *o, int command, const char *name)
     static const char *const pictures[] = {".jpg", ".jpeg", ".gif", ".bmp", ".ppm", ".tga", ".webp", ".svg", NULL},
                              *const scenes[] = {".gltf", ".glb", NULL}, *const models[] = {".gltf", ".glb", ".bin",
                                                                                            ".obj",  ".mtl", NULL},
-                             *const files[] = {".png", ".c", ".h", NULL};
+                             *const files[] = {".png", ".c", ".h", NULL}, *const headers[] = {".h", NULL};
     const char *path = o->out_path;
     const bool misnamed = path && (ends_with_any(path, models) || ends_with_any(path, pictures));
     if (!path) return TOOL_OK;
+    if (command == BY_CONFIG && !ends_with_any(path, headers))
+        return options_usage_error(name, "a header is written, so the name must end in .h, unlike", path);
     if (command == BY_RENDER && misnamed)
         return options_usage_error(name, "pictures are PNG files, so the name must not be", path);
     if (command == BY_BAKE && !ends_with_any(path, scenes))
@@ -313,8 +315,11 @@ int options_parse(tool_options *o, int command, int argc, char **argv)
             return say_where_help_is(argv[1]);
         }
     }
+    if (!o->scene_path && command == BY_CONFIG)
+        return options_usage_error(argv[1], "a log is missing, such as gnomon.log", NULL);
     if (!o->scene_path) return options_usage_error(argv[1], "a scene is missing: a .gltf, .glb or .obj file", NULL);
     if (command == BY_BAKE && !o->out_path) return options_usage_error(argv[1], "-o FILE is missing", NULL);
+    if (command == BY_CONFIG && !o->out_path) return options_usage_error(argv[1], "-o FILE.h is missing", NULL);
     if (command == BY_ASSET && !o->out_path) return options_usage_error(argv[1], "-o NAME is missing", NULL);
     if (command == BY_ADVISE && !o->ram) return options_usage_error(argv[1], "--ram BYTES is missing", NULL);
     if (check_out_path(o, command, argv[1])) return TOOL_USAGE;

@@ -13,7 +13,8 @@ enum {
     BY_COMPILE = 32,
     BY_BAKE = 64,
     BY_ASSET = 128,
-    BY_ALL = 255
+    BY_CONFIG = 256,
+    BY_ALL = 255 /* that read a scene */
 };
 
 /* One option. value: what it must be, for messages; NULL: the option has none. */

@@ -48,6 +48,10 @@ static const command_help commands[] = {
      "Meshes and textures are const data for flash; objects, lights and cameras have names and can be written. For "
      "scenes that play a fixed animation use compile.",
      "gnomon asset host/scenes/desk.gltf -o desk"},
+    {"config", BY_CONFIG, "LOG -o FILE.h", "the library's configuration for a program that was recorded",
+     "LOG is what the program wrote on this machine with host/record/recording.c in place of lib/gnomon.c. What no "
+     "frame used is not in FILE.h, and is refused later. --set changes knobs after that.",
+     "gnomon config gnomon.log -o my_config.h"},
     {"bake", BY_BAKE, "SCENE -o OUT.gltf", "the shadows of what stands still as masks, by the ray tracer",
      "Firmware then draws no shadow maps for them. Prints what the masks cost and how true they are.",
      "gnomon bake host/scenes/room.gltf -o baked.gltf --texels 256"},
@@ -91,7 +95,7 @@ static void print_option(const option *o, bool names)
 {
     char text[600];
     size_t used = 0;
-    if (names && o->commands != BY_ALL) {
+    if (names && (o->commands & BY_ALL) != BY_ALL) {
         for (int i = 0; i < N_COMMANDS; i++)
             if (o->commands & commands[i].bit)
                 used += (size_t)snprintf(text + used, sizeof text - used, "%s%s", used ? ", " : "", commands[i].name);

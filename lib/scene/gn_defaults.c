@@ -35,7 +35,7 @@ static gn_light default_light(gn_light_kind kind, uint32_t intensity_uq16)
     light.near_q16 = TENTH_UQ16;
     light.shadow_strength_uq16 = ONE_UQ16;
     light.mask_channel = -1;
-    if (!GN_AUTO_BIAS) light.bias_normal_q16 = ONE_UQ16;
+    if (!GN_AUTO_BIAS && !GN_RECORDED) light.bias_normal_q16 = ONE_UQ16;
     return light;
 }
 
@@ -79,7 +79,7 @@ static int four_cascades_fit(const gn_light *lights, uint32_t n_lights)
 {
     uint32_t n_suns = 0;
     for (uint32_t i = 0; i < n_lights; i++) n_suns += lights[i].kind == GN_LIGHT_DIRECTIONAL;
-    return GN_SHADOWS && GN_MANY_CASCADES > 0 && GN_ATLAS_SIZE >= 64 &&
+    return (GN_RECORDED || (GN_SHADOWS && GN_MANY_CASCADES > 0)) && GN_ATLAS_SIZE >= 64 &&
            GN_ATLAS_TEXELS == GN_ATLAS_SIZE * GN_ATLAS_SIZE && 4 * n_suns <= GN_MAX_SHADOW_TILES;
 }
 
@@ -97,12 +97,12 @@ gn_scene gn_scene_default(const gn_camera *camera, const gn_object *objects, uin
     shadow->max_distance_q16 = 100 * (int32_t)ONE_UQ16;
     shadow->distance_fade_uq16 = TENTH_UQ16;
     shadow->cascade_fade_uq16 = TENTH_UQ16;
-    shadow->filter = shadow->other_filter = GN_FILTER_MAX >= 1 ? GN_FILTER_2X2 : GN_FILTER_HARD;
+    shadow->filter = shadow->other_filter = GN_FILTER_MAX >= 1 || GN_RECORDED ? GN_FILTER_2X2 : GN_FILTER_HARD;
     shadow->penumbra_uq16 = ONE_UQ16;
     shadow->disk_samples = 16;
     shadow->caster_culling = GN_CASTER_CULLING;
     shadow->object_lights = GN_PUNCTUAL_LIGHTS ? GN_OBJECT_LIGHTS_MAX : 0;
-    int exact = !GN_TIGHT_FIT || GN_PRESET == GN_PRESET_ACCURATE;
+    int exact = !(GN_TIGHT_FIT || GN_RECORDED) || GN_PRESET == GN_PRESET_ACCURATE;
     shadow->fit = exact ? GN_FIT_STABLE : GN_FIT_TIGHT;
     shadow->tile_sizes = exact ? GN_TILES_EQUAL : GN_TILES_WORTH;
     shadow->n_cascades = four_cascades_fit(lights, n_lights) ? 4 : 1;

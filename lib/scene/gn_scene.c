@@ -110,6 +110,12 @@ static gn_status check_camera(gn_frame *frame, const gn_camera *camera)
     return GN_OK;
 }
 
+/* Normals and colours that are not built are not looked at, but a recorded program had them in its pictures. */
+static int attributes_ok(const gn_mesh *mesh)
+{
+    return !GN_RECORDED || ((GN_VERTEX_NORMALS || !mesh->nrm_q15) && (GN_VERTEX_COLOURS || !mesh->rgb_uq16));
+}
+
 static gn_field wrong_mesh(const gn_mesh *mesh)
 {
     if (!mesh->pos) return GN_AT(GN_FIELD_MESH_POS);
@@ -224,6 +230,7 @@ static gn_status check_object(gn_frame *frame, const gn_object *object, uint32_t
 #endif
     if (!GN_VERTEX_JOINTS && object->skin) status = GN_FAIL_AT(frame, GN_ERR_SKIN, idx, GN_FIELD_OBJECT_SKIN);
     if (status) return status;
+    if (!attributes_ok(object->mesh)) return GN_FAIL_AT(frame, GN_ERR_MESH, idx, GN_FIELD_OBJECT_MESH);
 #if !GN_BOXES /* else gn_object checks them */
     for (uint32_t i = 0; i < object->mesh->n_vertices; i++) {
         int32_t p[3];
@@ -289,6 +296,8 @@ static gn_field wrong_bias(const gn_light *light)
 static gn_field wrong_strength(const gn_light *light)
 {
     if (light->shadow_strength_uq16 > 65536) return GN_AT(GN_FIELD_LIGHT_STRENGTH);
+    if (GN_RECORDED && !GN_SHADOWS && light->shadow_strength_uq16 && light->mode != GN_LIGHT_BAKED)
+        return GN_AT(GN_FIELD_LIGHT_STRENGTH);
     if (light->colour_exp < -100 || light->colour_exp > 100) return GN_AT(GN_FIELD_LIGHT_COLOUR_EXP);
     if (light->mask_channel < -1 || light->mask_channel > 3) return GN_AT(GN_FIELD_LIGHT_MASK_CHANNEL);
     return wrong_bias(light);

@@ -14,7 +14,7 @@ enum { TOOL_SIMPLIFY_NONE, TOOL_SIMPLIFY_SAFE, TOOL_SIMPLIFY_PATH };
 
 /* The command line, parsed. */
 typedef struct {
-    const char *scene_path;
+    const char *scene_path; /* config: of the log */
     const char *out_path;
     const char *engine; /* render: fixed, reference, truth */
     const char *with;   /* compare: reference, truth */
@@ -68,6 +68,7 @@ int tool_sweep(const tool_options *o);
 int tool_advise(const tool_options *o);
 int tool_compile(const tool_options *o);
 int tool_asset(const tool_options *o);
+int tool_config(const tool_options *o);
 int tool_bake(const tool_options *o);
 
 /* How many samples truth takes, per pixel and axis. */

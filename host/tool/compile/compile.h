@@ -11,6 +11,7 @@
 #include "../fixed/quantise.h"
 #include "../library/library.h"
 #include "../cli/tool.h"
+#include "header.h"
 
 enum { COMPILE_FRAMES_MAX = 20000 };
 
@@ -30,13 +31,6 @@ typedef struct {
     size_t n_words; /* of the field, or of all joints */
     int32_t *words; /* n_words for each frame */
 } compile_track;
-
-/* Why a knob is what it is. */
-typedef struct {
-    const char *knob;
-    char why[120];
-} compile_reason;
-enum { COMPILE_REASONS_MAX = 96 };
 
 /* Of one frame's picture, in its first format and in all. */
 typedef struct {
@@ -94,8 +88,7 @@ typedef struct {
     settings set;       /* the configuration that is chosen */
     compile_run run;
     size_t kept_tiles; /* from frame to frame, all frames */
-    compile_reason reasons[COMPILE_REASONS_MAX];
-    size_t n_reasons;
+    header_reasons reasons;
     compile_saving savings[COMPILE_SAVINGS_MAX];
     size_t n_savings;
     bool keeps_whole; /* some mesh has what others could be without: frames would change */

@@ -1,48 +1,17 @@
 /* The configuration: every knob at what the scene needs, with the reason; and gn_scene_config.h. */
-#include <stdarg.h>
-#include <string.h>
-
 #include "compile.h"
+#include "../../record/uses.h"
 
-static const char *reason_of(const compiled *c, const char *knob)
-{
-    for (size_t i = 0; i < c->n_reasons; i++)
-        if (strcmp(c->reasons[i].knob, knob) == 0) return c->reasons[i].why;
-    return "as set";
-}
-
-#if defined(__GNUC__)
-__attribute__((format(printf, 3, 4)))
-#endif
-static void
-because(compiled *c, const char *knob, const char *format, ...);
-
-static void because(compiled *c, const char *knob, const char *format, ...)
-{
-    size_t i = 0;
-    while (i < c->n_reasons && strcmp(c->reasons[i].knob, knob) != 0) i++;
-    if (i == COMPILE_REASONS_MAX) return;
-    if (i == c->n_reasons) c->n_reasons++;
-    c->reasons[i].knob = knob;
-    va_list arguments;
-    va_start(arguments, format);
-    vsnprintf(c->reasons[i].why, sizeof c->reasons[i].why, format, arguments);
-    va_end(arguments);
-}
+#define because(c, ...) header_because(&(c)->reasons, __VA_ARGS__)
 
 /* ---- Capacities -------------------------------------------------------------------------------------------------- */
-
-static size_t with_margin(const compiled *c, size_t n)
-{
-    return n + (n * (size_t)c->options->margin + 99) / 100;
-}
 
 /* A capacity that was set stays as it is. */
 static void fit(compiled *c, const char *knob, int *capacity, size_t n, int max, const char *what, int peak_frame,
                 bool margin)
 {
     if (*capacity) return;
-    size_t value = margin ? with_margin(c, n) : n;
+    size_t value = margin ? header_with_margin(n, c->options->margin) : n;
     *capacity = value < 1 ? 1 : value > (size_t)max ? max : (int)value;
     if (margin) because(c, knob, "%zu %s at max, in frame %d, and %d %% more", n, what, peak_frame, c->options->margin);
     else because(c, knob, "%zu %s", n, what);
@@ -131,81 +100,19 @@ static void shrink_atlases(compiled *c)
 
 /* ---- Features ---------------------------------------------------------------------------------------------------- */
 
-/* A feature that something of the scene uses: the largest value counts, and what first needed it is named. */
-static void use(compiled *c, const char *knob, int *value, int needed, const char *format, const char *name)
+/* A feature that something of the scene uses: what first needed most of it is named. */
+static void use(void *user, const char *knob, int needed, const char *what, uses_owner owner, uint32_t idx)
 {
-    if (needed <= *value) return;
-    *value = needed;
-    because(c, knob, format, name);
-}
-
-#define USE(feature_name, needed, format, name)                                                                        \
-    use(c, #feature_name, &c->set.feature.feature_name, needed, format, name)
-
-static void use_filter(compiled *c, gn_filter filter, const char *what)
-{
-    USE(filter_max, (int)filter, "the filter of %s", what);
-}
-
-static void use_light(compiled *c, const gn_light *l, bool casts, const char *name)
-{
-    const gn_shadow_settings *s = &c->fixed.scene.shadow;
-    const int32_t *r = l->bias_receiver_q16;
-    if (l->kind != GN_LIGHT_DIRECTIONAL) USE(punctual_lights, 1, "light '%s'", name);
-    if (l->shadow_strength_uq16 && l->mode != GN_LIGHT_BAKED && casts) USE(shadows, 1, "light '%s'", name);
-    if (r[0] || r[1] || r[2] || r[3]) USE(other_biases, 1, "bias_receiver of light '%s'", name);
-    if (l->bias_caster_q16) USE(other_biases, 1, "bias_caster of light '%s'", name);
-    if (l->receiver_plane) USE(other_biases, 1, "receiver_plane of light '%s'", name);
-    if (l->auto_bias != GN_AUTO_BIAS_OFF) USE(auto_bias, 1, "auto_bias of light '%s'", name);
-    if (l->softness == GN_SOFTNESS_SOFT && (s->filter != GN_FILTER_DISK || s->other_filter != GN_FILTER_DISK))
-        USE(filter_max, GN_FILTER_5X5, "soft light '%s'", name);
-    if (l->softness == GN_SOFTNESS_HARD && (s->filter != GN_FILTER_HARD || s->other_filter != GN_FILTER_HARD))
-        USE(filter_max, GN_FILTER_2X2, "hard light '%s'", name);
-}
-
-/* A bit for each format. */
-static void use_format(compiled *c, const gn_texture *t, const char *name)
-{
-    const int formats = c->set.feature.texture_formats | 1 << t->format;
-    if (formats != c->set.feature.texture_formats) because(c, "texture_formats", "object '%s'", name);
-    c->set.feature.texture_formats = formats;
-}
-
-static void use_texture(compiled *c, const gn_texture *t, const char *name)
-{
-    if (!t) return;
-    USE(textures, 1, "object '%s'", name);
-    use_format(c, t, name);
-    if (t->flags & GN_TEXTURE_MIPMAPPED) USE(textures, 2, "the texture of object '%s'", name);
-}
-
-static void use_object(compiled *c, const gn_object *o, const char *name)
-{
-    const uint32_t *s = o->specular_uq16;
-    if (o->visible_alpha != GN_ALPHA_OPAQUE) USE(alpha, 1, "object '%s'", name);
-    if (o->caster_alpha != GN_ALPHA_OPAQUE) USE(alpha, 1, "object '%s'", name);
-    use_texture(c, o->texture, name);
-    use_texture(c, o->emissive_texture, name);
-    if (o->emissive_texture) USE(emissive, 1, "object '%s'", name);
-    if (s[0] || s[1] || s[2]) USE(specular, 1, "object '%s'", name);
-    if (o->emissive_uq16[0] || o->emissive_uq16[1] || o->emissive_uq16[2]) USE(emissive, 1, "object '%s'", name);
-    if (o->mask_u8 || o->mask_image) USE(baked, 1, "object '%s'", name);
-    if (o->baked_uq12) USE(baked, 1, "object '%s'", name);
-    if (o->skin) USE(vertex_joints, o->skin->per_vertex, "object '%s'", name);
-}
-
-static void use_shadows(compiled *c)
-{
-    const gn_shadow_settings *s = &c->fixed.scene.shadow;
-    use_filter(c, (gn_filter)s->filter, "directional lights");
-    use_filter(c, (gn_filter)s->other_filter, "spot and point lights");
-    if (s->blend != GN_BLEND_HARD) USE(many_cascades, 2, "%s", "the setting cascade_blend");
-    if (s->main_light) USE(main_light, 1, "%s", "the setting main_light");
-    if (s->n_cascades > 1) USE(many_cascades, 1, "%s", "the setting cascades");
-    if (s->tile_sizes == GN_TILES_IMPORTANCE) USE(tile_sizes, 1, "%s", "the setting tiles");
-    if (s->tile_sizes == GN_TILES_WORTH) USE(tile_sizes, 2, "%s", "the setting tiles");
-    if (s->fit == GN_FIT_TIGHT) USE(tile_sizes, 2, "%s", "the setting fit");
-    if (s->mixing != GN_MIXING_NONE) USE(baked, 1, "%s", "the setting mixing");
+    compiled *c = user;
+    int *value = settings_feature_at(&c->set, knob);
+    const int both = uses_both(knob, *value, needed);
+    if (both == *value) return;
+    *value = both;
+    if (owner == USES_SETTING) because(c, knob, "%s", what);
+    else {
+        const char **names = owner == USES_LIGHT ? c->light_name : owner == USES_OBJECT ? c->object_name : c->mesh_name;
+        because(c, knob, "%s '%s'", what, names[idx]);
+    }
 }
 
 /* Everything that a scene can use to 0; the rest makes the same picture with and without. */
@@ -235,18 +142,16 @@ static void use_nothing(compiled *c)
 static void choose_features(compiled *c)
 {
     const fixed_scene *f = &c->fixed;
+    const uses_list to = {use, c};
     uint32_t flags = 0; /* shadows may all be in masks, or fall on nothing */
     use_nothing(c);
     for (uint32_t i = 0; i < f->scene.n_objects; i++) flags |= f->objects[i].flags;
     const bool casts = (flags & GN_OBJECT_CASTS) && (flags & GN_OBJECT_RECEIVES);
-    for (uint32_t i = 0; i < f->scene.n_lights; i++) use_light(c, &f->lights[i], casts, c->light_name[i]);
-    for (uint32_t i = 0; i < f->scene.n_objects; i++) use_object(c, &f->objects[i], c->object_name[i]);
-    for (size_t i = 0; i < f->n_meshes; i++) {
-        if (f->meshes[i].nrm_q15) USE(vertex_normals, 1, "mesh '%s'", c->mesh_name[i]);
-        if (f->meshes[i].rgb_uq16) USE(vertex_colours, 1, "mesh '%s'", c->mesh_name[i]);
-    }
-    if (f->scene.camera.half_height_q16) USE(orthographic, 1, "%s", "the camera");
-    if (c->set.feature.shadows) use_shadows(c);
+    for (uint32_t i = 0; i < f->scene.n_lights; i++) uses_light(&to, &f->scene.shadow, &f->lights[i], i, casts);
+    for (uint32_t i = 0; i < f->scene.n_objects; i++) uses_object(&to, &f->objects[i], i);
+    for (uint32_t i = 0; i < f->n_meshes; i++) uses_mesh(&to, &f->meshes[i], i);
+    uses_camera(&to, &f->scene.camera);
+    if (c->set.feature.shadows) uses_shadows(&to, &f->scene.shadow);
 }
 
 /* What changes no picture is built where it has something to do, unless it was switched off. */
@@ -331,18 +236,6 @@ void compile_choose(compiled *c)
 
 /* ---- gn_scene_config.h ------------------------------------------------------------------------------------------- */
 
-static void write_knob(FILE *f, const compiled *c, const char *knob, const char *macro, int value)
-{
-    int n = fprintf(f, "#define GN_%s", macro);
-    fprintf(f, "%*s %6d /* ", 27 - n > 0 ? 27 - n : 0, "", value);
-    compile_write_text(f, reason_of(c, knob));
-    fprintf(f, " */\n");
-}
-
-#define QUALITY_(name, MACRO, lo, hi, meaning, cost)  write_knob(f, c, #name, #MACRO, c->set.quality.name);
-#define CAPACITY_(name, MACRO, lo, hi, meaning, cost) write_knob(f, c, #name, #MACRO, c->set.capacity.name);
-#define FEATURES_(name, MACRO, lo, hi, meaning, cost) write_knob(f, c, #name, #MACRO, c->set.feature.name);
-
 /* What was not chosen by itself, as it changes the picture. */
 static void write_narrow(FILE *f, const compiled *c)
 {
@@ -362,13 +255,6 @@ static void write_narrow(FILE *f, const compiled *c)
     }
 }
 
-static long library_bytes(const compiled *c, flash_core core, const char *optimise)
-{
-    board b = {.core = core, .short_enums = true};
-    board_set_optimisation(&b, optimise);
-    return compile_measure(c, &b).code;
-}
-
 static void write_costs(FILE *f, const compiled *c)
 {
     long ram = settings_ram(&c->set).total;
@@ -380,9 +266,9 @@ static void write_costs(FILE *f, const compiled *c)
     fprintf(f,
             " * Flash, bytes: scene.c %ld; the library with -Os about %ld on Cortex-M0, %ld on Cortex-M4; with -O2, as "
             "boards build it, %ld and %ld.\n",
-            compile_flash_bytes(c, true), library_bytes(c, FLASH_CORTEX_M0, "-Os"),
-            library_bytes(c, FLASH_CORTEX_M4, "-Os"), library_bytes(c, FLASH_CORTEX_M0, "-O2"),
-            library_bytes(c, FLASH_CORTEX_M4, "-O2"));
+            compile_flash_bytes(c, true), header_code_bytes(&c->set, FLASH_CORTEX_M0, "-Os"),
+            header_code_bytes(&c->set, FLASH_CORTEX_M4, "-Os"), header_code_bytes(&c->set, FLASH_CORTEX_M0, "-O2"),
+            header_code_bytes(&c->set, FLASH_CORTEX_M4, "-O2"));
     write_narrow(f, c);
     if (c->n_savings) fprintf(f, " *\n * Left out, and every frame is the same picture, byte for byte:\n");
 }
@@ -410,12 +296,7 @@ void compile_write_config(FILE *f, const compiled *c)
     write_costs(f, c);
     write_savings(f, c);
     fprintf(f, " */\n#ifndef GN_SCENE_CONFIG_H\n#define GN_SCENE_CONFIG_H\n");
-    if (c->set.build.compact) write_knob(f, c, "compact", "COMPACT", 1);
-    fprintf(f, "\n/* Quality: these make the picture. */\n");
-    GN_QUALITY_KNOBS(QUALITY_)
-    fprintf(f, "\n/* Capacity: found by playing the frames. */\n");
-    GN_CAPACITY_KNOBS(CAPACITY_)
-    fprintf(f, "\n/* Features: 0 is not in the image. */\n");
-    GN_FEATURE_KNOBS(FEATURES_)
+    if (c->set.build.compact) header_write_knob(f, &c->reasons, "compact", "COMPACT", 1);
+    header_write_knobs(f, &c->set, &c->reasons);
     fprintf(f, "\n#endif\n");
 }

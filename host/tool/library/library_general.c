@@ -1,27 +1,12 @@
 /* The library in general arithmetic. */
 #include "library_calls.h"
+#include "../../record/uses.h"
 #include "shadow/gn_views.h"
 
 static int get_turn(const void *renderer, uint32_t light_idx, uint32_t view_idx)
 {
     const gn_frame *frame = &((const gn_renderer *)renderer)->frame;
     return frame->view[(uint32_t)frame->light[light_idx].view_idx + view_idx].turn;
-}
-
-/* The most lights that some object's surfaces take: all directional ones, and those of its list. */
-static size_t surface_lights(const gn_frame *frame)
-{
-    size_t directional = 0, punctual = 0, listed = 0;
-    for (uint32_t l = 0; l < frame->scene->n_lights; l++) {
-        if (frame->light[l].off) continue;
-        if (frame->light[l].kind == GN_LIGHT_DIRECTIONAL) directional++;
-        else punctual++;
-    }
-    for (uint32_t i = 0; i < frame->scene->n_objects; i++) {
-        size_t n = frame->object[i].n_lights == GN_OBJECT_LIGHTS_ALL ? punctual : frame->object[i].n_lights;
-        listed = n > listed ? n : listed;
-    }
-    return directional + listed;
 }
 
 /* Texels up to the end of each atlas's last tile. Views that nothing is seen in have an empty one; unused cascades
@@ -53,7 +38,7 @@ static void get_demand(const void *renderer, settings_demand *out)
     *out = (settings_demand){.width = frame->picture.width, .height = frame->picture.height};
     out->objects = frame->scene->n_objects;
     out->lights = frame->scene->n_lights;
-    out->surface_lights = surface_lights(frame);
+    out->surface_lights = uses_surface_lights(frame);
     const bool groups = frame->knobs.triangle_groups > 0;
     out->triangles = groups ? frame->stats.n_tile_triangles : frame->stats.n_triangles;
     out->tile_refs = groups ? 0 : frame->stats.n_tile_refs;

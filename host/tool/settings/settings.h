@@ -30,6 +30,12 @@ void settings_init(settings *out); /* balanced, every feature; capacities 0: as 
 /* Whether preset sets it, too. */
 bool settings_of_preset(const char *key);
 
+/* A feature knob by its name, or NULL. */
+int *settings_feature_at(settings *set, const char *name);
+
+/* Applies a knob of the library alone, which must be one. 0, or -1 with one line in error. */
+int settings_apply_knob(settings *out, const char *name, const char *value, char *error, size_t error_bytes);
+
 /* What a rendered picture needed. */
 typedef struct {
     int width, height;

@@ -67,12 +67,18 @@ bool settings_is_knob(const char *name)
     return find_knob(name) != NULL;
 }
 
+int *settings_feature_at(settings *set, const char *name)
+{
+    for (size_t i = 0; i < groups[FEATURE].n; i++)
+        if (strcmp(name, feature_knobs[i].name) == 0) return field(set, &feature_knobs[i]);
+    return NULL;
+}
+
 int settings_feature(const settings *set, const char *name)
 {
     settings copy = *set;
-    for (size_t i = 0; i < groups[FEATURE].n; i++)
-        if (strcmp(name, feature_knobs[i].name) == 0) return *field(&copy, &feature_knobs[i]);
-    return -1;
+    const int *value = settings_feature_at(&copy, name);
+    return value ? *value : -1;
 }
 
 void settings_each_feature(settings *set, settings_each each, void *user)

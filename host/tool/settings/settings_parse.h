@@ -24,9 +24,8 @@ int settings_word(const char *word, const char *const *words);
 /* "a, b or c" (joint " or ") */
 void settings_join(char *out, size_t bytes, const char *const *words, const char *joint);
 
-/* settings_knobs.c: knobs of the library. Applying one that there is: 0, or -1 with one line in error. */
+/* settings_knobs.c: knobs of the library. */
 bool settings_is_knob(const char *name);
-int settings_apply_knob(settings *out, const char *name, const char *value, char *error, size_t error_bytes);
 void settings_print_knobs(void); /* their tables */
 void settings_near_knobs(nearest *n);
 

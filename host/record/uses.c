@@ -1,0 +1,102 @@
+/* Which features a scene uses. Private headers of the library are for uses_surface_lights. */
+#include "uses.h"
+
+#include <string.h>
+
+static void use(const uses_list *to, const char *knob, int value, const char *what, uses_owner owner, uint32_t idx)
+{
+    to->use(to->user, knob, value, what, owner, idx);
+}
+
+int uses_both(const char *knob, int a, int b)
+{
+    if (strcmp(knob, "texture_formats") == 0) return a | b;
+    return a > b ? a : b;
+}
+
+static void use_softness(const uses_list *to, const gn_shadow_settings *shadow, const gn_light *light, uint32_t idx)
+{
+    const gn_filter a = shadow->filter, b = shadow->other_filter;
+    if (light->softness == GN_SOFTNESS_SOFT && (a != GN_FILTER_DISK || b != GN_FILTER_DISK))
+        use(to, "filter_max", GN_FILTER_5X5, "soft light", USES_LIGHT, idx);
+    if (light->softness == GN_SOFTNESS_HARD && (a != GN_FILTER_HARD || b != GN_FILTER_HARD))
+        use(to, "filter_max", GN_FILTER_2X2, "hard light", USES_LIGHT, idx);
+}
+
+void uses_light(const uses_list *to, const gn_shadow_settings *shadow, const gn_light *light, uint32_t idx, int casts)
+{
+    const int32_t *r = light->bias_receiver_q16;
+    if (light->kind != GN_LIGHT_DIRECTIONAL) use(to, "punctual_lights", 1, "light", USES_LIGHT, idx);
+    if (light->shadow_strength_uq16 && light->mode != GN_LIGHT_BAKED && casts)
+        use(to, "shadows", 1, "light", USES_LIGHT, idx);
+    if (r[0] || r[1] || r[2] || r[3]) use(to, "other_biases", 1, "bias_receiver of light", USES_LIGHT, idx);
+    if (light->bias_caster_q16) use(to, "other_biases", 1, "bias_caster of light", USES_LIGHT, idx);
+    if (light->receiver_plane) use(to, "other_biases", 1, "receiver_plane of light", USES_LIGHT, idx);
+    if (light->auto_bias != GN_AUTO_BIAS_OFF) use(to, "auto_bias", 1, "auto_bias of light", USES_LIGHT, idx);
+    use_softness(to, shadow, light, idx);
+}
+
+static void use_texture(const uses_list *to, const gn_texture *t, uint32_t idx)
+{
+    if (!t) return;
+    use(to, "textures", 1, "object", USES_OBJECT, idx);
+    use(to, "texture_formats", 1 << t->format, "object", USES_OBJECT, idx);
+    if (t->flags & GN_TEXTURE_MIPMAPPED) use(to, "textures", 2, "the texture of object", USES_OBJECT, idx);
+}
+
+void uses_object(const uses_list *to, const gn_object *o, uint32_t idx)
+{
+    const uint32_t *s = o->specular_uq16, *e = o->emissive_uq16;
+    if (o->visible_alpha != GN_ALPHA_OPAQUE) use(to, "alpha", 1, "object", USES_OBJECT, idx);
+    if (o->caster_alpha != GN_ALPHA_OPAQUE) use(to, "alpha", 1, "object", USES_OBJECT, idx);
+    use_texture(to, o->texture, idx);
+    use_texture(to, o->emissive_texture, idx);
+    if (o->emissive_texture) use(to, "emissive", 1, "object", USES_OBJECT, idx);
+    if (s[0] || s[1] || s[2]) use(to, "specular", 1, "object", USES_OBJECT, idx);
+    if (e[0] || e[1] || e[2]) use(to, "emissive", 1, "object", USES_OBJECT, idx);
+    if (o->mask_u8 || o->mask_image) use(to, "baked", 1, "object", USES_OBJECT, idx);
+    if (o->baked_uq12) use(to, "baked", 1, "object", USES_OBJECT, idx);
+    if (o->skin) use(to, "vertex_joints", o->skin->per_vertex, "object", USES_OBJECT, idx);
+}
+
+void uses_mesh(const uses_list *to, const gn_mesh *mesh, uint32_t idx)
+{
+    if (mesh->nrm_q15) use(to, "vertex_normals", 1, "mesh", USES_MESH, idx);
+    if (mesh->rgb_uq16) use(to, "vertex_colours", 1, "mesh", USES_MESH, idx);
+}
+
+void uses_camera(const uses_list *to, const gn_camera *camera)
+{
+    if (camera->half_height_q16) use(to, "orthographic", 1, "the camera", USES_SETTING, 0);
+}
+
+void uses_shadows(const uses_list *to, const gn_shadow_settings *s)
+{
+    use(to, "filter_max", (int)s->filter, "the filter of directional lights", USES_SETTING, 0);
+    use(to, "filter_max", (int)s->other_filter, "the filter of spot and point lights", USES_SETTING, 0);
+    if (s->blend != GN_BLEND_HARD) use(to, "many_cascades", 2, "the setting cascade_blend", USES_SETTING, 0);
+    if (s->main_light) use(to, "main_light", 1, "the setting main_light", USES_SETTING, 0);
+    if (s->n_cascades > 1) use(to, "many_cascades", 1, "the setting cascades", USES_SETTING, 0);
+    if (s->tile_sizes == GN_TILES_IMPORTANCE) use(to, "tile_sizes", 1, "the setting tiles", USES_SETTING, 0);
+    if (s->tile_sizes == GN_TILES_WORTH) use(to, "tile_sizes", 2, "the setting tiles", USES_SETTING, 0);
+    if (s->fit == GN_FIT_TIGHT) use(to, "tile_sizes", 2, "the setting fit", USES_SETTING, 0);
+    if (s->mixing != GN_MIXING_NONE) use(to, "baked", 1, "the setting mixing", USES_SETTING, 0);
+}
+
+uint32_t uses_surface_lights(const gn_frame *frame)
+{
+    uint32_t directional = 0, punctual = 0, listed = 0;
+    for (uint32_t l = 0; l < frame->scene->n_lights; l++) {
+        if (frame->light[l].off) continue;
+        if (frame->light[l].kind == GN_LIGHT_DIRECTIONAL) directional++;
+        else punctual++;
+    }
+#if GN_PUNCTUAL_LIGHTS
+    for (uint32_t i = 0; i < frame->scene->n_objects; i++) {
+        const uint32_t n =
+            frame->object[i].n_lights == GN_OBJECT_LIGHTS_ALL ? punctual : (uint32_t)frame->object[i].n_lights;
+        if (n > listed) listed = n;
+    }
+#endif
+    return directional + listed;
+}
