@@ -163,8 +163,8 @@ fi
 
 # ---- ESP-IDF and Zephyr: their build files, on stand-ins of what an SDK gives them, with the defaults of Kconfig ------------------
 
-# Capacities and features of lib/gn_knobs.h and the preset, without two atlases by their texels and two switches of the build.
-n_options=$(awk '/^#define GN_[A-Z]*_KNOBS\(/ { on = /CAPACITY|FEATURE/ } on && /^ *X\(/ { n++ } END { print n + 1 - 4 }' lib/gn_knobs.h)
+# Capacities and features of lib/gn_knobs.h and the preset, without two atlases by their texels.
+n_options=$(awk '/^#define GN_[A-Z]*_KNOBS\(/ { on = /CAPACITY|FEATURE/ } on && /^ *X\(/ { n++ } END { print n + 1 - 2 }' lib/gn_knobs.h)
 # A header of what menuconfig would write. Each option: a kind with a text, a range unless it is a switch, a default in it.
 defaults() {
     awk -v all="$n_options" '
