@@ -321,7 +321,7 @@ static void cascade_fade(gn_scene *s)
 }
 static void shadow_filter(gn_scene *s)
 {
-    s->shadow.filter = (gn_filter)(GN_FILTER_MAX + 1);
+    s->shadow.filter = GN_FILTER_DISK;
 }
 static void shadow_filter_wild(gn_scene *s)
 {
