@@ -15,18 +15,18 @@
 #include GN_USER_CONFIG
 #endif
 
-/* Knobs that are gone: docs/CHANGELOG.md says what to do instead. */
+/* Knobs that are gone. */
 #if defined(GN_TILE_LIGHTS) || defined(GN_LINEAR_KERNELS) || defined(GN_DEPTH_BLOCKS) || defined(GN_ATTEN_BITS) ||     \
     defined(GN_NEWTON_STEPS) || defined(GN_SHADOW_DEPTH_FRAC) || defined(GN_SHADOW_SUBPIXEL_BITS) ||                   \
     defined(GN_WEIGHT_BITS)
-#error "the configuration sets a knob that is gone"
+#error "the configuration sets a knob that is gone: docs/CHANGELOG.md says what to do instead"
 #endif
 #if defined(GN_CASTER_ALPHA) || defined(GN_VISIBLE_ALPHA) || defined(GN_EMISSIVE_TEXTURES) || defined(GN_MASKS) ||     \
     defined(GN_BAKED_LIGHT) || defined(GN_RECEIVER_BIAS) || defined(GN_CASTER_BIAS) || defined(GN_RECEIVER_PLANE) ||   \
     defined(GN_BLENDED_CASCADES) || defined(GN_CASTER_CULLING) || defined(GN_DISK_FILTER) ||                           \
     defined(GN_TEXTURE_LEVELS) || defined(GN_STATIC_LAYER) || defined(GN_TILE_IMPORTANCE) || defined(GN_TIGHT_FIT) ||  \
     defined(GN_CASTER_CLIPPING) || defined(GN_CLIPS) || defined(GN_PICKING) || defined(GN_RAW_VIEWS)
-#error "the configuration sets a knob that is part of another one now"
+#error "the configuration sets a knob that is part of another one now: docs/CHANGELOG.md says of which"
 #endif
 
 #ifndef GN_PRESET

@@ -196,9 +196,9 @@ typedef struct {
     uint32_t penumbra_uq16;      /* disk radius: directional in 0.02 units, spot and point in 0.004 tiles; 0 .. 64.0 */
     uint32_t disk_samples;       /* disk filter: 1..64 */
     gn_mixing mixing;
-    gn_tile_sizes tile_sizes; /* worth: by pixels that are looked up; needs tight_fit. Default of all presets but
-                                 accurate */
-    gn_fit fit;               /* tight needs tight_fit. Default of all presets but accurate */
+    gn_tile_sizes tile_sizes; /* worth: by pixels that are looked up; needs the knob tile_sizes 2. Default of all
+                                 presets but accurate */
+    gn_fit fit;               /* tight needs that, too. Default of all presets but accurate */
     uint32_t main_light;      /* 1: only the brightest directional light has cascades; others take one tile of the
                                  local-light atlas */
     uint32_t caster_culling;  /* 1: the same pixels, fewer casters */

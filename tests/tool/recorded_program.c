@@ -225,6 +225,24 @@ static void still(void)
     n_frames = 2;
 }
 
+/* What the second frame changes. */
+static void (*next_frame)(void);
+
+/* Settings of shadows are checked in a frame without one, too. */
+static void game(void)
+{
+    light[0].shadow_strength_uq16 = 65536;
+    sharp();
+    stable();
+}
+
+static void menu(void)
+{
+    n_frames = 2;
+    light[0].shadow_strength_uq16 = 0;
+    next_frame = game;
+}
+
 static void refresh(void)
 {
     n_frames = 2;
@@ -291,13 +309,13 @@ static const struct {
     const char *name;
     void (*change)(void);
 } things[] = {
-    THING(plain),    THING(bare),         THING(hard),       THING(sharp),    THING(stable),    THING(unbiased),
-    THING(spot),     THING(point),        THING(suns),       THING(filter),   THING(disk),      THING(soft),
-    THING(cascades), THING(blend),        THING(importance), THING(alpha),    THING(caster),    THING(textured),
-    THING(grey),     THING(levels),       THING(specular),   THING(emissive), THING(glow),      THING(masked),
-    THING(lit),      THING(receiver),     THING(thin),       THING(plane),    THING(refresh),   THING(still),
-    THING(normals),  THING(colours),      THING(skinned),    THING(gradient), THING(behind),    THING(over),
-    THING(format),   THING(orthographic), THING(objects),    THING(wide),     THING(main_light)};
+    THING(plain),    THING(bare),         THING(hard),       THING(sharp),    THING(stable),     THING(unbiased),
+    THING(spot),     THING(point),        THING(suns),       THING(filter),   THING(disk),       THING(soft),
+    THING(cascades), THING(blend),        THING(importance), THING(alpha),    THING(caster),     THING(textured),
+    THING(grey),     THING(levels),       THING(specular),   THING(emissive), THING(glow),       THING(masked),
+    THING(lit),      THING(receiver),     THING(thin),       THING(plane),    THING(refresh),    THING(still),
+    THING(normals),  THING(colours),      THING(skinned),    THING(gradient), THING(behind),     THING(over),
+    THING(format),   THING(orthographic), THING(objects),    THING(wide),     THING(main_light), THING(menu)};
 
 static void describe(void)
 {
@@ -319,7 +337,10 @@ int main(int argc, char **argv)
     for (size_t i = 0; i < sizeof things / sizeof *things; i++)
         if (strcmp(thing, things[i].name) == 0) things[i].change();
     gn_status status = gn_init(&renderer, &picture);
-    for (int frame = 0; frame < n_frames && !status; frame++) status = gn_render(&renderer, &scene, flush, NULL);
+    for (int frame = 0; frame < n_frames && !status; frame++) {
+        if (frame && next_frame) next_frame();
+        status = gn_render(&renderer, &scene, flush, NULL);
+    }
     if (status) printf("%s\n", gn_status_text(status));
     else printf("%08x\n", (unsigned)hash);
     return status != GN_OK;

@@ -92,9 +92,9 @@ void info_parts_text(const info_parts *p)
         printf("  on parts: %s\n", p->refused);
         return;
     }
-    printf(
-        "  frames per second, an estimate: nine in ten are within %d %% (docs/COST.md); p: the panel takes longer:\n",
-        cost_error_percent);
+    printf("  frames per second with -O2, an estimate: nine in ten are within %d %% (docs/COST.md); p: the panel takes "
+           "longer:\n",
+           cost_error_percent);
     printf("    part           core        MHz       first  animated     still    RAM, KB        flash, KB\n");
     for (int i = 0; i < PARTS; i++) text_part(p, i);
 }
