@@ -68,6 +68,7 @@ static gn_field wrong_format(const gn_picture *picture)
 {
     const uint32_t format = (uint32_t)picture->format;
     const int raw = GN_RAW_VIEWS && format == GN_FORMAT_RAW32;
+    /* compact arithmetic draws RGB565 alone, but for raw views */
     if (!raw && (format > GN_FORMAT_MONO1 || ((!GN_OTHER_FORMATS || GN_COMPACT) && format != GN_FORMAT_RGB565 &&
                                               format != GN_FORMAT_RGB565_SWAPPED)))
         return GN_AT(GN_FIELD_PICTURE_FORMAT);

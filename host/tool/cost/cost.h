@@ -6,9 +6,9 @@
 
 /* Instructions of one frame with nothing kept from another: shadow tiles, setup and binning, rasterising, shading.
  * Weights and their error: cost_table.h. */
+double cost_instructions(const count_all *counts);
+
 /* What nine in ten estimates keep, in per cent, of pictures of scenes that were left out of the fit. */
 extern const int cost_error_percent;
-
-double cost_instructions(const count_all *counts);
 
 #endif
