@@ -29,14 +29,12 @@ typedef struct {
     const char *what; /* the reason */
     uses_owner owner;
     uint32_t idx, frame_idx;
-    int asked; /* as much of it as settings of shadows name: used once a light asks for a shadow */
-    const char *asked_for;
 } knob;
 
 #define AS_BUILT_(name, MACRO, lo, hi, meaning, cost)                                                                  \
-    {#name, lo, GN_##MACRO, GN_##MACRO, "as recorded", USES_SETTING, 0, 0, 0, NULL},
+    {#name, lo, GN_##MACRO, GN_##MACRO, "as recorded", USES_SETTING, 0, 0},
 #define FROM_NONE_(name, MACRO, lo, hi, meaning, cost)                                                                 \
-    {#name, lo, GN_##MACRO, 0, "nothing uses it", USES_SETTING, 0, 0, 0, NULL},
+    {#name, lo, GN_##MACRO, 0, "nothing uses it", USES_SETTING, 0, 0},
 static knob knobs[] = {GN_QUALITY_KNOBS(AS_BUILT_) GN_CAPACITY_KNOBS(FROM_NONE_) GN_FEATURE_KNOBS(FROM_NONE_)};
 enum { N_KNOBS = sizeof knobs / sizeof *knobs };
 
@@ -73,16 +71,6 @@ static void use_knob(void *user, const char *name, int value, const char *what, 
     k->used = both;
     k->what = what, k->owner = owner, k->idx = idx, k->frame_idx = n_frames;
     changed = 1;
-}
-
-static void ask_for_knob(void *user, const char *name, int value, const char *what, uses_owner owner, uint32_t idx)
-{
-    knob *k = find(name);
-    const int both = uses_both(name, k->asked, value);
-    (void)user, (void)owner, (void)idx;
-    if (both == k->asked) return;
-    k->asked = both;
-    k->asked_for = what;
 }
 
 static void use_at_least(const char *name, uint32_t value, const char *what)
@@ -159,16 +147,14 @@ static void use_frame(const gn_frame *frame)
 /* A light that asks for a shadow gets one, whether or not something casts: something may come to cast. */
 static void use_scene(const gn_scene *s)
 {
-    const uses_list to = {use_knob, NULL}, later = {ask_for_knob, NULL};
+    const uses_list to = {use_knob, NULL};
     for (uint32_t i = 0; i < s->n_lights; i++) uses_light(&to, &s->shadow, &s->lights[i], i, 1);
     for (uint32_t i = 0; i < s->n_objects; i++) {
         uses_object(&to, &s->objects[i], i);
         uses_mesh(&to, s->objects[i].mesh, i);
     }
     uses_camera(&to, &s->camera);
-    uses_shadows(&later, &s->shadow); /* they are checked in frames without a shadow, too */
-    for (int i = 0; find("shadows")->used && i < N_KNOBS; i++)
-        if (knobs[i].asked) use_knob(NULL, knobs[i].name, knobs[i].asked, knobs[i].asked_for, USES_SETTING, 0);
+    uses_shadows(&to, &s->shadow); /* they are checked without a shadow, too, and cost nothing then */
 }
 
 static void begin(void)
