@@ -62,6 +62,9 @@ info docs/scenes/edge.gltf --size 96x64
 grep -q -E '^    nRF52840 .* [0-9.]+  +-  +[0-9.]+p? ' "$tmp/out" && pass || fail "a scene in which nothing moves: $(grep nRF "$tmp/out")"
 info docs/scenes/edge.gltf --size 96x64 --set shadows=0 --set preset=tiny --json
 holds "the panel" "$(part STM32H743 first) <= 60e6 / (96 * 64 * 16) * 1.001"
+# a grey display of 4 bits a pixel takes a quarter of that
+info docs/scenes/edge.gltf --size 96x64 --set shadows=0 --set preset=tiny --set output=grey4 --json
+holds "a grey panel" "$(part STM32H743 first) > 60e6 / (96 * 64 * 16) * 1.1 && $(part STM32H743 first) <= 60e6 / (96 * 64 * 4) * 1.001"
 # what the second core draws in takes RAM: without it one core works
 info docs/scenes/edge.gltf --size 96x64 --set atlas_size=256 --set fit=stable --set tiles=equal --set cascades=1 --json
 holds "RAM of parts" "$(part RP2040 ram_bytes) > 131072 && $(part STM32F103 ram_bytes) > $(part STM32F103 ram_of)"
@@ -70,6 +73,8 @@ holds "RAM of parts" "$(part RP2040 ram_bytes) > 131072 && $(part STM32F103 ram_
 # what cannot be compiled says why, and what is no scene is an error of one line
 info host/scenes/cube.gltf --size 32x24 --frames 0-20001
 grep -q '^  on parts: .*more than 20000' "$tmp/out" && pass || fail "too many frames: $(grep 'on parts' "$tmp/out")"
+info host/scenes/cube.gltf --size 32x24 --frames 0-20001 --json
+grep -q '"no_parts": ".*more than 20000' "$tmp/out" && ! grep -q '"parts"' "$tmp/out" && pass || fail "too many frames, --json: $(tail -c 300 "$tmp/out")"
 printf '{"asset": {"version": "2.0"}, "scenes": [{"nodes": [7]}]}' >"$tmp/broken.gltf"
 info "$tmp/broken.gltf"
 [ $? = 1 ] && [ "$(wc -l <"$tmp/err")" = 1 ] && [ ! -s "$tmp/out" ] && grep -q 'broken.gltf.*/scenes/0' "$tmp/err" && pass || fail "a broken file: $(cat "$tmp/err")"

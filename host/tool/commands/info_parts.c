@@ -30,9 +30,16 @@ static void judge(info_part *out, const compiled *c, const part *p)
     out->fits = out->ram <= b.ram && out->flash <= b.flash;
 }
 
-static void find_speed(info_part *out, const info_parts *all, const tool_options *o, const part *p)
+/* What a panel takes per pixel: displays of colour take 16 bits. */
+static int pixel_bits(gn_format output)
 {
-    const double panel = part_panel_s(p, o->width, o->height);
+    return output == GN_FORMAT_MONO1 ? 1 : output == GN_FORMAT_GREY4 ? 4 : output == GN_FORMAT_GREY8 ? 8 : 16;
+}
+
+static void find_speed(info_part *out, const info_parts *all, const compiled *c, const part *p)
+{
+    const tool_options *o = c->options;
+    const double panel = part_panel_s(p, o->width, o->height, pixel_bits(c->set.output));
     for (int i = 0; i < COMPILE_WORKS; i++) {
         const double render = part_render_s(p, out->n_cores, &all->work[i].prepare, &all->work[i].tiles);
         out->by_panel[i] = panel > render;
@@ -58,7 +65,7 @@ void info_parts_find(info_parts *out, const tool_options *o, int n_frames)
         snprintf(out->refused, sizeof out->refused, "a frame of the compiled scene is refused");
     for (int i = 0; !out->refused[0] && i < PARTS; i++) {
         judge(&out->part[i], &c, &parts[i]);
-        find_speed(&out->part[i], out, &with, &parts[i]);
+        find_speed(&out->part[i], out, &c, &parts[i]);
     }
     compile_free(&c);
 }
@@ -138,7 +145,11 @@ static void json_work(const compile_work *work, int frame)
 
 void info_parts_json(const info_parts *p)
 {
-    if (p->refused[0]) return;
+    if (p->refused[0]) {
+        printf(", \"no_parts\": ");
+        tool_json_string(p->refused);
+        return;
+    }
     printf(", \"error_percent\": %d, \"parts\": [", cost_error_percent);
     for (int i = 0; i < PARTS; i++) json_part(p, i);
     printf("], \"work\": {");

@@ -6,7 +6,7 @@
 
 #include "cost.h"
 
-enum { STACK_BYTES = 4096, CONSOLE_BYTES = 248, PROGRAM_BYTES = 3000, PIXEL_BITS = 16 };
+enum { STACK_BYTES = 4096, CONSOLE_BYTES = 248, PROGRAM_BYTES = 3000 };
 
 typedef struct {
     const char *cpu, *name;
@@ -65,7 +65,7 @@ double part_render_s(const part *p, int n_cores, const count_all *prepare, const
     return m3 * s->instructions * s->cycles / (1e6 * p->mhz);
 }
 
-double part_panel_s(const part *p, int width, int height)
+double part_panel_s(const part *p, int width, int height, int pixel_bits)
 {
-    return (double)width * height * PIXEL_BITS / (1e6 * p->panel_mhz);
+    return (double)width * height * pixel_bits / (1e6 * p->panel_mhz);
 }

@@ -26,6 +26,6 @@ board part_board(const part *p);
 
 /* Estimates: seconds of n_cores for a frame whose screen tiles all cores draw, and of the panel for its pixels. */
 double part_render_s(const part *p, int n_cores, const count_all *prepare, const count_all *tiles);
-double part_panel_s(const part *p, int width, int height);
+double part_panel_s(const part *p, int width, int height, int pixel_bits);
 
 #endif
