@@ -23,6 +23,6 @@ typedef struct {
 /* n_frames: of the whole animation. */
 void info_parts_find(info_parts *out, const tool_options *o, int n_frames);
 void info_parts_text(const info_parts *p);
-void info_parts_json(const info_parts *p); /* ", "name": ..."; where the scene cannot be compiled, "no_parts" says why */
+void info_parts_json(const info_parts *p); /* ", "name": ...", or "no_parts": why */
 
 #endif
