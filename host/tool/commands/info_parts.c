@@ -30,16 +30,16 @@ static void judge(info_part *out, const compiled *c, const part *p)
     out->fits = out->ram <= b.ram && out->flash <= b.flash;
 }
 
-/* What a panel takes per pixel: displays of colour take 16 bits. */
-static int pixel_bits(gn_format output)
+/* What the panel is sent for a picture: RGB888 is for files, and displays of colour take 16 bits a pixel. */
+static size_t panel_bytes(const compiled *c)
 {
-    return output == GN_FORMAT_MONO1 ? 1 : output == GN_FORMAT_GREY4 ? 4 : output == GN_FORMAT_GREY8 ? 8 : 16;
+    const gn_format output = c->set.output == GN_FORMAT_RGB888 ? GN_FORMAT_RGB565 : c->set.output;
+    return gn_format_bytes(output, (uint32_t)c->options->width, (uint32_t)c->options->height);
 }
 
 static void find_speed(info_part *out, const info_parts *all, const compiled *c, const part *p)
 {
-    const tool_options *o = c->options;
-    const double panel = part_panel_s(p, o->width, o->height, pixel_bits(c->set.output));
+    const double panel = part_panel_s(p, panel_bytes(c));
     for (int i = 0; i < COMPILE_WORKS; i++) {
         const double render = part_render_s(p, out->n_cores, &all->work[i].prepare, &all->work[i].tiles);
         out->by_panel[i] = panel > render;

@@ -65,7 +65,7 @@ double part_render_s(const part *p, int n_cores, const count_all *prepare, const
     return m3 * s->instructions * s->cycles / (1e6 * p->mhz);
 }
 
-double part_panel_s(const part *p, int width, int height, int pixel_bits)
+double part_panel_s(const part *p, size_t bytes)
 {
-    return (double)width * height * pixel_bits / (1e6 * p->panel_mhz);
+    return 8 * (double)bytes / (1e6 * p->panel_mhz);
 }

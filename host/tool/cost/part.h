@@ -24,8 +24,8 @@ const char *part_core_name(const part *p);
 /* Its memory, as boards of the project's own are built. */
 board part_board(const part *p);
 
-/* Estimates: seconds of n_cores for a frame whose screen tiles all cores draw, and of the panel for its pixels. */
+/* Estimates: seconds of n_cores for a frame whose screen tiles all cores draw, and of the panel for a picture. */
 double part_render_s(const part *p, int n_cores, const count_all *prepare, const count_all *tiles);
-double part_panel_s(const part *p, int width, int height, int pixel_bits);
+double part_panel_s(const part *p, size_t bytes);
 
 #endif
