@@ -1,10 +1,10 @@
 #!/bin/sh
 # Every command of the tool under the address and undefined-behaviour sanitizers, on small pictures of scenes that use most features.
-# Environment: SANITIZED, the build's folder: that of tests/run.sh, so that nothing is compiled twice.
+# Its build is that of tests/run.sh, to the flags: nothing is compiled twice.
 cd "$(dirname "$0")/../.." || exit 1
 . tests/support/check.sh
-dir=${SANITIZED:-build/test/gcc}
-if ! make -s -j2 BUILD="$dir" CC=gcc OPT=-O2 HOST_OPT=-O2 SAN="-fsanitize=address,undefined -fno-sanitize-recover=all" "$dir/gnomon" >"$tmp/log" 2>&1; then
+dir=build/test/clang
+if ! make -s -j2 BUILD=$dir CC=clang OPT=-O0 HOST_OPT=-O1 SAN="-g1 -fsanitize=address,undefined -fno-sanitize-recover=all" $dir/gnomon >"$tmp/log" 2>&1; then
     echo "the sanitized tool does not build: $(grep -m 1 -E 'error|undefined' "$tmp/log")"
     echo "0 passed, 1 failed"
     exit 1
