@@ -61,7 +61,7 @@ names() { # names FOLDER...: the programs of these folders of tests/
         for program in tests/"$folder"/test_*.c; do basename "$program" .c; done
     done
 }
-sanitizers="-g1 -fsanitize=address,undefined -fno-sanitize-recover=all" # -g1: line numbers alone, less to write and to link
+. tests/support/sanitized.sh
 
 # Every program with GCC, optimised as users do. What takes long goes first, so that none of it is left alone in the end; of scripts, before
 # those that fill two cores, those that fill one.
@@ -86,12 +86,13 @@ job run 'make -s run >build/tmp/run.log 2>&1 && echo "1 passed, 0 failed" || { c
 # which draw pictures by the hundred, and programs with floors for the random scenes of GCC (the compiler chooses the order of random numbers)
 # or bytes of its sines (test_scenes) are left to make soak.
 programs=$(for name in $(names tool firmware | grep -v -x test_scenes) arrival casters corner radiance refused runs tiles; do echo "build/test/clang/test_${name#test_}"; done)
-build $programs BUILD=build/test/clang CC=clang OPT=-O0 HOST_OPT=-O1 SAN="$sanitizers"
+build $programs $sanitized_clang SAN="$sanitizers"
 for program in $programs; do job "clang-O0/${program##*/}" "$program"; done
 if [ "$THOROUGH" ]; then # all of it optimised, too, and every program with GCC, but for pictures, which have campaigns of their own
     build alone-programs BUILD=build/test/clang-O1 CC=clang OPT=-O1 SAN="$sanitizers"
     for program in build/test/clang-O1/test_*; do job "clang-O1/${program##*/}" "$program"; done
-    build test-programs BUILD=build/test/gcc CC=gcc HOST_OPT=-O1 SAN="$sanitizers"
+    build test-programs $sanitized_gcc SAN="$sanitizers"
+    job gcc-O2/test_tool_sanitized.sh "SANITIZED_BY=gcc sh tests/tool/test_tool_sanitized.sh"
     for name in $(names unit oracle reference property tool firmware); do
         case " $pictures test_golden_random " in *" $name "*) ;; *) job "gcc-O2/$name" "build/test/gcc/$name" ;; esac
     done

@@ -1,10 +1,12 @@
 #!/bin/sh
 # Every command of the tool under the address and undefined-behaviour sanitizers, on small pictures of scenes that use most features.
-# Its build is that of tests/run.sh, to the flags: nothing is compiled twice.
+# It has the objects of the programs that tests/run.sh builds before. Environment: SANITIZED_BY=gcc, as make soak runs it, too.
 cd "$(dirname "$0")/../.." || exit 1
 . tests/support/check.sh
-dir=build/test/clang
-if ! make -s -j2 BUILD=$dir CC=clang OPT=-O0 HOST_OPT=-O1 SAN="-g1 -fsanitize=address,undefined -fno-sanitize-recover=all" $dir/gnomon >"$tmp/log" 2>&1; then
+. tests/support/sanitized.sh
+case ${SANITIZED_BY:-clang} in gcc) flags=$sanitized_gcc ;; *) flags=$sanitized_clang ;; esac
+dir=${flags#BUILD=} dir=${dir%% *}
+if ! make -s -j2 $flags SAN="$sanitizers" "$dir/gnomon" >"$tmp/log" 2>&1; then
     echo "the sanitized tool does not build: $(grep -m 1 -E 'error|undefined' "$tmp/log")"
     echo "0 passed, 1 failed"
     exit 1

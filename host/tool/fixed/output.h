@@ -17,10 +17,11 @@ typedef struct {
 } output_panel;
 void output_flush(void *user, int x, int y, int w, int h, const void *pixels);
 
-/* The reference's way to the same: `encoded` is a colour after the encoding curve, 0..1; (x, y) its pixel. */
 /* Levels above 0 of red, green and blue. Greys: so many that nothing is rounded. */
 const double *output_levels(gn_format format);
 
+/* Rounds the reference's colour to a format, as levels of 8 bits: `encoded` is the colour after the encoding curve,
+ * 0..1; (x, y) its pixel, which mono1 dithers by. */
 void output_quantise(gn_format format, const double encoded[3], int srgb, int x, int y, uint8_t rgb8[3]);
 
 #endif
