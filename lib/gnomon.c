@@ -113,7 +113,6 @@
 #include "shadow/gn_disk.c"
 #endif
 #if GN_INTERPOLATES
-#include "shadow/gn_filter_cells.c"
 #include "shadow/gn_window.c"
 #endif
 #if GN_DISK_FILTER
@@ -146,7 +145,6 @@
 #include "shade/gn_corner_punctual.c"
 #include "shade/gn_corner_screen.c"
 #include "shade/gn_lattice.c"
-#include "shade/gn_lattice_block.c"
 #include "shade/gn_lattice_border.c"
 #include "shade/gn_lattice_draw.c"
 #include "shade/gn_lattice_even.c"

@@ -45,7 +45,6 @@
     X(places, "corner seen by a light's view")                                                                         \
     X(cells, "cell of a surface")                                                                                      \
     X(cells_split, "cell that is split")                                                                               \
-    X(cells_judged, "cell whose shadow bounds of depth are asked for")                                                 \
     X(cells_plain, "cell of one colour")                                                                               \
     X(cells_drawn, "cell of several colours")                                                                          \
     X(patches, "small triangle that is shaded from its record")                                                        \

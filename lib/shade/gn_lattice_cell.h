@@ -88,18 +88,6 @@ GN_HOT static inline int32_t gn_cell_texture_log2(const gn_frame *frame, const g
 }
 #endif
 
-#if GN_SHADOWS
-/* At most so many texels lie between two lookups of a filter, Q16: in between it is close to linear (the last table row
- * of NUMERICS 4.12). 0: every pixel is looked up. */
-GN_HOT static inline uint32_t gn_cell_lookup_texels_q16(const gn_frame *frame, const gn_light_view *view)
-{
-    if (view->filter == GN_FILTER_HARD || view->filter == GN_FILTER_DISK) return 0;
-    uint32_t tent = GN_K(frame, persp_step) == 16 ? 65536 : 49152;
-    if (view->filter == GN_FILTER_2X2) return tent / 3;
-    return view->filter_idx == 1 ? tent : tent * (2 * (uint32_t)view->filter_idx + 1) >> 2;
-}
-#endif
-
 #if GN_SHADOWS || GN_MASKS || GN_VERTEX_COLOURS
 /* Largest less smallest of four values. */
 GN_HOT static inline uint32_t gn_cell_spread(int32_t a, int32_t b, int32_t c, int32_t d)

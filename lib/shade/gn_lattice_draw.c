@@ -1,4 +1,4 @@
-/* Pixels of a cell: rows of nodes, between which colours are linear along the row and from row to row. */
+/* Pixels of a cell, row by row: of one colour, linear, or a node each where a shadow has an edge or there is a texture. */
 #include "gn_internal.h"
 
 #include "base/gn_count.h"
@@ -7,7 +7,6 @@
 #include "shade/gn_arrival.h"
 #include "shade/gn_exact.h"
 #include "shade/gn_lattice.h"
-#include "shade/gn_lattice_block.h"
 #include "shade/gn_lattice_look.h"
 #include "shade/gn_lattice_row.h"
 #include "shade/gn_lattice_texture.h"
@@ -18,6 +17,43 @@
 #include "shadow/gn_window.h"
 
 #if GN_INTERPOLATES
+
+/* Index of the lowest bit that is set. */
+GN_HOT static inline int32_t lowest_bit(uint32_t bits)
+{
+    return 31 - gn_clz32(bits & (0U - bits));
+}
+
+/* ---- Cells of one colour ----------------------------------------------------------------------------------------- */
+
+GN_HOT static uint32_t pack_corner(gn_shading *s, const int32_t colour_q24[3])
+{
+    uint32_t q20[3];
+    for (int c = 0; c < 3; c++) q20[c] = (uint32_t)gn_max32(colour_q24[c], 0) >> 4;
+    return gn_exact_pack(s, q20);
+}
+
+/* Whether all corners have the same pixel, as where nothing varies. */
+GN_HOT static GN_NOINLINE int is_plain(gn_shading *s, const int32_t (*colour_q24)[3], uint32_t *packed)
+{
+    for (int c = 0; c < 3; c++)
+        for (int i = 1; i < 4; i++)
+            if (gn_abs32(colour_q24[i][c] - colour_q24[0][c]) >> 17) return 0; /* 1 / 128 */
+    if (GN_RAW_VIEWS && s->frame->picture.format == GN_FORMAT_RAW32) return 0;
+    *packed = pack_corner(s, colour_q24[0]);
+    for (int i = 1; i < 4; i++)
+        if (pack_corner(s, colour_q24[i]) != *packed) return 0;
+    return 1;
+}
+
+GN_HOT static void fill_cell(gn_shading *s, int32_t x, int32_t y, int32_t size_log2, uint32_t packed)
+{
+    GN_COUNT(cells_plain, 1);
+    for (int32_t end = y + (1 << size_log2); y < end; y++) {
+        uint32_t bits = gn_lattice_bits(&s->lattice, x, y, size_log2);
+        if (bits) gn_pixel_store_bits(s->frame, &s->rows, x, y, bits, packed);
+    }
+}
 
 /* ---- Rows of nodes ----------------------------------------------------------------------------------------------- */
 
@@ -117,7 +153,7 @@ GN_HOT static GN_NOINLINE void look_up_alone(const gn_drawing *d, const gn_latti
 {
     gn_shading *s = d->s;
     gn_lattice *l = &s->lattice;
-    uint32_t bits = below >> d->size_log2 ? 0 : gn_lattice_bits(l, d->x, d->y + below, d->size_log2) >> d->first;
+    const uint32_t bits = gn_lattice_bits(l, d->x, d->y + below, d->size_log2) >> d->first;
     for (int32_t i = 0; i < d->n; i++) {
         out[i] = 65536;
         if (!(bits >> i & 1U)) continue;
@@ -128,7 +164,7 @@ GN_HOT static GN_NOINLINE void look_up_alone(const gn_drawing *d, const gn_latti
 }
 #endif
 
-/* A row of nodes in a view, `below` pixels under the cell's first row, and steps between pixels. Depths are in Q30. */
+/* A row of pixels in a view, `below` pixels under the cell's first row, and its steps. Depths are in Q30. */
 GN_HOT static void find_row(const gn_drawing *d, const gn_lattice_edge *edge, int32_t below, gn_receiver_step *at,
                             gn_receiver_step *step)
 {
@@ -138,14 +174,6 @@ GN_HOT static void find_row(const gn_drawing *d, const gn_lattice_edge *edge, in
     at->u_q16 = gn_flat_patch_at(&edge->u_q16, d->first, below);
     at->v_q16 = gn_flat_patch_at(&edge->v_q16, d->first, below);
     at->depth_q31 = gn_flat_patch_at(&edge->depth_q30, d->first, below);
-}
-
-/* Steps between nodes. */
-GN_HOT static void scale_step(gn_receiver_step *step, int32_t spacing_log2)
-{
-    step->u_q16 *= 1 << spacing_log2;
-    step->v_q16 *= 1 << spacing_log2;
-    step->depth_q31 *= 1 << spacing_log2;
 }
 
 /* Attenuations where all are alike. */
@@ -225,8 +253,7 @@ GN_HOT static int look_up_row(const gn_drawing *d, const gn_lattice_edge *edge, 
 #endif
     }
     for (int32_t i = from; i < end; i++) {
-        out[i] = lookup(d, edge->view, edge->slope_q28, &at,
-                        d->x + d->first + i * (1 << d->s->lattice.look.spacing_log2), d->y + below);
+        out[i] = lookup(d, edge->view, edge->slope_q28, &at, d->x + d->first + i, d->y + below);
         at.u_q16 += step->u_q16;
         at.v_q16 += step->v_q16;
         at.depth_q31 = (int32_t)((uint32_t)at.depth_q31 + (uint32_t)step->depth_q31); /* not used beyond the cell */
@@ -262,7 +289,6 @@ GN_HOT static GN_NOINLINE int look_up_one(const gn_drawing *d, const gn_lattice_
     gn_receiver_step at, step;
     find_row(d, edge, below, &at, &step);
     if (edge->bent && !place_flat_row(d, edge, below, &at, &step)) place_row(d, edge, below, &at, &step);
-    scale_step(&step, d->s->lattice.look.spacing_log2);
     return look_up_row(d, edge, below, &at, &step, 0, d->n, out);
 }
 
@@ -288,7 +314,7 @@ GN_HOT static int find_attenuations(const gn_drawing *d, const gn_lattice_edge *
 GN_HOT static GN_NOINLINE void put_lit_row(const gn_drawing *d, const gn_lattice_edge *edge, int32_t below,
                                            const gn_node_row *row, int32_t (*node)[3])
 {
-    const uint32_t *share = d->s->lattice.row.attenuation[0], *end = share + d->n;
+    const uint32_t *share = d->s->lattice.row.attenuation, *end = share + d->n;
     const gn_node_row twice = gn_row_of_edge(d, edge, below);
     int32_t r = twice.from[0], g = twice.from[1], b = twice.from[2], at[3] = {row->from[0], row->from[1], row->from[2]};
     for (; share < end; share++, node++, r += twice.step[0], g += twice.step[1], b += twice.step[2]) {
@@ -306,7 +332,7 @@ GN_HOT static GN_NOINLINE void put_lit_row(const gn_drawing *d, const gn_lattice
 GN_HOT static GN_NOINLINE void add_edge_light(const gn_drawing *d, const gn_lattice_edge *edge, int32_t below,
                                               int32_t (*node)[3])
 {
-    const uint32_t *share = d->s->lattice.row.attenuation[0], *end = share + d->n;
+    const uint32_t *share = d->s->lattice.row.attenuation, *end = share + d->n;
     const gn_node_row twice = gn_row_of_edge(d, edge, below);
     int32_t r = twice.from[0], g = twice.from[1], b = twice.from[2];
     for (; share < end; share++, node++, r += twice.step[0], g += twice.step[1], b += twice.step[2])
@@ -323,7 +349,7 @@ GN_HOT static void find_nodes(const gn_drawing *d, int32_t below, int32_t (*node
     gn_row_add(d, d->base_q24, below, &row);
 #if GN_SHADOWS
     const gn_lattice_look *look = &d->s->lattice.look;
-    uint32_t *share = d->s->lattice.row.attenuation[0];
+    uint32_t *share = d->s->lattice.row.attenuation;
     for (int32_t k = 0; k < look->n_edges; k++) {
         const gn_lattice_edge *edge = &look->edge[k];
         int said = find_attenuations(d, edge, below, share);
@@ -345,23 +371,21 @@ GN_HOT static void find_nodes(const gn_drawing *d, int32_t below, int32_t (*node
 /* ---- Cells ------------------------------------------------------------------------------------------------------- */
 
 #if GN_TEXTURES
-/* Whether the nodes at hand lie in 2^-18 .. 1. */
-GN_HOT static int nodes_inside(const gn_drawing *d)
+/* Whether the first n nodes lie in 2^-18 .. 1. */
+GN_HOT static int nodes_inside(const gn_lattice *l, int32_t n)
 {
-    const gn_lattice *l = &d->s->lattice;
     uint32_t all = 0;
-    for (int32_t k = 0; k < (l->look.spacing_log2 ? 2 : 1); k++)
-        for (int32_t i = 0; i < d->n; i++)
-            for (int c = 0; c < 3; c++) all |= (uint32_t)l->by.node[k][i][c] | (uint32_t)(l->by.node[k][i][c] - 64);
+    for (int32_t i = 0; i < n; i++)
+        for (int c = 0; c < 3; c++) all |= (uint32_t)l->by.node[i][c] | (uint32_t)(l->by.node[i][c] - 64);
     return all < 1U << 24;
 }
 
-/* Texels take the place of attenuations: after each row of nodes that has been found. */
-GN_HOT static GN_NOINLINE void use_textures(gn_drawing *d)
+/* Texels take the place of attenuations: after the row's nodes have been found. */
+GN_HOT static GN_NOINLINE void use_textures(gn_drawing *d, int32_t n_nodes)
 {
     gn_pixel_line *line = &d->line;
     gn_shading *s = d->s;
-    line->inside = nodes_inside(d);
+    line->inside = nodes_inside(&s->lattice, n_nodes);
     gn_lattice_textures_line(&s->lattice, &d->textures, line);
 #if GN_GLOW_APART
     for (int c = 0; c < 3; c++) {
@@ -372,34 +396,54 @@ GN_HOT static GN_NOINLINE void use_textures(gn_drawing *d)
 }
 #endif
 
-/* A row of pixels. */
-GN_HOT static void draw_row(const gn_drawing *d, int32_t below)
+/* Pixels of a row whose colours are linear. */
+GN_HOT static void draw_linear(const gn_drawing *d, int32_t below, uint32_t bits)
 {
-    const gn_pixel_line *line = &d->line;
     gn_shading *s = d->s;
-    uint32_t bits = gn_lattice_bits(&s->lattice, d->x, d->y + below, d->size_log2);
-#if GN_TEXTURES
-    if (line->texel) bits = gn_lattice_textures_row(&s->lattice, &d->textures, d->size_log2, below, d->first, bits);
-#endif
-    bits >>= d->first;
-    if (bits) gn_pixel_store_line(s->frame, &s->rows, d->x + d->first, d->y + below, bits, line);
+    gn_node_row row = {{0, 0, 0}, {0, 0, 0}};
+    int32_t x = d->x + d->first;
+    gn_row_add(d, d->base_q24, below, &row);
+    while (bits) {
+        const int32_t skip = lowest_bit(bits), n = lowest_bit(~(bits >> skip));
+        for (int c = 0; c < 3; c++) row.from[c] += skip * row.step[c];
+        gn_pixel_store_run(s->frame, &s->rows, x + skip, d->y + below, n, row.from, row.step);
+        for (int c = 0; c < 3; c++) row.from[c] += n * row.step[c];
+        x += skip + n;
+        bits = bits >> skip >> n;
+    }
 }
 
-/* Rows of pixels between two rows of nodes, which then are those below. */
-GN_HOT static GN_NOINLINE void draw_strip(const gn_drawing *d, int32_t below)
+/* Colours at both ends of the cell's row, between which they are linear. Returns 2. */
+GN_HOT static int32_t find_two(const gn_drawing *d, int32_t below, int32_t (*node)[3])
 {
-    gn_lattice *l = &d->s->lattice;
-    int32_t log2 = l->look.spacing_log2, moves = 0, (*node)[3] = l->by.node[0], (*next)[3] = l->by.node[1],
-            (*step)[3] = l->by.node[2];
-    for (int32_t i = 0; i < d->n; i++)
-        for (int c = 0; c < 3; c++) moves |= step[i][c] = (next[i][c] - node[i][c]) >> log2;
-    for (int32_t t = 0; t < 1 << log2; t++) {
-        draw_row(d, below + t);
-        for (int32_t i = 0; moves && i < d->n; i++)
-            for (int c = 0; c < 3; c++) node[i][c] += step[i][c];
+    gn_node_row row = {{0, 0, 0}, {0, 0, 0}};
+    gn_row_add(d, d->base_q24, below, &row);
+    for (int c = 0; c < 3; c++) node[0][c] = row.from[c], node[1][c] = row.from[c] + row.step[c] * (1 << d->size_log2);
+    return 2;
+}
+
+/* A row of pixels. */
+GN_HOT static void draw_row(gn_drawing *d, int32_t below)
+{
+    gn_shading *s = d->s;
+    gn_lattice *l = &s->lattice;
+    uint32_t bits = gn_lattice_bits(l, d->x, d->y + below, d->size_log2);
+    if (!bits) return;
+    if (!l->look.n_edges && !s->surface.textured) {
+        draw_linear(d, below, bits >> d->first);
+        return;
     }
-    for (int32_t i = 0; i < d->n; i++)
-        for (int c = 0; c < 3; c++) node[i][c] = next[i][c];
+    int32_t n_nodes = d->n;
+    if (d->line.spacing_log2) n_nodes = find_two(d, below, l->by.node);
+    else find_nodes(d, below, l->by.node);
+#if GN_TEXTURES
+    if (s->surface.textured) {
+        use_textures(d, n_nodes);
+        bits = gn_lattice_textures_row(l, &d->textures, d->size_log2, below, d->first, bits);
+    }
+#endif
+    bits >>= d->first;
+    if (bits) gn_pixel_store_line(s->frame, &s->rows, d->x + d->first, d->y + below, bits, &d->line);
 }
 
 /* Colours without the light of edges. */
@@ -414,23 +458,12 @@ GN_HOT static GN_NOINLINE void begin_base(gn_drawing *d, const gn_lattice_look *
     }
 }
 
-/* Rows of nodes, and the pixels between them. */
-GN_HOT static void draw_nodes(gn_drawing *d)
+/* Rows of pixels. */
+GN_HOT static void draw_rows(gn_drawing *d)
 {
     gn_lattice *l = &d->s->lattice;
-    int32_t log2 = l->look.spacing_log2, known = -1;
-    d->line = (gn_pixel_line){.node = (const int32_t(*)[3])l->by.node[0], .spacing_log2 = log2};
-    for (int32_t below = 0; below < 1 << d->size_log2; below += 1 << log2) {
-        if (!gn_lattice_columns(l, d->x, d->y + below, 1 << log2, d->size_log2)) continue;
-        if (known != below || !log2) find_nodes(d, below, l->by.node[0]);
-        known = below + (1 << log2);
-        if (log2) find_nodes(d, known, l->by.node[1]);
-#if GN_TEXTURES
-        if (d->s->surface.textured) use_textures(d);
-#endif
-        if (log2) draw_strip(d, below);
-        else draw_row(d, below);
-    }
+    d->line = (gn_pixel_line){.node = (const int32_t(*)[3])l->by.node, .spacing_log2 = l->look.n_edges ? 0 : d->size_log2};
+    for (int32_t below = 0; below < 1 << d->size_log2; below++) draw_row(d, below);
     gn_levels_forget(l); /* nodes took their place */
 }
 
@@ -439,27 +472,27 @@ GN_HOT void gn_lattice_draw(gn_shading *s, int32_t x, int32_t y, int32_t size_lo
     gn_lattice *l = &s->lattice;
     const gn_lattice_look *look = &l->look;
     gn_drawing *d = &l->drawing;
-    int32_t size = 1 << size_log2, spacing_log2 = look->spacing_log2;
-    if (!look->n_edges && !s->surface.textured) {
-        gn_lattice_draw_blocks(s, x, y, size_log2);
+    uint32_t packed;
+    GN_COUNT(cells_drawn, 1);
+    if (!look->n_edges && !s->surface.textured && is_plain(s, (const int32_t(*)[3])look->colour_q24, &packed)) {
+        fill_cell(s, x, y, size_log2, packed);
         return;
     }
     d->s = s;
     d->x = x;
     d->y = y;
     d->size_log2 = size_log2;
-    GN_COUNT(cells_drawn, 1);
     begin_base(d, look);
-    uint32_t any = gn_lattice_columns(l, x, y, size, size_log2);
-    d->first = (31 - gn_clz32(any & (0U - any))) & -(1 << spacing_log2);
-    d->n = ((31 - gn_clz32(any) - d->first) >> spacing_log2) + 1 + (spacing_log2 > 0);
+    const uint32_t any = gn_lattice_columns(l, x, y, 1 << size_log2, size_log2);
+    d->first = s->surface.textured && !look->n_edges ? 0 : lowest_bit(any);
+    d->n = 32 - gn_clz32(any) - d->first;
 #if GN_TEXTURES
     if (s->surface.textured) {
-        for (int32_t next = 0; gn_lattice_textures_begin(s, x, y, size_log2, next, &d->textures); next++) draw_nodes(d);
+        for (int32_t next = 0; gn_lattice_textures_begin(s, x, y, size_log2, next, &d->textures); next++) draw_rows(d);
         return;
     }
 #endif
-    draw_nodes(d);
+    draw_rows(d);
 }
 
 #endif

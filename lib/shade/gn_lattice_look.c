@@ -362,7 +362,6 @@ GN_HOT static GN_NOINLINE int begin_look(gn_lattice *lattice, const gn_frame *fr
     if (!cell->near && size_log2 > gn_cell_finest_log2(frame) && gn_cell_ramp_bends(cell)) cell->near = -1;
 #endif
     look->n_edges = 0;
-    look->spacing_log2 = size_log2;
     for (int i = 0; i < 4; i++)
         for (int j = 0; j < 3; j++) {
             look->colour_q24[i][j] = corner[i]->base_q24[j];
@@ -376,10 +375,9 @@ GN_HOT static GN_NOINLINE uint32_t add_lights(gn_lattice_cell *cell, uint32_t sl
 {
     gn_lattice_look *look = cell->out;
     for (; slot < cell->s->n_lights; slot++) {
-        int32_t n_edges = look->n_edges, spacing_log2 = look->spacing_log2;
+        const int32_t n_edges = look->n_edges;
         if (add_light(cell, slot)) continue;
         look->n_edges = n_edges;
-        look->spacing_log2 = spacing_log2;
         break;
     }
     return slot;

@@ -20,7 +20,7 @@ GN_INLINE void gn_row_add(const gn_drawing *d, const gn_flat_patch colour_q24[3]
     for (int c = 0; c < 3; c++) {
         const gn_flat_patch *p = &colour_q24[c];
         row->from[c] += gn_flat_patch_at(p, d->first, below);
-        row->step[c] += (p->dx + below * p->dxy) * (1 << d->s->lattice.look.spacing_log2);
+        row->step[c] += p->dx + below * p->dxy;
     }
 }
 

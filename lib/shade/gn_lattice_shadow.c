@@ -57,17 +57,6 @@ GN_HOT static void range_of(const int32_t at[4], int32_t *lo, int32_t *hi)
     *hi = gn_max32(gn_max32(at[0], at[1]), gn_max32(at[2], at[3]));
 }
 
-/* What bounds of depth say. */
-GN_HOT static int verdict_of_bounds(const gn_lattice_cell *cell, const gn_cell_places *p, const gn_receiver_step *lo,
-                                    const gn_receiver_step *hi)
-{
-    uint32_t attenuation;
-    if (p->view->filter == GN_FILTER_DISK) return GN_CELL_EDGE;
-    GN_COUNT(cells_judged, 1);
-    if (!gn_filter_decides(cell->frame, p->view, lo, hi, &attenuation)) return GN_CELL_EDGE;
-    return attenuation ? GN_CELL_LIT : GN_CELL_DARK;
-}
-
 /* A place of the window's plane that the corners lie around. */
 GN_HOT static gn_window_place middle_of(const gn_window *window, const gn_cell_places *p)
 {
@@ -101,10 +90,8 @@ GN_HOT static int verdict_of_window(const gn_frame *frame, gn_window *window, co
         if (!may_compare || (window->w && w + h <= FEW_TEXELS) || w > GN_WINDOW_TEXELS || h > GN_WINDOW_TEXELS)
             return GN_CELL_SPLIT;
         if (!gn_window_compare(window, &place, u0, v0, w, h)) return GN_CELL_SPLIT;
-        int said = gn_window_says(window, u0, v0, w, h);
-        return said == GN_WINDOW_LIT ? GN_CELL_LIT : said == GN_WINDOW_DARK ? GN_CELL_DARK : GN_CELL_EDGE;
     }
-    int said = gn_window_says(window, u0, v0, w, h);
+    const int said = gn_window_says(window, u0, v0, w, h);
     return said == GN_WINDOW_LIT ? GN_CELL_LIT : said == GN_WINDOW_DARK ? GN_CELL_DARK : GN_CELL_EDGE;
 }
 
@@ -164,13 +151,7 @@ GN_HOT static int verdict(const gn_lattice_cell *cell, uint32_t slot, gn_cell_pl
         p->follows = GN_VIEW_EDGE(cell->frame, p->view) > 0;
         return said;
     }
-    find_slopes(cell, p);
-    int64_t slope = (int64_t)gn_abs32(p->slope_q28[0]) + gn_abs32(p->slope_q28[1]);
-    slope *= 4 * (GN_VIEW_REACH(cell->frame, p->view) + 2);
-    lo.depth_q31 = 2 * (int32_t)gn_clamp64(depth_lo - slope, -(1 << 29), (1 << 30) - 16384);
-    hi.depth_q31 = 2 * (int32_t)gn_clamp64(depth_hi + slope, -(1 << 29), (1 << 30) - 16384);
-    said = verdict_of_bounds(cell, p, &lo, &hi);
-    return said == GN_CELL_EDGE && window ? ask_new_window(cell, window, p, &lo, &hi) : said;
+    return window ? ask_new_window(cell, window, p, &lo, &hi) : GN_CELL_EDGE;
 }
 
 enum { BEND, BEND_DOWN, HOLD };
@@ -201,34 +182,6 @@ GN_HOT static int places_hold(const gn_lattice_cell *cell, gn_cell_places *p)
     p->bent = GN_PLACES_BY_ROW;
     return gn_cell_row_bends_by_less(u, bend, least_log2) && gn_cell_row_bends_by_less(v, bend, least_log2) ? BEND_DOWN
                                                                                                             : BEND;
-}
-
-/* Whether a texel that the cell reads is in doubt: it may be before the receiver here and behind it there, which is not
- * smooth. A window of the cell, where there is one, has all of these texels: verdict(). */
-GN_HOT static int touches(const gn_frame *frame, const gn_cell_places *p)
-{
-    const gn_window *window = p->window;
-    int32_t lo, hi, u0, v0, w, h;
-    uint32_t some = 0;
-    if (!window) return 1; /* not known */
-    range_of(p->u, &lo, &hi);
-    gn_window_reads(p->view, GN_VIEW_EDGE(frame, p->view) > 0, lo - 16, hi + 1040, &u0, &w);
-    range_of(p->v, &lo, &hi);
-    gn_window_reads(p->view, GN_VIEW_EDGE(frame, p->view) > 0, lo - 16, hi + 1040, &v0, &h);
-    if (!gn_window_covers(window, u0, v0, w, h)) return 1;
-    for (int32_t i = 0; i < h; i++) some |= window->doubt[v0 - window->v0 + i];
-    return (some >> (u0 - window->u0) & UINT32_MAX >> (32 - w)) != 0;
-}
-
-/* Pixels between lookups. */
-GN_HOT static int32_t lookup_spacing(const gn_lattice_cell *cell, const gn_cell_places *p)
-{
-    uint32_t u = gn_cell_spread(p->u[0], p->u[1], p->u[2], p->u[3]),
-             v = gn_cell_spread(p->v[0], p->v[1], p->v[2], p->v[3]);
-    uint32_t across = u > v ? u : v, most = gn_cell_lookup_texels_q16(cell->frame, p->view);
-    int32_t log2 = cell->size_log2;
-    while (log2 > 0 && across > (uint64_t)most << (cell->size_log2 - log2)) log2--;
-    return log2 > 1 && touches(cell->frame, p) ? 0 : log2;
 }
 
 /* Adds a light whose shadow has an edge here, with a share of what it adds without shadow. Returns 0 if there is no
@@ -270,7 +223,6 @@ GN_HOT static int add_edge(const gn_lattice_cell *cell, uint32_t slot, gn_cell_p
         }
         gn_flat_patch_make(&edge->more_q24[j], at, cell->size_log2);
     }
-    out->spacing_log2 = p->bent == GN_PLACES_LONE ? 0 : gn_min32(out->spacing_log2, lookup_spacing(cell, p));
     return 1;
 }
 
@@ -355,7 +307,6 @@ GN_HOT static GN_NOINLINE int add_two(const gn_lattice_cell *cell, uint32_t slot
         return 0;
     }
     out->edge[n_edges].bent |= GN_PLACES_OF_TWO;
-    out->spacing_log2 = 0;
     return 1;
 }
 #endif

@@ -101,7 +101,6 @@ typedef struct {
     uint8_t level, level_ends; /* of the texture where the cell is nearest; 1: the next one begins in the cell */
     uint8_t glow_level;        /* of the texture of emitted light */
 #endif
-    int32_t spacing_log2; /* of lookups in pixels */
 } gn_lattice_look;
 
 #if GN_TEXTURES
@@ -297,7 +296,7 @@ enum { GN_CORNERS = 12 };
 /* Shadows may fade with distance, or end. */
 #define GN_VIEWS_FADE 32
 
-#define GN_LATTICE_NODES 17 /* in a row of the largest cell */
+#define GN_LATTICE_NODES 16 /* pixels in a row of the largest cell */
 
 /* A surface by cells. */
 typedef struct gn_lattice {
@@ -347,7 +346,7 @@ typedef struct gn_lattice {
     gn_lattice_look look;
     gn_drawing drawing; /* after that */
     union {
-        int32_t node[3][GN_LATTICE_NODES][3]; /* colours of a row of a cell and the next, Q24; steps between */
+        int32_t node[GN_LATTICE_NODES][3]; /* colours of a row of a cell, Q24 */
         struct {
             gn_lattice_cell cell;
             gn_wanted_window ask;
@@ -362,7 +361,7 @@ typedef struct gn_lattice {
 #if GN_SHADOWS
         gn_seen_places seen; /* while a window is made */
 #endif
-        uint32_t attenuation[2][GN_LATTICE_NODES]; /* of two rows of nodes, until their colours are known */
+        uint32_t attenuation[GN_LATTICE_NODES]; /* of a row of pixels, until their colours are known */
 #if GN_TEXTURES
         gn_texel_rgb texel[16]; /* of a row of pixels, then */
 #endif

@@ -220,41 +220,6 @@ GN_HOT static inline void nodes_565(uint16_t *out, uint32_t bits, const int32_t 
         if (bits & 1U) *out = (uint16_t)limit_and_pack_565((*node)[0], (*node)[1], (*node)[2]);
 }
 
-/* Pixels of `bits` between two nodes. */
-GN_HOT static inline void segment_565(uint16_t *out, uint32_t bits, const int32_t *from, const int32_t *to,
-                                      int32_t log2)
-{
-    int32_t r = from[0], g = from[1], b = from[2];
-    const int32_t r_step = (to[0] - r) >> log2, g_step = (to[1] - g) >> log2, b_step = (to[2] - b) >> log2;
-    for (; bits; bits >>= 1, out++, r += r_step, g += g_step, b += b_step)
-        if (bits & 1U) *out = (uint16_t)limit_and_pack_565(r, g, b);
-}
-
-/* Pixels of `bits`, every second of which has a node. */
-GN_HOT static inline void pairs_565(uint16_t *out, uint32_t bits, const int32_t (*node)[3])
-{
-    for (; bits; bits >>= 2, out += 2, node++) {
-        const int32_t *from = node[0], *to = node[1];
-        if (bits & 1U) out[0] = (uint16_t)limit_and_pack_565(from[0], from[1], from[2]);
-        if (bits & 2U)
-            out[1] =
-                (uint16_t)limit_and_pack_565(from[0] + ((to[0] - from[0]) >> 1), from[1] + ((to[1] - from[1]) >> 1),
-                                             from[2] + ((to[2] - from[2]) >> 1));
-    }
-}
-
-GN_HOT static inline void line_565(uint16_t *out, uint32_t bits, const gn_pixel_line *line)
-{
-    int32_t log2 = line->spacing_log2, n = 1 << log2;
-    if (!log2) nodes_565(out, bits, line->node);
-    else if (log2 == 1) pairs_565(out, bits, line->node);
-    else
-        for (const int32_t(*node)[3] = line->node; bits; bits >>= n, out += n, node++) {
-            uint32_t part = bits & ((1U << n) - 1);
-            if (part) segment_565(out, part, node[0], node[1], log2);
-        }
-}
-
 /* A pixel of any format, in a raw view a share of 65536. */
 GN_HOT static void store_colour(const gn_frame *frame, const gn_pixel_rows *rows, int32_t x, int32_t y,
                                 const int32_t colour_q24[3])
@@ -416,7 +381,7 @@ GN_HOT void gn_pixel_store_line(const gn_frame *frame, const gn_pixel_rows *rows
     }
 #endif
     if (GN_LEVEL_TABLES && has_levels(frame)) {
-        line_565(pixel_565(rows, x, y), bits, line);
+        nodes_565(pixel_565(rows, x, y), bits, line->node);
         return;
     }
     for (int32_t i = 0; bits >> i; i++) {
@@ -427,20 +392,7 @@ GN_HOT void gn_pixel_store_line(const gn_frame *frame, const gn_pixel_rows *rows
     }
 }
 
-/* ---- Levels -------------------------------------------------------------------------------------------------------*/
-
-GN_HOT uint32_t gn_pixel_encode(const gn_frame *frame, const int32_t colour_q24[3], int32_t level_q31[3])
-{
-    int wide = GN_OTHER_FORMATS && frame->picture.format == GN_FORMAT_RGB888;
-    GN_UNROLL
-    for (int c = 0; c < 3; c++) {
-        uint32_t bits = wide ? 8 : c == 1 ? 6 : 5, encoded = encode(frame, (uint32_t)colour_q24[c] >> 4);
-        level_q31[c] = (int32_t)(level_uq16(encoded, (1U << bits) - 1) << (15 - bits));
-    }
-    if (wide) return (uint32_t)(level_q31[0] >> 23 | level_q31[1] >> 23 << 8 | level_q31[2] >> 23 << 16);
-    uint32_t v = gn_pixel_of_levels(level_q31[0], level_q31[1], level_q31[2]);
-    return frame->picture.format == GN_FORMAT_RGB565 ? v : gn_pixel_swapped(v);
-}
+/* ---- Runs -------------------------------------------------------------------------------------------------------- */
 
 GN_HOT static inline void run_of_colours_565(uint16_t *out, int32_t n, int32_t r, int32_t g, int32_t b,
                                              const int32_t step[3], int inside)

@@ -31,24 +31,6 @@ void gn_pixel_store_line(const gn_frame *frame, const gn_pixel_rows *rows, int32
 void gn_pixel_store_run(const gn_frame *frame, const gn_pixel_rows *rows, int32_t x, int32_t y, int32_t n,
                         const int32_t from_q24[3], const int32_t step_q24[3]);
 
-/* Whether the format's pixels are three levels, which are encoded one by one. */
-GN_HOT static inline int gn_pixel_has_levels(const gn_frame *frame)
-{
-    if (!GN_OTHER_FORMATS) return !GN_RAW_VIEWS || frame->picture.format != GN_FORMAT_RAW32;
-    return frame->picture.format == GN_FORMAT_RGB565 || frame->picture.format == GN_FORMAT_RGB565_SWAPPED ||
-           frame->picture.format == GN_FORMAT_RGB888;
-}
-
-/* Levels of a colour in 0 .. 1 and half a level each, in such a format: Q31 of 32, 64 or 256 levels. What is above the
- * fraction is the nearest level; these make the pixel that is returned. */
-uint32_t gn_pixel_encode(const gn_frame *frame, const int32_t colour_q24[3], int32_t level_q31[3]);
-
-/* RGB565 of such levels. */
-GN_HOT static inline uint32_t gn_pixel_of_levels(int32_t r_q31, int32_t g_q31, int32_t b_q31)
-{
-    return (((uint32_t)r_q31 & 0x7C000000U) | ((uint32_t)g_q31 & 0x7E000000U) >> 5 | (uint32_t)b_q31 >> 11) >> 15;
-}
-
 /* RGB565 in the other order of bytes. */
 GN_HOT static inline uint32_t gn_pixel_swapped(uint32_t v)
 {

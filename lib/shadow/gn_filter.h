@@ -34,9 +34,4 @@ typedef struct {
     int32_t u_q16, v_q16, depth_q31;
 } gn_receiver_step;
 
-/* Whether texels decide the attenuation of all receivers between two, in all three coordinates; not for the disk, and
- * only if the filter's texels are few. */
-int gn_filter_decides(const gn_frame *frame, const gn_light_view *view, const gn_receiver_step *a,
-                      const gn_receiver_step *b, uint32_t *attenuation);
-
 #endif

@@ -61,7 +61,6 @@ COST(corners, 0) /* corner of cells */
 COST(places, 853.7) /* corner seen by a light's view */
 COST(cells, 3643) /* cell of a surface */
 COST(cells_split, 4188) /* cell that is split */
-COST(cells_judged, 1262) /* cell whose shadow bounds of depth are asked for */
 COST(cells_plain, 0) /* cell of one colour */
 COST(cells_drawn, 67.95) /* cell of several colours */
 COST(patches, 1691) /* small triangle that is shaded from its record */
