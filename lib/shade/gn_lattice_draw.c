@@ -1,4 +1,5 @@
-/* Pixels of a cell, row by row: of one colour, linear, or a node each where a shadow has an edge or there is a texture. */
+/* Pixels of a cell, row by row: of one colour, of colours that are linear, or each with a node of its own, where a
+ * shadow has an edge or there is a texture. */
 #include "gn_internal.h"
 
 #include "base/gn_count.h"
@@ -67,7 +68,7 @@ GN_HOT static uint32_t lookup(const gn_drawing *d, const gn_light_view *view, co
     return gn_filter_attenuation(d->s->frame, view, &r);
 }
 
-/* A row's first node and its steps between pixels, from where its ends are seen. */
+/* A row's first pixel and its steps, from where its ends are seen. */
 GN_HOT static inline void step_row(const gn_drawing *d, const gn_corner_light *at, const gn_receiver_step *end,
                                    gn_receiver_step *from, gn_receiver_step *step)
 {
@@ -282,7 +283,7 @@ GN_HOT static GN_NOINLINE void look_up_two(const gn_drawing *d, const gn_lattice
 }
 #endif
 
-/* Attenuations along a row of nodes that one view sees. Returns what look_up_row() does. */
+/* Attenuations along a row of pixels that one view sees. Returns what look_up_row() does. */
 GN_HOT static GN_NOINLINE int look_up_one(const gn_drawing *d, const gn_lattice_edge *edge, int32_t below,
                                           uint32_t *out)
 {
@@ -292,7 +293,7 @@ GN_HOT static GN_NOINLINE int look_up_one(const gn_drawing *d, const gn_lattice_
     return look_up_row(d, edge, below, &at, &step, 0, d->n, out);
 }
 
-/* The same of any row of nodes, `below` pixels under the cell's first row. */
+/* The same of any row of pixels, `below` pixels under the cell's first row. */
 GN_HOT static int find_attenuations(const gn_drawing *d, const gn_lattice_edge *edge, int32_t below, uint32_t *out)
 {
 #if GN_PUNCTUAL_LIGHTS
@@ -310,25 +311,7 @@ GN_HOT static int find_attenuations(const gn_drawing *d, const gn_lattice_edge *
     return look_up_one(d, edge, below, out);
 }
 
-/* A row of nodes with the light of an edge, where that is not in shadow. */
-GN_HOT static GN_NOINLINE void put_lit_row(const gn_drawing *d, const gn_lattice_edge *edge, int32_t below,
-                                           const gn_node_row *row, int32_t (*node)[3])
-{
-    const uint32_t *share = d->s->lattice.row.attenuation, *end = share + d->n;
-    const gn_node_row twice = gn_row_of_edge(d, edge, below);
-    int32_t r = twice.from[0], g = twice.from[1], b = twice.from[2], at[3] = {row->from[0], row->from[1], row->from[2]};
-    for (; share < end; share++, node++, r += twice.step[0], g += twice.step[1], b += twice.step[2]) {
-        int32_t lit[3] = {at[0], at[1], at[2]};
-        gn_node_add(lit, *share, r, g, b);
-        GN_UNROLL
-        for (int c = 0; c < 3; c++) {
-            (*node)[c] = lit[c];
-            at[c] += row->step[c];
-        }
-    }
-}
-
-/* Adds the light of another edge. */
+/* Adds the light of an edge, where that is not in shadow. */
 GN_HOT static GN_NOINLINE void add_edge_light(const gn_drawing *d, const gn_lattice_edge *edge, int32_t below,
                                               int32_t (*node)[3])
 {
@@ -340,7 +323,7 @@ GN_HOT static GN_NOINLINE void add_edge_light(const gn_drawing *d, const gn_latt
 }
 #endif
 
-/* Colours of a row of nodes. Lights before the first with an edge in it are in shadow all along it, or nowhere: those
+/* Colours of a row of pixels. Lights before the first with an edge in it are in shadow all along it, or nowhere: those
  * take no loop of their own. */
 GN_HOT static void find_nodes(const gn_drawing *d, int32_t below, int32_t (*node)[3])
 {
@@ -360,8 +343,8 @@ GN_HOT static void find_nodes(const gn_drawing *d, int32_t below, int32_t (*node
             continue;
         }
         if (said == GN_WINDOW_LIT) set_alike(share, share + d->n, said);
-        if (is_put) add_edge_light(d, edge, below, node);
-        else put_lit_row(d, edge, below, &row, node);
+        if (!is_put) gn_row_put(&row, node, node + d->n);
+        add_edge_light(d, edge, below, node);
         is_put = 1;
     }
 #endif
@@ -462,7 +445,8 @@ GN_HOT static GN_NOINLINE void begin_base(gn_drawing *d, const gn_lattice_look *
 GN_HOT static void draw_rows(gn_drawing *d)
 {
     gn_lattice *l = &d->s->lattice;
-    d->line = (gn_pixel_line){.node = (const int32_t(*)[3])l->by.node, .spacing_log2 = l->look.n_edges ? 0 : d->size_log2};
+    d->line =
+        (gn_pixel_line){.node = (const int32_t(*)[3])l->by.node, .spacing_log2 = l->look.n_edges ? 0 : d->size_log2};
     for (int32_t below = 0; below < 1 << d->size_log2; below++) draw_row(d, below);
     gn_levels_forget(l); /* nodes took their place */
 }

@@ -34,11 +34,11 @@ typedef struct {
     int32_t x0, y0; /* the tile's first pixel in the picture, as the dither's pattern is fixed to the picture */
 } gn_pixel_rows;
 
-/* Part of a row of pixels. Its colours are known at nodes, 2^spacing_log2 pixels apart, and linear in between; a
- * textured surface multiplies each by the colour of a texel, 65535: 1. */
+/* Part of a row of pixels, each with a node of its own. A textured surface multiplies colours by those of texels,
+ * 65535: 1; its nodes may be 2^spacing_log2 pixels apart, with colours that are linear in between. */
 typedef struct {
-    const int32_t (*node)[3]; /* Q24, from -5 2^27 to 9 2^27: the row's first pixel, and 2^spacing_log2 pixels on */
-    int32_t spacing_log2;
+    const int32_t (*node)[3];  /* Q24, from -5 2^27 to 9 2^27 */
+    int32_t spacing_log2;      /* without a texture 0 */
     const gn_texel_rgb *texel; /* of each pixel; NULL: no texture */
     int inside;                /* with a texture: all nodes are in 2^-18 .. 1, so that nothing needs a clamp */
 #if GN_GLOW_APART

@@ -304,10 +304,10 @@ static void test_lines(void)
     for (int k = 0; k < 40000; k++) {
         frame.picture.format = formats[k & 3];
         SET_KNOB(&frame, srgb, k % 7 != 0);
-        line.spacing_log2 = rng_range(&random_state, 0, 4);
         line.inside = k % 3 != 0;
         line.texel = NULL;
         if (GN_TEXTURES && k % 5 == 0) choose_texture(&line);
+        line.spacing_log2 = line.texel ? rng_range(&random_state, 0, 4) : 0;
         for (int i = 0; i <= LINE_PIXELS; i++)
             for (int c = 0; c < 3; c++)
                 node[i][c] = i && k % 4 == 1 ? node[0][c] /* one light */
@@ -319,13 +319,13 @@ static void test_lines(void)
     SET_KNOB(&frame, srgb, 1);
     frame.picture.format = GN_FORMAT_RGB565;
     line.texel = NULL;
-    line.spacing_log2 = 4;
+    line.spacing_log2 = 0;
     for (int32_t first = -64; first < ONE_Q20 + 64; first += LINE_PIXELS) {
         line.inside = first >= 16 && first + LINE_PIXELS < ONE_Q20 - 16;
-        for (int i = 0; i < 2; i++) {
-            node[i][0] = (first + i * LINE_PIXELS) * 16 + 15;
-            node[i][1] = (ONE_Q20 - first - i * LINE_PIXELS) * 16;
-            node[i][2] = (first + i * LINE_PIXELS) * 16 + 8;
+        for (int i = 0; i < LINE_PIXELS; i++) {
+            node[i][0] = (first + i) * 16 + 15;
+            node[i][1] = (ONE_Q20 - first - i) * 16;
+            node[i][2] = (first + i) * 16 + 8;
         }
         check_line(&line, 0xFFFFU, &all, &kept);
     }
