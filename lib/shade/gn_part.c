@@ -357,11 +357,12 @@ GN_HOT static void drop_windows(gn_part *part)
         if (part->view[i].window && part->view[i].window->view != part->view[i].view) part->view[i].window = NULL;
 }
 
-/* Whether the rows' windows are there. */
-GN_HOT static int has_windows(const gn_lattice *l, const gn_part *part)
+/* Whether the rows' windows are there, or rows do without: those of one light where shadows fade. */
+GN_HOT static int has_windows(const gn_shading *s, const gn_part *part)
 {
+    const gn_lattice *l = &s->lattice;
     if (l->cascade >= 0) return part->view[part->cascaded ? l->cascade : 0].window != NULL;
-    int any = 0;
+    int any = s->surface.n_lights == 1;
     for (int i = 0; i < 4; i++) any |= part->view[i].window != NULL;
     return any;
 }
@@ -371,21 +372,21 @@ GN_HOT static void drop_windows(gn_part *part)
     (void)part;
 }
 
-GN_HOT static int has_windows(const gn_lattice *l, const gn_part *part)
+GN_HOT static int has_windows(const gn_shading *s, const gn_part *part)
 {
-    (void)l, (void)part;
+    (void)s, (void)part;
     return 0;
 }
 #endif
 
 /* The part's rows, up to part_end, which windows may move. Returns 0 if they are not of one or two colours. */
-GN_HOT static int shade_rows(gn_shading *s, int any)
+GN_HOT static int shade_rows(gn_shading *s)
 {
     gn_lattice *l = &s->lattice;
     gn_part *part = &l->from.part;
     if (!find_lights(s, part)) return 0;
     drop_windows(part);
-    if (part->mixed && !any && !has_windows(l, part)) return 0;
+    if (part->mixed && !has_windows(s, part)) return 0;
     part->dark = part->lit = pack_sum(s, part, 0);
     GN_COUNT(parts, 1);
     if (part->mixed) {
@@ -402,35 +403,12 @@ GN_HOT static int shade_rows(gn_shading *s, int any)
     return 1;
 }
 
-enum { NARROW = 16, LOW = 4 };
-
-/* Narrow and low parts, whose windows have few texels. */
-GN_HOT static int shade_low_parts(gn_shading *s)
-{
-    gn_lattice *l = &s->lattice;
-    int32_t y = l->y, n_rows = l->n_rows, end = gn_min32(l->x_end, l->x + NARROW),
-            y_end = gn_min32(y + n_rows, l->y_end);
-    int done = 1;
-    for (l->n_rows = LOW; done && l->y < y_end; l->y += LOW) {
-        gn_lattice_forget_part(l);
-        l->part_end = end;
-        done = shade_rows(s, 0) && l->part_end == end;
-    }
-    l->y = y;
-    l->n_rows = n_rows;
-    return done;
-}
-
 GN_HOT int gn_part_shade(gn_shading *s)
 {
     gn_lattice *l = &s->lattice;
     l->part_end = gn_min32(l->x_end, l->x + GN_PART_WIDTH);
     if (!l->uniform) return 0;
-    if (shade_rows(s, 0)) return 1;
-    if (l->n_rows > LOW && s->surface.n_lights == 1 && shade_low_parts(s)) return 1;
-    gn_lattice_forget_part(l);
-    l->part_end = gn_min32(l->x_end, l->x + GN_PART_WIDTH);
-    if (l->cascade < 0 && s->surface.n_lights == 1 && shade_rows(s, 1)) return 1;
+    if (shade_rows(s)) return 1;
     gn_lattice_forget_part(l);
     l->part_end = gn_min32(l->x_end, l->x + GN_PART_WIDTH);
     return 0;
