@@ -363,7 +363,7 @@ GN_HOT static int nodes_inside(const gn_lattice *l, int32_t n)
     return all < 1U << 24;
 }
 
-/* Texels take the place of attenuations: after the row's nodes have been found. */
+/* Texels take the place of attenuations, after the row's nodes have been found. */
 GN_HOT static GN_NOINLINE void use_textures(gn_drawing *d, int32_t n_nodes)
 {
     gn_pixel_line *line = &d->line;
@@ -396,13 +396,12 @@ GN_HOT static void draw_linear(const gn_drawing *d, int32_t below, uint32_t bits
     }
 }
 
-/* Colours at both ends of the cell's row, between which they are linear. Returns 2. */
-GN_HOT static int32_t find_two(const gn_drawing *d, int32_t below, int32_t (*node)[3])
+/* Colours at both ends of the cell's row, between which they are linear. */
+GN_HOT static void find_two(const gn_drawing *d, int32_t below, int32_t (*node)[3])
 {
     gn_node_row row = {{0, 0, 0}, {0, 0, 0}};
     gn_row_add(d, d->base_q24, below, &row);
     for (int c = 0; c < 3; c++) node[0][c] = row.from[c], node[1][c] = row.from[c] + row.step[c] * (1 << d->size_log2);
-    return 2;
 }
 
 /* A row of pixels. */
@@ -416,12 +415,11 @@ GN_HOT static void draw_row(gn_drawing *d, int32_t below)
         draw_linear(d, below, bits >> d->first);
         return;
     }
-    int32_t n_nodes = d->n;
-    if (d->line.spacing_log2) n_nodes = find_two(d, below, l->by.node);
+    if (d->line.spacing_log2) find_two(d, below, l->by.node);
     else find_nodes(d, below, l->by.node);
 #if GN_TEXTURES
     if (s->surface.textured) {
-        use_textures(d, n_nodes);
+        use_textures(d, d->line.spacing_log2 ? 2 : d->n);
         bits = gn_lattice_textures_row(l, &d->textures, d->size_log2, below, d->first, bits);
     }
 #endif
