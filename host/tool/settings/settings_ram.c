@@ -157,12 +157,12 @@ static long lattice_bytes(const settings *s)
     put(&all, 1, corner_bytes(s), 4);
     put(&all, 1, 196, 4); /* corner_key to cell_corner */
     if (s->feature.shadows) put(&all, n_views(s) >= 4 ? 4 : n_views(s) >= 2 ? 2 : 1, 344, 4); /* windows */
-    put(&all, 1, 572, 4);                                                                     /* look */
+    put(&all, 1, 568, 4);                                                                     /* look */
     if (has_levels(s)) put(&all, 1, 4, 4); /* of that: level and level_ends */
     put(&all, 1, drawing_bytes(s), 4);
-    put(&all, 1, 616, 8);                 /* by */
-    put(&all, 1, 136, 4);                 /* attenuation */
-    if (has_glow(s)) put(&all, 16, 8, 4); /* glow */
+    put(&all, 1, s->feature.shadows ? 536 : 448, 8);                           /* by */
+    put(&all, 1, s->feature.textures ? 128 : s->feature.shadows ? 72 : 64, 4); /* row */
+    if (has_glow(s)) put(&all, 16, 8, 4);                                      /* glow */
     pad(&all, 8);
     return all.size;
 }
