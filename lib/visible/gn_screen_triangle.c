@@ -215,8 +215,7 @@ static inline int32_t walk_of(const gn_screen_job *job, const gn_rect *px, const
                               const grid_corner *c, int32_t left, int32_t right, int32_t bottom)
 {
     const gn_picture *picture = &job->frame->picture;
-    const int32_t bits = GN_K(job->frame, subpixel_bits), first = (1 << bits) - 1, width = right - left,
-                  height = bottom - a->y;
+    const int32_t bits = GN_K(job->frame, subpixel_bits), first = (1 << bits) - 1;
     const int32_t x = (left + job->add_px[0]) >> bits, y = (a->y + job->add_px[1]) >> bits,
                   columns = ((right + job->add_px[0]) >> bits) - x, rows = ((bottom + job->add_px[1]) >> bits) - y;
     if (columns <= GN_MASK_WIDTH && rows <= GN_MASK_HEIGHT) {
@@ -227,10 +226,10 @@ static inline int32_t walk_of(const gn_screen_job *job, const gn_rect *px, const
             mask = gn_mask_cut(mask, x, y, picture->width, picture->height);
         if (!mask) return 0;
         const int32_t top = (a->x + ((picture->width << bits) >> 1)) >> bits;
-        if (!GN_SIZE_FIRST && job->narrow) return GN_TRI_MASK | (1 + top - x) << 12 | (int32_t)mask;
+        if (!GN_SIZE_FIRST && job->fixed_mask) return GN_TRI_MASK | (1 + top - x) << 12 | (int32_t)mask;
     }
-    if (!GN_SIZE_FIRST && width < job->narrow && height < job->narrow) return GN_TRI_NARROW;
-    return gn_max32(job->fixed_mask & gn_walk_lasts((uint32_t)width | (uint32_t)height), GN_TRI_EXACT);
+    return gn_max32(job->fixed_mask & gn_walk_lasts((uint32_t)(right - left) | (uint32_t)(bottom - a->y)),
+                    GN_TRI_EXACT);
 }
 
 /* Everything of a triangle that begins with its top. */
@@ -360,5 +359,4 @@ void gn_screen_object(gn_screen_job *job)
 {
     job->sides = gn_sides_of(job->frame->flags[job->object_idx], GN_OBJECT_TWO_SIDED);
     job->fixed_mask = GN_VISIBLE_ALPHA && job->object->visible_alpha != GN_ALPHA_OPAQUE ? 0 : -1;
-    job->narrow = job->fixed_mask & gn_walk_narrow(GN_K(job->frame, subpixel_bits));
 }

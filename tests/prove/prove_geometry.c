@@ -23,12 +23,6 @@ void prove_walk_ratio(void)
     for (int32_t b = 1; b < 1 << 14; b *= 2) usink = gn_walk_ratio(any_i32(-(5 << 26), 5 << 26), any_i32(b, 2 * b - 1));
 }
 
-/* gn_walk_share: |a| < 2^15, reciprocals of 1 to 1900 */
-void prove_walk_share(void)
-{
-    for (uint32_t dy = 2; dy <= 1900; dy++) usink = gn_walk_share(any_i32(-32767, 32767), 0x80000000U / dy);
-}
-
 /* floor_div: |a| < 2^61, 0 < b < 2^30 */
 void prove_floor_div(void)
 {
