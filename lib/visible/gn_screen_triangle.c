@@ -82,10 +82,9 @@ static inline uint32_t depth_margin(int32_t dx, int32_t dy, int32_t bits)
 /* With a smaller margin, and neither end of the depth format within it, depth needs no bounds. */
 #define MARGIN_MAX (1U << 18)
 
-/* Depth of any triangle, moved from c0 to the centre of the pixel that contains it. */
-static GN_NOINLINE void general_depth(gn_tri *tri, const gn_projected *c0, const gn_projected *c1,
-                                      const gn_projected *c2, int32_t to_x_q16, int32_t to_y_q16, int32_t walk,
-                                      int32_t bits)
+/* Depth of a triangle, moved from c0 to the centre of the pixel that contains it. */
+static inline void set_depth(gn_tri *tri, const gn_projected *c0, const gn_projected *c1, const gn_projected *c2,
+                             int32_t to_x_q16, int32_t to_y_q16, int32_t walk, int32_t bits)
 {
     depth_range depth;
     depth_of_corners(&depth, c0, c1, c2, to_x_q16, to_y_q16);
@@ -99,43 +98,6 @@ static GN_NOINLINE void general_depth(gn_tri *tri, const gn_projected *c0, const
     }
     tri->iz.bounds.least = (uint16_t)(depth.least >> 16);
     tri->iz.bounds.largest = (uint16_t)(depth.largest >> 16);
-}
-
-/* gradient() of a shift below 32: the lower word as a signed one */
-static inline int quick_gradient(int32_t *out, int64_t n, int32_t f, int32_t s)
-{
-    int32_t lo = (int32_t)((uint32_t)n & ~1U), hi = (int32_t)(n >> 32) + (int32_t)((uint32_t)lo >> 31);
-    GN_KEEP(hi);
-    int64_t v = (int64_t)hi * f + (int32_t)((int64_t)lo * f >> 32);
-    *out = (int32_t)((uint32_t)v >> s | (uint32_t)(v >> 32) << (32 - s));
-    return (int32_t)(v >> 32) >> s == *out >> 31;
-}
-
-/* The same for a triangle that faces the camera, has more than half a pixel and less than 2^17, and needs no bounds.
- * Returns 0 for others. */
-static inline int quick_depth(gn_tri *tri, const gn_projected *c0, const gn_projected *c1, const gn_projected *c2,
-                              int32_t to_x_q16, int32_t to_y_q16, int32_t walk, int32_t bits)
-{
-    int32_t ax = c1->x_q16 - c0->x_q16, ay = c1->y_q16 - c0->y_q16, minus_bx = c0->x_q16 - c2->x_q16,
-            by = c2->y_q16 - c0->y_q16;
-    uint64_t size = (uint64_t) - ((int64_t)ax * by + (int64_t)minus_bx * ay) | 1U;
-    uint32_t hi = (uint32_t)(size >> 32), i0 = c0->iz_q32, i1 = c1->iz_q32, i2 = c2->iz_q32;
-    if (hi - 1 >= (1U << 18) - 1) return 0;
-    int32_t clz = gn_clz32(hi), s = 45 - clz, dx, dy;
-    int32_t recip = -(int32_t)(gn_recip_norm2(hi << clz | (uint32_t)size >> (32 - clz)) >> 1);
-    int32_t a = (int32_t)(i1 >> 1) - (int32_t)(i0 >> 1), b = (int32_t)(i2 >> 1) - (int32_t)(i0 >> 1);
-    if (!quick_gradient(&dx, (int64_t)a * by + (int64_t)-b * ay, recip, s) ||
-        !quick_gradient(&dy, (int64_t)b * ax + (int64_t)a * minus_bx, recip, s))
-        return 0;
-    uint32_t margin = depth_margin(dx, dy, bits), more = margin + 1, range = UINT32_MAX - margin - more;
-    GN_KEEP(more);
-    if (margin >= MARGIN_MAX || i0 - more >= range || i1 - more >= range || i2 - more >= range) return 0;
-    int64_t step = (int64_t)dx * to_x_q16 + (int64_t)dy * to_y_q16; /* less than two pixels */
-    tri->iz_ref = i0 + (uint32_t)(step >> 16);
-    tri->iz_dx = dx;
-    tri->iz_dy = dy;
-    gn_tri_set_walk(tri, walk);
-    return 1;
 }
 
 /* ---- Triangles --------------------------------------------------------------------------------------------------- */
@@ -249,8 +211,7 @@ static inline void fill_triangle(const gn_screen_job *job, gn_tri *tri, const gr
             y = a->y + ((frame->picture.height << bits) >> 1);
     int32_t to_x_q16 = ((a->x - (x & (one - 1))) * 2 + one) * (1 << (15 - bits)) - a->at->x_q16;
     int32_t to_y_q16 = ((a->y - (y & (one - 1))) * 2 + one) * (1 << (15 - bits)) - a->at->y_q16;
-    if (!GN_SIZE_FIRST && quick_depth(tri, a->at, b->at, c->at, to_x_q16, to_y_q16, walk, bits)) return;
-    general_depth(tri, a->at, b->at, c->at, to_x_q16, to_y_q16, walk, bits);
+    set_depth(tri, a->at, b->at, c->at, to_x_q16, to_y_q16, walk, bits);
 }
 
 /* A triangle's corners in the order of a record. */
