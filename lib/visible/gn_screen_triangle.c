@@ -102,28 +102,7 @@ static inline void set_depth(gn_tri *tri, const gn_projected *c0, const gn_proje
 
 /* ---- Triangles --------------------------------------------------------------------------------------------------- */
 
-/* Counts a triangle in the screen tiles that it may have pixels in, if these are few, and notes them for gn_bin.c.
- * Returns 0 if they are many. */
-static inline int count_few_tiles(const gn_screen_job *job, const gn_rect *px, uint32_t tri_idx)
-{
-    const gn_frame *frame = job->frame;
-    uint32_t w = (uint32_t)GN_K(frame, tile_width), h = (uint32_t)GN_K(frame, tile_height),
-             tiles_x = frame->tiles_x; /* nothing is negative */
-    uint32_t one = (uint32_t)px->y0 / h * tiles_x + (uint32_t)px->x0 / w;
-    uint32_t apart = (uint32_t)(px->y1 - 1) / h * tiles_x + (uint32_t)(px->x1 - 1) / w - one;
-    uint32_t way = !apart             ? GN_PLACE_ONE
-                   : apart == 1       ? GN_PLACE_NEXT
-                   : apart == tiles_x ? GN_PLACE_BELOW
-                                      : GN_PLACE_MANY;
-    if (tri_idx < GN_PLACES) job->place[tri_idx] = (uint16_t)(one << 2 | way);
-    if (way == GN_PLACE_MANY) return 0;
-    gn_ref_offset *n_first = &job->tile_first[one];
-    ++*n_first;
-    if (apart) ++n_first[apart];
-    return 1;
-}
-
-/* The same for any number of tiles. */
+/* Counts a triangle in the screen tiles that it may have pixels in. */
 static inline void count_tiles(const gn_screen_job *job, const gn_rect *px)
 {
     gn_tile_walk tiles = gn_setup_tiles(job->frame, px); /* of some tiles */
@@ -141,7 +120,7 @@ static inline gn_tri *count_record(const gn_screen_job *job, const gn_rect *px)
 {
     uint32_t n = job->stats->n_triangles++; /* counting continues, so that gn_detail can tell the needed capacity */
     if (n >= GN_MAX_TRIANGLES) return NULL;
-    if (GN_SIZE_FIRST || !count_few_tiles(job, px, n)) count_tiles(job, px);
+    count_tiles(job, px);
     gn_tri *tri = &job->tri[n];
     GN_KEEP(tri);
     return tri;

@@ -59,7 +59,6 @@ typedef struct {
     gn_stats *stats; /* this and the next are written in a frame's setup only */
     gn_ref_offset *tile_first;
     gn_tri *tri;
-    uint16_t *place; /* see gn_setup.h */
 #if GN_GROUPS
     gn_tri_group *group;      /* of the next triangle; it grows by it */
     gn_screen_tile_job *tile; /* NULL in a frame's setup: triangles are counted */

@@ -404,7 +404,6 @@ gn_status gn_setup_triangles(gn_frame *frame, gn_scratch *scratch)
     setup_window(&job, &picture);
     job.screen.tile_first = frame->tile_first;
     job.screen.tri = frame->tri;
-    job.screen.place = scratch->pixel.rgb565;
 #if GN_GROUPS
     job.screen.tile = NULL;
     if (GN_K(frame, triangle_groups)) setup_begin_groups(frame);
