@@ -146,12 +146,11 @@ GN_HOT static inline int32_t halved(int32_t v)
     return (v >> 1) + (v & 1);
 }
 
-/* Of any vector, which may be short, or be rounded up to 2^30. */
-GN_HOT static GN_NOINLINE int32_t norm_any(int32_t out[3], const int64_t a[3])
+GN_HOT int32_t gn_norm_vec(int32_t out[3], const int64_t a[3])
 {
     uint64_t any = gn_abs64(a[0]) | gn_abs64(a[1]) | gn_abs64(a[2]);
     int32_t clz = any ? gn_clz64(any) : 34, s = clz - 1; /* one bit more than the result, for rounding */
-    if (s < 0 || (any << clz) >> 33 == 0x7FFFFFFFU) {
+    if (s < 0 || (any << clz) >> 33 == 0x7FFFFFFFU) { /* one may be rounded up to 2^30 */
         for (int i = 0; i < 3; i++) {
             int32_t v = halved(s < 0 ? (int32_t)(a[i] >> 33) : upper32(a[i], s));
             out[i] = v == 1 << 30 ? v - 1 : v == -(1 << 30) ? v + 1 : v;
@@ -162,24 +161,6 @@ GN_HOT static GN_NOINLINE int32_t norm_any(int32_t out[3], const int64_t a[3])
         out[2] = halved(upper32(a[2], s));
     }
     return 34 - clz; /* bits above 30 */
-}
-
-GN_HOT int32_t gn_norm_vec(int32_t out[3], const int64_t a[3])
-{
-    const int32_t x = (int32_t)(a[0] >> 32), y = (int32_t)(a[1] >> 32), z = (int32_t)(a[2] >> 32);
-    /* bits of absolute values, or 1 less of negative ones: where that makes a difference, all bits below are set */
-    const uint32_t high = (uint32_t)((x ^ x >> 31) | (y ^ y >> 31) | (z ^ z >> 31));
-    if (GN_SIZE_FIRST || !high) return norm_any(out, a);
-    const int32_t clz = gn_clz32(high), s = clz - 1;
-    if (!(high & (high + 1))) {
-        const uint32_t low = ((uint32_t)a[0] ^ (uint32_t)(x >> 31)) | ((uint32_t)a[1] ^ (uint32_t)(y >> 31)) |
-                             ((uint32_t)a[2] ^ (uint32_t)(z >> 31));
-        if ((high << s | (low >> 1) >> (31 - s)) >= 0x7FFFFFFEU) return norm_any(out, a);
-    }
-    out[0] = halved(upper32(a[0], s));
-    out[1] = halved(upper32(a[1], s));
-    out[2] = halved(upper32(a[2], s));
-    return 34 - clz;
 }
 
 GN_HOT int gn_det_sign(const int32_t m[3][3])
