@@ -26,7 +26,7 @@ GN_HOT int32_t gn_persp_face(const int32_t from_light_q16[3])
 }
 
 /* Wide enough that a tap at a face's border, with filter and offset, still lies in its tile. [P6] */
-GN_HOT int64_t gn_persp_face_q24(int32_t filter_idx, int32_t nu_q16, int32_t tile_texels, int *clamped)
+GN_COLD int64_t gn_persp_face_q24(int32_t filter_idx, int32_t nu_q16, int32_t tile_texels, int *clamped)
 {
     const int64_t one = 1 << 24, two = 2 << 24;
     int64_t a = (int64_t)gn_udiv64((uint64_t)(2 * (filter_idx + 1)) << 24, (uint64_t)tile_texels); /* <= 2.25 */
@@ -44,7 +44,7 @@ GN_HOT int64_t gn_persp_face_q24(int32_t filter_idx, int32_t nu_q16, int32_t til
 }
 
 /* T / t in Q16 */
-GN_HOT static uint32_t focal2_q16(int32_t tile_texels, int64_t t_numerator, int64_t t_denominator)
+GN_COLD static uint32_t focal2_q16(int32_t tile_texels, int64_t t_numerator, int64_t t_denominator)
 {
     uint64_t scaled = ((uint64_t)tile_texels << 16) * (uint64_t)t_denominator; /* 2^26 * 2^31 */
     uint64_t focal2 = gn_udiv64(scaled + (uint64_t)t_numerator / 2, (uint64_t)t_numerator);
@@ -53,8 +53,8 @@ GN_HOT static uint32_t focal2_q16(int32_t tile_texels, int64_t t_numerator, int6
 
 /* n of MODEL 5: what is seen of the receivers is not nearer, nor comes nearer by its bias, which reaches that far.
  * Three significant bits, so that it seldom changes. [D12] */
-GN_HOT static int32_t depth_near_q16(const gn_frame *frame, const gn_light_view *view, const gn_light *light,
-                                     int32_t reach_q16)
+GN_COLD static int32_t depth_near_q16(const gn_frame *frame, const gn_light_view *view, const gn_light *light,
+                                      int32_t reach_q16)
 {
 #if GN_TIGHT_FIT
     if (frame->scene->shadow.fit != GN_FIT_TIGHT) return light->near_q16;
@@ -74,7 +74,7 @@ GN_HOT static int32_t depth_near_q16(const gn_frame *frame, const gn_light_view 
 }
 
 /* A spot's cone, or a face of a point light's cube. [P4] [P5] */
-GN_HOT void gn_persp_fit_view(gn_frame *frame, gn_light_view *view, const gn_light *light)
+GN_COLD void gn_persp_fit_view(gn_frame *frame, gn_light_view *view, const gn_light *light)
 {
     gn_persp_fit *fit = &view->fit.persp;
     int clamped = 0;
