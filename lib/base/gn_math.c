@@ -191,7 +191,6 @@ GN_HOT int gn_normalise_q30(int32_t out_q30[3], const int64_t a[3])
     /* n / sqrt(sum) = n * r * 2^(s/2 - 63), s = 2 or 4; the factor r, from 2^31 on, as r - 2^32 and once more */
     int32_t below = (int32_t)(r - 0x80000000U - 0x80000000U);
     GN_KEEP(below); /* signed: one multiplication */
-    GN_UNROLL
     for (int i = 0; i < 3; i++) {
         int32_t twice = s == 4 ? 2 * n[i] : n[i];
         int64_t p = (int64_t)twice * below;
@@ -212,7 +211,6 @@ GN_HOT void gn_cross_q30(int32_t out_q30[3], const int32_t a_q30[3], const int32
 {
     int64_t c[3];
     gn_cross64(c, a_q30, b_q30);
-    GN_UNROLL
     for (int i = 0; i < 3; i++) out_q30[i] = (int32_t)gn_shr64(c[i], 30);
 }
 
@@ -274,7 +272,6 @@ GN_HOT int32_t gn_length_cosine_q24(gn_length length, const int32_t n_q30[3], co
 
 GN_HOT void gn_length_unit(gn_length length, const int32_t n_q30[3], int32_t out_q30[3])
 {
-    GN_UNROLL
     for (int i = 0; i < 3; i++) {
         int64_t v = gn_scale64((int64_t)n_q30[i] * (int64_t)length.root, 63 - 30 - length.shift / 2);
         out_q30[i] = (int32_t)gn_clamp64(v, -(1 << 30), 1 << 30);

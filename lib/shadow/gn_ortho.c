@@ -367,14 +367,12 @@ int32_t gn_ortho_small_triangle(const gn_frame *frame, const gn_light_view *view
             return -1;
     }
     int32_t e1[3], e2[3], nn[3];
-    GN_UNROLL
     for (int i = 0; i < 3; i++) {
         e1[i] = c[1]->vertex.v_q16[i] - c[0]->vertex.v_q16[i]; /* < 2^30 */
         e2[i] = c[2]->vertex.v_q16[i] - c[0]->vertex.v_q16[i];
     }
     int64_t n[3] = {0, 0, (int64_t)e1[0] * e2[1] - (int64_t)e1[1] * e2[0]};
     if (n[2] == 0 || !(sides & (n[2] > 0 ? GN_SIDE_CW : GN_SIDE_CCW))) return -1;
-    GN_UNROLL
     for (int k = 0; k < 3; k++) {
         x[k] = (c[k]->vertex.v_q16[0] + half) >> sub;
         y[k] = (c[k]->vertex.v_q16[1] + half) >> sub;
