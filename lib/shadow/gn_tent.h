@@ -109,7 +109,9 @@ GN_HOT static inline uint32_t gn_tent_dark(const gn_lookup *l, int32_t u, int32_
     return any | all << 16;
 }
 
-GN_INLINE uint32_t gn_tent_of_dark_inline(const uint8_t *dark, int32_t k, int32_t cu, int32_t cv, int32_t bits)
+/* Attenuation of a lookup with both dark and lit texels, a byte of `dark` per row, by the tent of index k.
+ * cu, cv: the receiver, half a texel down and right, Q16, of which the fraction counts. */
+GN_HOT static inline uint32_t gn_tent_of_dark(const uint8_t *dark, int32_t k, int32_t cu, int32_t cv, int32_t bits)
 {
     uint32_t wu[GN_TENT_TAPS_MAX], wv[GN_TENT_TAPS_MAX];
     uint32_t u = gn_filter_fraction(cu, bits), v = gn_filter_fraction(cv, bits);
@@ -127,14 +129,6 @@ GN_INLINE uint32_t gn_tent_of_dark_inline(const uint8_t *dark, int32_t k, int32_
                                 k == 1   ? 53024288U
                                 : k == 2 ? 6871948U
                                          : 1788824U); /* round(2^32 / whole) */
-}
-
-/* Attenuation of a lookup with both dark and lit texels, a byte of `dark` per row, by the tent of index k.
- * cu, cv: the receiver, half a texel down and right, Q16, of which the fraction counts. */
-GN_HOT static inline uint32_t gn_tent_of_dark(const uint8_t *dark, int32_t k, int32_t cu, int32_t cv, int32_t bits)
-{
-    if (k == 1 && !GN_SIZE_FIRST) return gn_tent_of_dark_inline(dark, 1, cu, cv, bits); /* without its loops */
-    return gn_tent_of_dark_inline(dark, k, cu, cv, bits);
 }
 
 /* Attenuation by the 3x3 filter of four rows of four texels, a bit each that is dark, to 1/32 texel: u, v in Q16, half
