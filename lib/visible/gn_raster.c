@@ -60,7 +60,6 @@ GN_INLINE void raster_span(uint32_t *cell, int32_t n, uint32_t iz, const raster_
         GN_CELL_(at[0]);
     }
 }
-
 #undef GN_CELL_
 
 /* The state that is stepped from row to row of a triangle. */
