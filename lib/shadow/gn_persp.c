@@ -207,38 +207,10 @@ GN_HOT static void project_corner(const gn_frame *frame, const gn_light_view *vi
 }
 
 #if GN_SMALL_CASTERS
-#define OUT_OF_BITS (GN_OUT_ALL + 1U) /* in this view, texels need more bits */
-
-/* gn_outcode() of a frustum that is as high as it is wide. */
-GN_HOT static inline uint32_t outcode(const int32_t v_q16[3], int32_t near_q16, int32_t side_q16)
-{
-    const int32_t x = v_q16[0], y = v_q16[1], side = gn_sat32((int64_t)v_q16[2] * side_q16 >> 16), other = ~side;
-    return (v_q16[2] < near_q16 ? GN_OUT_NEAR : 0U) | (x <= other ? GN_OUT_LEFT : 0U) | (x > side ? GN_OUT_RIGHT : 0U) |
-           (y <= other ? GN_OUT_BOTTOM : 0U) | (y > side ? GN_OUT_TOP : 0U);
-}
-
-/* Both of a corner within the tile's border, up to 8 times as far aside as away: nothing is limited there. */
-GN_HOT static inline void project_inner(const gn_light_view *view, int32_t bits, const int32_t v_q16[3], int32_t *x,
-                                        int32_t *y)
-{
-    const int32_t clz = gn_clz32((uint32_t)v_q16[2]), centre = (view->tile_texels << bits) >> 1, down = 45 - bits;
-    const uint32_t recip = gn_recip_norm((uint32_t)v_q16[2] << clz, 2);
-    int32_t focal2 = (int32_t)view->fit.persp.focal2_q16;
-    GN_KEEP(focal2); /* signed: one multiplication */
-    const int32_t u_q28 = (int32_t)((((int64_t)v_q16[0] * (int64_t)recip >> (34 - clz)) + 1) >> 1),
-                  v_q28 = (int32_t)((((int64_t)v_q16[1] * (int64_t)recip >> (34 - clz)) + 1) >> 1);
-    const int64_t half = (int64_t)1 << (down - 1);
-    *x = (int32_t)(((int64_t)u_q28 * focal2 + half) >> down) + centre;
-    *y = (int32_t)(((int64_t)v_q28 * focal2 + half) >> down) + centre;
-}
-
 GN_HOT void gn_persp_corner(const gn_frame *frame, const gn_light_view *view, gn_caster_corner *c)
 {
-    const gn_persp_fit *fit = &view->fit.persp;
-    const int32_t side_q16 = fit->side_q16[0];
-    c->out = outcode(c->vertex.v_q16, fit->clip_q16, side_q16);
-    if (side_q16 >> 19 || fit->focal2_q16 >> 31) c->out |= OUT_OF_BITS;
-    if (!c->out) project_inner(view, GN_CASTER_BITS(frame), c->vertex.v_q16, &c->x, &c->y);
+    c->out = gn_outcode(c->vertex.v_q16, view->fit.persp.clip_q16, view->fit.persp.side_q16, 0);
+    if (!c->out) project_corner(frame, view, c->vertex.v_q16, &c->x, &c->y);
 }
 
 GN_HOT static inline void copy_corners(int32_t out[3][3], const gn_caster_corner *const c[3])
