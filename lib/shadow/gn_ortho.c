@@ -85,16 +85,6 @@ static int within_reach(int64_t p[3][3])
     return 1;
 }
 
-/* round(a * b * 2^shift), as gn_bf_apply gives it */
-GN_INLINE int64_t apply(int32_t a, gn_bfloat b, int32_t shift)
-{
-    int32_t s = -(b.exp + shift);
-    if (GN_SIZE_FIRST || s < 1 || s > 62) return gn_bf_apply(a, b, shift);
-    uint64_t r = (uint64_t)gn_abs32(a) * b.mant; /* 2^30 * 2^32 */
-    int64_t v = (int64_t)((r >> s) + ((r >> (s - 1)) & 1U));
-    return a < 0 ? -v : v;
-}
-
 /* Texels along w, Q16, as a fraction of the depth range, Q32. |.| < 2^49 */
 static inline int64_t depth_q32(const gn_light_view *view, int64_t texels_q16)
 {
@@ -114,13 +104,13 @@ static GN_NOINLINE int ortho_caster(gn_caster *out, const gn_light_view *view, c
     int64_t bias = view->bias_constant_q16;
     if (view->bias_slope_q16) {
         const int64_t steepest =
-            gn_clamp64(apply((int32_t)gn_max32((int32_t)gn_abs32(nu), (int32_t)gn_abs32(nv)), per_n, 16), 0,
+            gn_clamp64(gn_bf_apply((int32_t)gn_max32((int32_t)gn_abs32(nu), (int32_t)gn_abs32(nv)), per_n, 16), 0,
                        (int64_t)1 << 31);                      /* texels per texel, Q16 */
         bias += gn_shr64(steepest * view->bias_slope_q16, 16); /* 2^31 * 2^22 */
     }
     out->bias = depth_q32(view, bias);
-    out->dz_du = gn_clamp64(apply(nu, per_n, 16 + to_steps), -GN_CASTER_GRADIENT_MAX, GN_CASTER_GRADIENT_MAX);
-    out->dz_dv = gn_clamp64(apply(nv, per_n, 16 + to_steps), -GN_CASTER_GRADIENT_MAX, GN_CASTER_GRADIENT_MAX);
+    out->dz_du = gn_clamp64(gn_bf_apply(nu, per_n, 16 + to_steps), -GN_CASTER_GRADIENT_MAX, GN_CASTER_GRADIENT_MAX);
+    out->dz_dv = gn_clamp64(gn_bf_apply(nv, per_n, 16 + to_steps), -GN_CASTER_GRADIENT_MAX, GN_CASTER_GRADIENT_MAX);
     const int64_t far = (int64_t)1 << 32;
     out->lo = gn_clamp64(depth_q32(view, lo), 0, far); /* pancaking */
     out->hi = gn_clamp64(depth_q32(view, hi), 0, far);
