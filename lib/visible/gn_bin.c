@@ -9,7 +9,7 @@
 #include "visible/gn_setup.h"
 
 /* Puts a triangle into the bins of the screen tiles within its bounds. */
-static inline void bin_triangle(gn_frame *frame, uint32_t tri_idx)
+static inline void bin_by_bounds(gn_frame *frame, uint32_t tri_idx)
 {
     gn_rect px = gn_setup_bounds(frame, &frame->tri[tri_idx]);
     gn_tile_walk tiles = gn_setup_tiles(frame, &px);
@@ -27,7 +27,7 @@ static void sort_triangles(gn_frame *frame, uint32_t n_tiles)
     gn_ref_offset *first = frame->tile_first;
     /* offsets to the end of each bin; filling backwards leaves each at its bin's start, in triangle order */
     for (uint32_t i = 1; i <= n_tiles; i++) first[i] = (gn_ref_offset)(first[i] + first[i - 1]);
-    for (uint32_t t = frame->stats.n_triangles; t-- > 0;) bin_triangle(frame, t);
+    for (uint32_t t = frame->stats.n_triangles; t-- > 0;) bin_by_bounds(frame, t);
 }
 
 /* Whether the identities of every screen tile have room, with groups. */
