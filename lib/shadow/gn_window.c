@@ -250,6 +250,9 @@ GN_HOT static uint32_t dark_texels(const window_rows *rows, int32_t s, int32_t j
     }
     if (!doubts) return any | all << 16;
     uint32_t least = least_depth(window->view, depth_q30);
+    if (window->plain && n > 2)
+        return gn_kernel_dark_texels16(gn_view_texels(window->view, window->u0 + s, window->v0 + j).d16,
+                                       (size_t)window->view->tile_texels, least, n, dark);
     any = 0;
     all = mask;
     for (int32_t i = 0; i < n; i++) {
