@@ -40,7 +40,7 @@ void gn_ortho_point(int64_t out[3], const gn_xform *xform, const int32_t p[3])
 }
 
 /* Cuts at sign * c[axis] <= `reach`, the cut distance. */
-static GN_NOINLINE void clip_side(gn_light_polygon *polygon, gn_light_polygon *in, int axis, int64_t sign)
+GN_COLD static GN_NOINLINE void clip_side(gn_light_polygon *polygon, gn_light_polygon *in, int axis, int64_t sign)
 {
     *in = *polygon;
     polygon->n = 0;
@@ -118,7 +118,8 @@ static GN_NOINLINE int ortho_caster(gn_caster *out, const gn_light_view *view, c
 }
 
 /* Begins a caster with corners anywhere, by 64-bit differences. */
-static GN_NOINLINE int wide_caster_begin(gn_caster *out, const gn_light_view *view, int64_t p[3][3], uint32_t sides)
+GN_COLD static GN_NOINLINE int wide_caster_begin(gn_caster *out, const gn_light_view *view, int64_t p[3][3],
+                                                 uint32_t sides)
 {
     int64_t e1[3], e2[3], n[3], lo = p[0][2], hi = lo;
     int32_t e1n[3], e2n[3], nn[3];
@@ -313,7 +314,8 @@ static GN_NOINLINE int32_t general_box(const gn_frame *frame, const gn_light_vie
     return box_caster(frame, view, casting->job.sides, p[0], p[1], p[2]);
 }
 
-int32_t gn_ortho_triangle(const gn_frame *frame, const gn_light_view *view, gn_casting *casting, gn_alpha_cut *alpha)
+GN_COLD int32_t gn_ortho_triangle(const gn_frame *frame, const gn_light_view *view, gn_casting *casting,
+                                  gn_alpha_cut *alpha)
 {
     gn_caster caster;
     gn_light_polygon *polygon = &casting->of.polygon;
