@@ -20,14 +20,26 @@ GN_HOT static inline uint32_t gn_filter_fraction(int32_t c_q16, int32_t bits)
     return (((uint32_t)c_q16 & 0xFFFFU) + (0x8000U >> bits)) >> (16 - bits);
 }
 
-/* Sum of the products of weights of the dark texels of n x n. */
+/* Sums of the weights in all subsets of four: bit i for weight i. */
+GN_HOT static inline void gn_subset_sums(uint32_t sums[16], const uint32_t w[4])
+{
+    uint32_t a = w[0], b = w[1], c = w[2], d = w[3], ab = a + b, cd = c + d;
+    sums[0] = 0, sums[1] = a, sums[2] = b, sums[3] = ab;
+    sums[4] = c, sums[5] = a + c, sums[6] = b + c, sums[7] = ab + c;
+    sums[8] = d, sums[9] = a + d, sums[10] = b + d, sums[11] = ab + d;
+    sums[12] = cd, sums[13] = a + cd, sums[14] = b + cd, sums[15] = ab + cd;
+}
+
+/* Sum of the products of weights of the dark texels of n x n, by subsets of the weights. */
 GN_HOT static inline uint64_t gn_weighted(const uint8_t *dark, int32_t n, const uint32_t *wu, const uint32_t *wv)
 {
     uint64_t sum = 0;
+    uint32_t left[16], right[16];
+    gn_subset_sums(left, wu);
+    if (n > 4) gn_subset_sums(right, wu + 4);
     for (int32_t j = 0; j < n; j++) {
-        uint32_t across = 0;
-        for (int32_t i = 0; i < n; i++)
-            if (dark[j] >> i & 1U) across += wu[i];
+        uint32_t across = left[dark[j] & 15U];
+        if (n > 4) across += right[dark[j] >> 4];
         sum += (uint64_t)across * wv[j];
     }
     return sum;
