@@ -150,7 +150,7 @@ GN_HOT int32_t gn_norm_vec(int32_t out[3], const int64_t a[3])
 {
     uint64_t any = gn_abs64(a[0]) | gn_abs64(a[1]) | gn_abs64(a[2]);
     int32_t clz = any ? gn_clz64(any) : 34, s = clz - 1; /* one bit more than the result, for rounding */
-    if (s < 0 || (any << clz) >> 33 == 0x7FFFFFFFU) { /* one may be rounded up to 2^30 */
+    if (s < 0 || (any << clz) >> 33 == 0x7FFFFFFFU) {    /* one may be rounded up to 2^30 */
         for (int i = 0; i < 3; i++) {
             int32_t v = halved(s < 0 ? (int32_t)(a[i] >> 33) : upper32(a[i], s));
             out[i] = v == 1 << 30 ? v - 1 : v == -(1 << 30) ? v + 1 : v;
