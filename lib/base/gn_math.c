@@ -16,7 +16,7 @@ GN_HOT int64_t gn_far_dot_q30(const int32_t a[3], const int32_t b[3])
     return gn_dot_q30_inline(a, b);
 }
 
-GN_HOT uint64_t gn_bf_from_u64_bits(uint64_t v)
+GN_HOT GN_NOINLINE uint64_t gn_bf_from_u64_bits(uint64_t v)
 {
     int32_t clz = gn_clz64(v);
     gn_bfloat out = {(uint32_t)((v << clz) >> 32), 32 - clz};
@@ -58,7 +58,7 @@ GN_HOT uint32_t gn_rsqrt_norm(uint32_t m, int32_t newton_steps)
     return y;
 }
 
-GN_HOT uint64_t gn_bf_recip_bits(uint64_t bits)
+GN_HOT GN_NOINLINE uint64_t gn_bf_recip_bits(uint64_t bits)
 {
     gn_bfloat a = gn_bf_of_bits(bits);
     gn_bfloat out = {gn_recip_norm(a.mant, 2), -a.exp - 63};
@@ -200,7 +200,7 @@ GN_HOT int gn_normalise_q30(int32_t out_q30[3], const int64_t a[3])
     return 1;
 }
 
-GN_HOT void gn_cross64(int64_t out[3], const int32_t a[3], const int32_t b[3])
+GN_HOT GN_NOINLINE void gn_cross64(int64_t out[3], const int32_t a[3], const int32_t b[3])
 {
     out[0] = (int64_t)a[1] * b[2] - (int64_t)a[2] * b[1];
     out[1] = (int64_t)a[2] * b[0] - (int64_t)a[0] * b[2];
