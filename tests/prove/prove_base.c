@@ -51,14 +51,14 @@ void prove_shifts(void)
     }
 }
 
-/* gn_scale64_inline: all numbers, all shifts */
+/* gn_scale64: all numbers, all shifts */
 void prove_scale(void)
 {
-    sink = gn_scale64_inline(any_i64(INT64_MIN, -1), any_i32(-1000, 1000));
-    sink = gn_scale64_inline(0, any_i32(-1000, 1000));
-    sink = gn_scale64_inline(any_i64(1, INT64_MAX), any_i32(-1000, 1000));
+    sink = gn_scale64(any_i64(INT64_MIN, -1), any_i32(-1000, 1000));
+    sink = gn_scale64(0, any_i32(-1000, 1000));
+    sink = gn_scale64(any_i64(1, INT64_MAX), any_i32(-1000, 1000));
     for (int s = 1; s <= 70; s++) {
-        int64_t v = gn_scale64_inline(any_i64(INT64_MIN, INT64_MAX), s);
+        int64_t v = gn_scale64(any_i64(INT64_MIN, INT64_MAX), s);
         //@ assert s > 62 || -(INT64_MAX >> s) - 1 <= v <= (INT64_MAX >> s) + 1;
     }
 }
