@@ -89,8 +89,7 @@ GN_HOT static inline int64_t gn_shr64_inline(int64_t v, int32_t s)
  * who adds to such a result need ask whether it is one. */
 #define GN_SATURATED INT64_C(0x1FFFFFFFFFFFFFFF)
 
-/* round(v * 2^-s) for any s of either sign. Where s < 0, saturates at +-GN_SATURATED. A call: inline it is 170 bytes.
- */
+/* round(v * 2^-s) for any s of either sign. Where s < 0, saturates at +-GN_SATURATED. Inline: 170 bytes each. */
 int64_t gn_scale64(int64_t v, int32_t s);
 
 /* round(a * b / 2^s); 1 <= s <= 62, |a * b| <= 2^62. */
