@@ -32,13 +32,25 @@ typedef gn_raster_depth raster_depth;
         GN_KEEP(iz);                                                                                                   \
     } while (0)
 
-/* n > 0 cells, from the last, whose depth is iz, to the first: the remainder of n / 4, then groups of four. */
+/* n > 0 cells, from the last, whose depth is iz, to the first: the remainder of n / 8, then groups of eight. */
 GN_INLINE void raster_span(uint32_t *cell, int32_t n, uint32_t iz, const raster_depth *depth)
 {
     GN_COUNT(covered, n);
-    uint32_t minus_dx = depth->minus_dx, id_mask = depth->id_mask, below = depth->below, *at = cell + (n & ~3);
+    uint32_t minus_dx = depth->minus_dx, id_mask = depth->id_mask, below = depth->below, *at = cell + (n & ~7);
     GN_KEEP(at);     /* one pointer */
-    switch (n & 3) { /* each goes on with those after it */
+    switch (n & 7) { /* each goes on with those after it */
+    case 7:
+        GN_CELL_(at[6]);
+        GN_GOES_ON;
+    case 6:
+        GN_CELL_(at[5]);
+        GN_GOES_ON;
+    case 5:
+        GN_CELL_(at[4]);
+        GN_GOES_ON;
+    case 4:
+        GN_CELL_(at[3]);
+        GN_GOES_ON;
     case 3:
         GN_CELL_(at[2]);
         GN_GOES_ON;
@@ -52,8 +64,12 @@ GN_INLINE void raster_span(uint32_t *cell, int32_t n, uint32_t iz, const raster_
         break;
     }
     while (at != cell) {
-        at -= 4;
+        at -= 8;
         GN_KEEP(at);
+        GN_CELL_(at[7]);
+        GN_CELL_(at[6]);
+        GN_CELL_(at[5]);
+        GN_CELL_(at[4]);
         GN_CELL_(at[3]);
         GN_CELL_(at[2]);
         GN_CELL_(at[1]);
