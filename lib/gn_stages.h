@@ -24,12 +24,12 @@ gn_status gn_atlas_render_tile(gn_frame *frame, gn_casting *casting, uint32_t vi
                                uint32_t n_words);
 
 /* Fills frame->tri from the scene, or frame->group, and counts the triangles of each screen tile. The scratch is used
- * for a vertex cache, and for results that gn_bin_triangles uses again. */
+ * for a vertex cache. */
 gn_status gn_setup_triangles(gn_frame *frame, gn_scratch *scratch);
 
-/* Sorts the references that gn_setup_triangles counted in tile_first, with its results in the scratch. With groups
- * there are no references: only the counts are checked. */
-gn_status gn_bin_triangles(gn_frame *frame, const gn_scratch *scratch);
+/* Sorts the references that gn_setup_triangles counted in tile_first. With groups there are no references: only the
+ * counts are checked. */
+gn_status gn_bin_triangles(gn_frame *frame);
 
 /* Fills scratch->cell, rows of rect.x1 - rect.x0. A cell is near / Z in its high bits and the triangle's identity in
  * its low id_bits. The larger cell wins, so that the order of drawing does not matter. */

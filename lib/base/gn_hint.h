@@ -22,6 +22,8 @@
 #define GN_KEEP(v) __asm__ volatile("" : "+r"(v))
 /* For a function that is seldom called from a hot one: inlined, it would take registers. */
 #define GN_NOINLINE __attribute__((noinline))
+/* For a function that runs a few times in a frame, and what it alone calls: few bytes before few instructions. */
+#define GN_COLD __attribute__((cold))
 /* Intended fall-through from one case into the next. */
 #define GN_GOES_ON __attribute__((fallthrough))
 /* A condition that is seldom true: its code is moved out of the fast path. */
@@ -29,6 +31,7 @@
 #else
 #define GN_KEEP(v) ((void)0)
 #define GN_NOINLINE
+#define GN_COLD
 #define GN_GOES_ON   ((void)0)
 #define GN_SELDOM(c) (c)
 #endif

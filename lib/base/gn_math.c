@@ -16,7 +16,7 @@ GN_HOT int64_t gn_far_dot_q30(const int32_t a[3], const int32_t b[3])
     return gn_dot_q30_inline(a, b);
 }
 
-GN_HOT uint64_t gn_bf_from_u64_bits(uint64_t v)
+GN_HOT GN_NOINLINE uint64_t gn_bf_from_u64_bits(uint64_t v)
 {
     int32_t clz = gn_clz64(v);
     gn_bfloat out = {(uint32_t)((v << clz) >> 32), 32 - clz};
@@ -58,7 +58,7 @@ GN_HOT uint32_t gn_rsqrt_norm(uint32_t m, int32_t newton_steps)
     return y;
 }
 
-GN_HOT uint64_t gn_bf_recip_bits(uint64_t bits)
+GN_HOT GN_NOINLINE uint64_t gn_bf_recip_bits(uint64_t bits)
 {
     gn_bfloat a = gn_bf_of_bits(bits);
     gn_bfloat out = {gn_recip_norm(a.mant, 2), -a.exp - 63};
@@ -146,12 +146,11 @@ GN_HOT static inline int32_t halved(int32_t v)
     return (v >> 1) + (v & 1);
 }
 
-/* Of any vector, which may be short, or be rounded up to 2^30. */
-GN_HOT static GN_NOINLINE int32_t norm_any(int32_t out[3], const int64_t a[3])
+GN_HOT int32_t gn_norm_vec(int32_t out[3], const int64_t a[3])
 {
     uint64_t any = gn_abs64(a[0]) | gn_abs64(a[1]) | gn_abs64(a[2]);
     int32_t clz = any ? gn_clz64(any) : 34, s = clz - 1; /* one bit more than the result, for rounding */
-    if (s < 0 || (any << clz) >> 33 == 0x7FFFFFFFU) {
+    if (s < 0 || (any << clz) >> 33 == 0x7FFFFFFFU) {    /* one may be rounded up to 2^30 */
         for (int i = 0; i < 3; i++) {
             int32_t v = halved(s < 0 ? (int32_t)(a[i] >> 33) : upper32(a[i], s));
             out[i] = v == 1 << 30 ? v - 1 : v == -(1 << 30) ? v + 1 : v;
@@ -162,24 +161,6 @@ GN_HOT static GN_NOINLINE int32_t norm_any(int32_t out[3], const int64_t a[3])
         out[2] = halved(upper32(a[2], s));
     }
     return 34 - clz; /* bits above 30 */
-}
-
-GN_HOT int32_t gn_norm_vec(int32_t out[3], const int64_t a[3])
-{
-    const int32_t x = (int32_t)(a[0] >> 32), y = (int32_t)(a[1] >> 32), z = (int32_t)(a[2] >> 32);
-    /* bits of absolute values, or 1 less of negative ones: where that makes a difference, all bits below are set */
-    const uint32_t high = (uint32_t)((x ^ x >> 31) | (y ^ y >> 31) | (z ^ z >> 31));
-    if (GN_SIZE_FIRST || !high) return norm_any(out, a);
-    const int32_t clz = gn_clz32(high), s = clz - 1;
-    if (!(high & (high + 1))) {
-        const uint32_t low = ((uint32_t)a[0] ^ (uint32_t)(x >> 31)) | ((uint32_t)a[1] ^ (uint32_t)(y >> 31)) |
-                             ((uint32_t)a[2] ^ (uint32_t)(z >> 31));
-        if ((high << s | (low >> 1) >> (31 - s)) >= 0x7FFFFFFEU) return norm_any(out, a);
-    }
-    out[0] = halved(upper32(a[0], s));
-    out[1] = halved(upper32(a[1], s));
-    out[2] = halved(upper32(a[2], s));
-    return 34 - clz;
 }
 
 GN_HOT int gn_det_sign(const int32_t m[3][3])
@@ -210,7 +191,6 @@ GN_HOT int gn_normalise_q30(int32_t out_q30[3], const int64_t a[3])
     /* n / sqrt(sum) = n * r * 2^(s/2 - 63), s = 2 or 4; the factor r, from 2^31 on, as r - 2^32 and once more */
     int32_t below = (int32_t)(r - 0x80000000U - 0x80000000U);
     GN_KEEP(below); /* signed: one multiplication */
-    GN_UNROLL
     for (int i = 0; i < 3; i++) {
         int32_t twice = s == 4 ? 2 * n[i] : n[i];
         int64_t p = (int64_t)twice * below;
@@ -220,7 +200,7 @@ GN_HOT int gn_normalise_q30(int32_t out_q30[3], const int64_t a[3])
     return 1;
 }
 
-GN_HOT void gn_cross64(int64_t out[3], const int32_t a[3], const int32_t b[3])
+GN_HOT GN_NOINLINE void gn_cross64(int64_t out[3], const int32_t a[3], const int32_t b[3])
 {
     out[0] = (int64_t)a[1] * b[2] - (int64_t)a[2] * b[1];
     out[1] = (int64_t)a[2] * b[0] - (int64_t)a[0] * b[2];
@@ -231,7 +211,6 @@ GN_HOT void gn_cross_q30(int32_t out_q30[3], const int32_t a_q30[3], const int32
 {
     int64_t c[3];
     gn_cross64(c, a_q30, b_q30);
-    GN_UNROLL
     for (int i = 0; i < 3; i++) out_q30[i] = (int32_t)gn_shr64(c[i], 30);
 }
 
@@ -293,7 +272,6 @@ GN_HOT int32_t gn_length_cosine_q24(gn_length length, const int32_t n_q30[3], co
 
 GN_HOT void gn_length_unit(gn_length length, const int32_t n_q30[3], int32_t out_q30[3])
 {
-    GN_UNROLL
     for (int i = 0; i < 3; i++) {
         int64_t v = gn_scale64((int64_t)n_q30[i] * (int64_t)length.root, 63 - 30 - length.shift / 2);
         out_q30[i] = (int32_t)gn_clamp64(v, -(1 << 30), 1 << 30);

@@ -1,5 +1,5 @@
-/* Functions in place of inline code, with GN_SIZE_FIRST or without long products: see gn_q.h. The linker drops unused
- * ones. */
+/* Functions in place of inline code: gn_scale64; with GN_SIZE_FIRST or without long products the others, see gn_q.h.
+ * The linker drops unused ones. */
 #include "gn_internal.h"
 
 #include "base/gn_hint.h"
@@ -31,9 +31,14 @@ GN_HOT GN_NOINLINE int64_t gn_far_shr30(int64_t v)
     return gn_shr64_inline(v, 30);
 }
 
-GN_HOT GN_NOINLINE int64_t gn_far_scale64(int64_t v, int32_t s)
+GN_HOT GN_NOINLINE int64_t gn_scale64(int64_t v, int32_t s)
 {
-    return gn_scale64_inline(v, s);
+    if (s > 63) return 0;
+    if (s > 0) return (v >> s) + ((v >> (s - 1)) & 1); /* no addition that could overflow */
+    if (s == 0) return v;
+    if (v == 0) return 0;
+    if (gn_clz64(gn_abs64_inline(v)) - 3 < -s) return v < 0 ? -GN_SATURATED : GN_SATURATED;
+    return gn_shl64(v, -s);
 }
 
 GN_HOT GN_NOINLINE int32_t gn_far_mul_shr(int32_t a, int32_t b, int32_t s)

@@ -89,16 +89,8 @@ GN_HOT static inline int64_t gn_shr64_inline(int64_t v, int32_t s)
  * who adds to such a result need ask whether it is one. */
 #define GN_SATURATED INT64_C(0x1FFFFFFFFFFFFFFF)
 
-/* round(v * 2^-s) for any s of either sign. Where s < 0, saturates at +-GN_SATURATED. */
-GN_HOT static inline int64_t gn_scale64_inline(int64_t v, int32_t s)
-{
-    if (s > 63) return 0;
-    if (s > 0) return (v >> s) + ((v >> (s - 1)) & 1); /* no addition that could overflow */
-    if (s == 0) return v;
-    if (v == 0) return 0;
-    if (gn_clz64(gn_abs64_inline(v)) - 3 < -s) return v < 0 ? -GN_SATURATED : GN_SATURATED;
-    return gn_shl64(v, -s);
-}
+/* round(v * 2^-s) for any s of either sign. Where s < 0, saturates at +-GN_SATURATED. Inline: 170 bytes each. */
+int64_t gn_scale64(int64_t v, int32_t s);
 
 /* round(a * b / 2^s); 1 <= s <= 62, |a * b| <= 2^62. */
 GN_HOT static inline int32_t gn_mul_shr_inline(int32_t a, int32_t b, int32_t s)
@@ -118,7 +110,6 @@ int32_t gn_far_clamp32(int64_t v, int32_t lo, int32_t hi);
 int32_t gn_far_sat32(int64_t v);
 int64_t gn_far_shr64(int64_t v, int32_t s);
 int64_t gn_far_shr30(int64_t v);
-int64_t gn_far_scale64(int64_t v, int32_t s);
 int32_t gn_far_mul_shr(int32_t a, int32_t b, int32_t s);
 int32_t gn_far_mul_q30(int32_t a, int32_t b);
 uint64_t gn_far_abs64(int64_t v);
@@ -138,7 +129,6 @@ GN_INLINE int64_t gn_shr64(int64_t v, int32_t s)
 }
 
 #define gn_sat32   gn_far_sat32
-#define gn_scale64 gn_far_scale64
 #define gn_mul_shr gn_far_mul_shr
 #define gn_mul_q30 gn_far_mul_q30
 #define gn_abs64   gn_far_abs64
@@ -146,7 +136,6 @@ GN_INLINE int64_t gn_shr64(int64_t v, int32_t s)
 #define gn_clamp64 gn_clamp64_inline
 #define gn_shr64   gn_shr64_inline
 #define gn_sat32   gn_sat32_inline
-#define gn_scale64 gn_scale64_inline
 #define gn_mul_shr gn_mul_shr_inline
 #define gn_mul_q30 gn_mul_q30_inline
 #define gn_abs64   gn_abs64_inline

@@ -282,8 +282,8 @@ void gn_raster_tile(const gn_frame *frame, gn_scratch *scratch, uint32_t tile_id
     }
 }
 
-gn_status gn_bin_triangles(gn_frame *frame, const gn_scratch *scratch) /* each screen tile looks at all of them */
+gn_status gn_bin_triangles(gn_frame *frame) /* each screen tile looks at all of them */
 {
-    (void)frame, (void)scratch;
+    (void)frame;
     return GN_OK;
 }

@@ -171,7 +171,7 @@ gn_status gn_prepare(gn_renderer *r)
     uint32_t n_identities = frame->stats.n_triangles + 1;
     if (GN_K(frame, triangle_groups) && n_identities > 65535) n_identities = 65535; /* screen tiles have no more */
     frame->id_bits = (uint8_t)(32 - gn_clz32(n_identities));
-    status = gn_bin_triangles(frame, &r->scratch);
+    status = gn_bin_triangles(frame);
     if (status) return status;
     frame->stage = GN_STAGE_PREPARED;
     return GN_OK;

@@ -103,40 +103,6 @@ GN_HOT static inline gn_walk_line gn_walk_line_at(int32_t x0, int32_t y0, int32_
     return line;
 }
 
-/* The same of triangles whose width and height are so small that no edge has more than 15 rows, and 16 fraction bits
- * are enough: dy is at most 1900 units of the subpixel grid, and m of the functions below, at most 2 dy + dx dy /
- * 2^subpixel_bits, less than 2^15. */
-#define GN_NARROW_BITS 16
-GN_HOT static inline int32_t gn_walk_narrow(int32_t subpixel_bits)
-{
-    return subpixel_bits < 7 ? 15 << subpixel_bits : 1900;
-}
-
-/* a * 2^16 / b by recip = 2^31 / b: one division for two quotients, where cores have no instruction for it. */
-GN_HOT static inline uint32_t gn_walk_share(int32_t a, uint32_t recip)
-{
-    return (uint32_t)(a * (int32_t)(recip >> 15) + (a * (int32_t)(recip & 0x7FFFU) >> 15));
-}
-
-/* `y` is the row's centre. Coordinates may carry a common offset; x must already include -1/2 pixel. The start's added
- * margin is enough for 15 rows, as above: quotients err by less than one unit each; with the reciprocal, downwards by
- * less than 2 in the first row and 17/16 from each to the next, upwards by less than 1 and 1/16. 2^16 / dy is at
- * least 34.5. */
-GN_HOT static inline gn_walk_line gn_walk_narrow_at(int32_t x0, int32_t y0, int32_t x1, int32_t y1, int32_t y,
-                                                    int32_t subpixel_bits, int divides)
-{
-    GN_KEEP(x0); /* computed only when needed */
-    GN_KEEP(y0);
-    const int32_t unit = 1 << GN_NARROW_BITS;
-    int32_t one = 1 << subpixel_bits, dx = x1 - x0, dy = y1 - y0;
-    int32_t m = dy + (((x0 & (one - 1)) * dy + (y - y0) * dx - 1) >> subpixel_bits);
-    uint32_t pixel = (uint32_t)(x0 >> subpixel_bits) << GN_NARROW_BITS,
-             recip = divides ? 0 : 0x80000000U / (uint32_t)dy;
-    const gn_walk_line line = {pixel + (divides ? 16U + (uint32_t)(m * unit / dy) : 20U + gn_walk_share(m, recip)),
-                               divides ? (uint32_t)(dx * unit / dy) : gn_walk_share(dx, recip)};
-    return line;
-}
-
 /* Walks the first of rows y_lo <= y < y_hi of a triangle of any orientation, from walk->first on: walk->span[0 .. n -
  * 1], empty ones among them. Returns n, 0 if there are none. */
 int32_t gn_walk_begin(gn_walk *walk, const int32_t x[3], const int32_t y[3], int32_t subpixel_bits, int32_t y_lo,

@@ -40,7 +40,6 @@ GN_HOT void gn_bias_auto_ortho(const gn_light_view *view, gn_auto_bias form, con
         if ((u > v ? u : v) >> (range_log2 + 1) > (int64_t)gn_abs32(face[2])) return;
         int64_t lift_q16 =
             ((reach_q16 * (u + v) + view->auto_step * (int64_t)gn_abs32(face[2])) >> 30) + 1; /* 2^53 + 2^61 */
-        GN_UNROLL
         for (int i = 0; i < 3; i++) out_q16[i] = gn_sat32(gn_shr64(lift_q16 * face[i], 30));
         return;
     }
@@ -122,7 +121,6 @@ GN_HOT int64_t gn_bias_auto_persp(const gn_light_view *view, gn_auto_bias *form,
         int64_t z_q16 = gn_clamp64(gn_dot_q30(from_q16, view->axis_q30[2]), 0, INT32_MAX);
         lift_q16 += (z_q16 * plane.share_q30 >> 30) + 1; /* 2^31 * 2^31 */
     }
-    GN_UNROLL
     for (int i = 0; i < 3; i++) /* 2^33 * 2^30 would not fit, but a lift of 2^31 exceeds any scene */
         moved_q16[i] = gn_sat32(from_q16[i] + gn_shr64(gn_clamp64(lift_q16, 0, INT32_MAX) * face_q30[i], 30));
     return plane.less_q32;

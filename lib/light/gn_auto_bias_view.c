@@ -49,7 +49,7 @@ static int32_t place_error_q16(const gn_frame *frame, const gn_light_view *view)
     return (int32_t)gn_clamp64(texels_q16, 0, 8 << 16);
 }
 
-void gn_bias_auto_view(const gn_frame *frame, gn_light_view *view)
+GN_COLD void gn_bias_auto_view(const gn_frame *frame, gn_light_view *view)
 {
     view->offset_q16 = taps_q16(view) + gn_bias_auto_delta_q16(frame);
     if (view->perspective) {

@@ -44,7 +44,6 @@ GN_HOT void gn_bias_directional(const gn_frame *frame, const gn_light_view *view
     const gn_light_state *state = &frame->light[view->light_idx];
     int32_t n_dot_l = GN_RECEIVER_BIAS ? (int32_t)gn_dot_q30(n_q30, state->to_light_q30) : 0;
     bias_terms bias = bias_at(view, &frame->scene->lights[view->light_idx], n_dot_l);
-    GN_UNROLL
     for (int i = 0; i < 3; i++) {
         int64_t along_q30 = gn_dot_q30(n_q30, view->axis_q30[i]); /* |n| <= 1 */
         out_q16[i] = (int32_t)gn_shr64(along_q30 * bias.along_q16, 30);
@@ -62,7 +61,6 @@ GN_HOT void gn_bias_punctual(const gn_frame *frame, const gn_light_state *light,
     if (light->kind == GN_LIGHT_SPOT) z = -gn_dot_q30(from_q16, light->to_light_q30);
     else {
         int face = 0;
-        GN_UNROLL
         for (int i = 0; i < 3; i++) {
             if ((int64_t)gn_abs32(from_q16[i]) < z) continue;
             z = (int64_t)gn_abs32(from_q16[i]);
@@ -81,7 +79,6 @@ GN_HOT void gn_bias_punctual(const gn_frame *frame, const gn_light_state *light,
     /* texels to units: 2^27 * 2^31 */
     int64_t along = gn_bf_apply(bias.along_q16 * z, view->fit.persp.texel_per_z, -16);
     int64_t towards = gn_bf_apply(bias.towards_q16 * z, view->fit.persp.texel_per_z, -16);
-    GN_UNROLL
     for (int i = 0; i < 3; i++)
         out_q16[i] = gn_sat32(gn_shr64(gn_clamp64(along, 0, INT32_MAX) * n_q30[i], 30) +
                               gn_shr64(gn_clamp64(towards, 0, INT32_MAX) * to_light[i], 30));

@@ -6,7 +6,7 @@
 #include "light/gn_lights.h"
 
 /* k^2 = (W^2 + H^2) / (H focal)^2, Q24, clamped to 2^14 (half-diagonal of 89.5 degrees). */
-int64_t gn_cascade_tan2_q24(const gn_frame *frame)
+GN_COLD int64_t gn_cascade_tan2_q24(const gn_frame *frame)
 {
     const uint64_t limit = (uint64_t)1 << 38;
     uint32_t w = frame->picture.width, h = frame->picture.height, focal = frame->scene->camera.focal_q24;
@@ -39,8 +39,8 @@ static void flat_sphere(const gn_frame *frame, int32_t near_q16, int32_t far_q16
 #endif
 
 /* One sphere per cascade: MODEL 4 derives it. [D3] */
-void gn_cascade_sphere(const gn_frame *frame, int32_t near_q16, int32_t far_q16, int64_t *centre_q24,
-                       int64_t *radius_q24)
+GN_COLD void gn_cascade_sphere(const gn_frame *frame, int32_t near_q16, int32_t far_q16, int64_t *centre_q24,
+                               int64_t *radius_q24)
 {
     const int64_t one = (int64_t)1 << 24;
     int64_t k2 = gn_cascade_tan2_q24(frame);
@@ -71,7 +71,7 @@ void gn_cascade_sphere(const gn_frame *frame, int32_t near_q16, int32_t far_q16,
 }
 
 /* Near and far view depth of cascade i. [D3] */
-void gn_cascade_slice(const gn_frame *frame, uint32_t i, int32_t *near_q16, int32_t *far_q16)
+GN_COLD void gn_cascade_slice(const gn_frame *frame, uint32_t i, int32_t *near_q16, int32_t *far_q16)
 {
     const gn_shadow_settings *shadow = &frame->scene->shadow;
     int32_t m = shadow->max_distance_q16;
@@ -127,7 +127,7 @@ static void setup_distance_fade(gn_frame *frame)
     frame->fade_scale = gn_bf_recip(gn_bf_from_u64(width_q32));
 }
 
-void gn_cascade_setup(gn_frame *frame)
+GN_COLD void gn_cascade_setup(gn_frame *frame)
 {
     uint32_t n = frame->scene->shadow.n_cascades;
     frame->n_cascades = (uint8_t)(GN_MANY_CASCADES && n ? n : 1);
@@ -138,7 +138,7 @@ void gn_cascade_setup(gn_frame *frame)
     setup_spheres(frame);
 }
 
-int32_t gn_cascade_fit_sphere(const gn_frame *frame, int32_t near_q16, int32_t far_q16, gn_bfloat *radius)
+GN_COLD int32_t gn_cascade_fit_sphere(const gn_frame *frame, int32_t near_q16, int32_t far_q16, gn_bfloat *radius)
 {
     int64_t centre_q24, radius_q24;
     gn_cascade_sphere(frame, near_q16, far_q16, &centre_q24, &radius_q24);

@@ -44,7 +44,7 @@ static void sort_by_index(gn_object_state *object)
     }
 }
 
-uint32_t gn_object_list_lights(gn_frame *frame, uint32_t object_idx)
+GN_COLD uint32_t gn_object_list_lights(gn_frame *frame, uint32_t object_idx)
 {
     const gn_scene *scene = frame->scene;
     gn_object_state *object = &frame->object[object_idx];

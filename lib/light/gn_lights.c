@@ -64,7 +64,7 @@ static gn_status list_lights(gn_frame *frame)
     return GN_OK;
 }
 
-gn_status gn_lights_setup(gn_frame *frame)
+GN_COLD gn_status gn_lights_setup(gn_frame *frame)
 {
     const gn_scene *scene = frame->scene;
     /* 10^-4 of the model's units; squared distances scale by 4^unit_log2; min one step */

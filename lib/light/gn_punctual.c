@@ -10,7 +10,7 @@
 #define GN_ONE_Q30 (1 << 30)
 
 /* Coefficients of surface point minus light along a pixel's ray, world axes: see gn_ray_plane. */
-GN_HOT static void ray_planes(const gn_frame *frame, gn_light_state *light)
+GN_COLD static void ray_planes(const gn_frame *frame, gn_light_state *light)
 {
     const gn_cam *cam = &frame->cam;
     gn_bfloat per_px = cam->inv_focal2;
@@ -29,7 +29,7 @@ GN_HOT static void ray_planes(const gn_frame *frame, gn_light_state *light)
 }
 
 /* Colours become mantissas of at most 1: a channel loses less than 2^-16 of the largest. */
-GN_HOT static void normalise_colour(gn_light_state *light, const gn_light *from)
+GN_COLD static void normalise_colour(gn_light_state *light, const gn_light *from)
 {
     uint32_t largest = from->colour_uq16[0];
     for (int c = 1; c < 3; c++)
@@ -40,7 +40,7 @@ GN_HOT static void normalise_colour(gn_light_state *light, const gn_light *from)
 }
 
 /* A spot or point light for the frame. [P1] */
-GN_HOT void gn_punctual_setup(gn_frame *frame, uint32_t light_idx)
+GN_COLD void gn_punctual_setup(gn_frame *frame, uint32_t light_idx)
 {
     const gn_light *from = &frame->scene->lights[light_idx];
     gn_light_state *light = &frame->light[light_idx];
@@ -74,7 +74,7 @@ GN_HOT static uint32_t window_q30(const gn_light_state *light, uint64_t d2_q32)
     return (uint32_t)gn_mul_q30(window, window);
 }
 
-GN_HOT gn_bfloat gn_punctual_weight(const gn_light_state *light, uint64_t distance2_q32, uint64_t min2_q32)
+GN_COLD gn_bfloat gn_punctual_weight(const gn_light_state *light, uint64_t distance2_q32, uint64_t min2_q32)
 {
     uint32_t largest = 1;
     for (int c = 0; c < 3; c++)

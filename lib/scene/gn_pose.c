@@ -141,8 +141,8 @@ static void pose_nodes(const gn_rig *rig, const gn_rig_clip *clip, uint32_t time
     }
 }
 
-void gn_pose(const gn_rig *rig, uint32_t clip_idx, uint32_t time_q16, gn_affine *nodes, gn_object *objects,
-             gn_light *lights, gn_camera *cameras)
+GN_COLD void gn_pose(const gn_rig *rig, uint32_t clip_idx, uint32_t time_q16, gn_affine *nodes, gn_object *objects,
+                     gn_light *lights, gn_camera *cameras)
 {
     const gn_rig_clip *clip = clip_idx < rig->n_clips ? &rig->clips[clip_idx] : NULL;
     if (clip && time_q16 > clip->duration_q16) time_q16 = clip->duration_q16;

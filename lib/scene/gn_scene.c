@@ -465,7 +465,7 @@ static gn_status check_counts(gn_frame *frame, const gn_scene *scene)
     return GN_OK;
 }
 
-gn_status gn_scene_validate(gn_frame *frame, const gn_scene *scene)
+GN_COLD gn_status gn_scene_validate(gn_frame *frame, const gn_scene *scene)
 {
     gn_field wrong;
     gn_status status = check_camera(frame, &scene->camera);

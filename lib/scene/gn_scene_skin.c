@@ -40,7 +40,7 @@ static gn_field wrong_skin(const gn_skin *skin)
     return GN_FIELD_NONE;
 }
 
-gn_status gn_scene_skin_check(gn_frame *frame, const gn_object *object, uint32_t object_idx)
+GN_COLD gn_status gn_scene_skin_check(gn_frame *frame, const gn_object *object, uint32_t object_idx)
 {
     const gn_skin *skin = object->skin;
     gn_field wrong = wrong_skin(skin);

@@ -56,7 +56,7 @@ static void corner_normals(const caster_job *job, const uint16_t idx[3], int64_t
 }
 
 /* Corners move inwards by a fraction of a texel, whose width grows with distance in perspective views. [B4] */
-static GN_NOINLINE void shrink(const caster_job *job, const uint16_t idx[3], int64_t corner[3][3])
+GN_COLD static GN_NOINLINE void shrink(const caster_job *job, const uint16_t idx[3], int64_t corner[3][3])
 {
     int32_t n[3][3];
     corner_normals(job, idx, corner, n);
@@ -192,7 +192,7 @@ static gn_alpha_cut *alpha_of(gn_casting *casting)
 }
 
 /* A caster of any size, shrunk by its bias and cut by its alpha. [M1] */
-static GN_NOINLINE gn_status draw_large(gn_casting *casting, const uint16_t idx[3], int32_t *n_texels)
+GN_COLD static GN_NOINLINE gn_status draw_large(gn_casting *casting, const uint16_t idx[3], int32_t *n_texels)
 {
     const caster_job *job = &casting->job;
     int64_t(*corner)[3] = casting->of.polygon.p;
@@ -210,7 +210,7 @@ static GN_NOINLINE gn_status draw_large(gn_casting *casting, const uint16_t idx[
 }
 
 /* Large casters are not built: such a caster is refused. */
-static gn_status refuse_large(gn_casting *casting, const uint16_t idx[3], int32_t *n_texels)
+GN_COLD static gn_status refuse_large(gn_casting *casting, const uint16_t idx[3], int32_t *n_texels)
 {
     const caster_job *job = &casting->job;
     *n_texels = -1;

@@ -125,9 +125,6 @@ GN_HOT int32_t gn_caster_begin(const gn_frame *frame, const gn_light_view *view,
 {
     int32_t bits = GN_CASTER_BITS(frame), size = view->tile_texels;
     GN_COUNT(caster_walks, 1);
-    if (!GN_SIZE_FIRST && gn_first_px(gn_min32(x[0], gn_min32(x[1], x[2])), bits) >=
-                              gn_min32(gn_first_px(gn_max32(x[0], gn_max32(x[1], x[2])), bits), size))
-        return 0;
     int32_t n_rows = gn_walk_begin(walk, x, y, bits, 0, GN_TILE_ROWS(view));
     if (GN_SIZE_FIRST || walk->row < walk->row_end[0])
         return n_rows; /* more than one batch of rows: some texel is covered */

@@ -12,7 +12,8 @@ static int in_layer(uint32_t flags, gn_layer layer)
 }
 
 /* Culls by layer, by box, and by smaller cascades. [D8] */
-int gn_cull_draws(const gn_frame *frame, const gn_light_view *view, uint32_t object_idx, gn_layer layer, int *culled)
+GN_COLD int gn_cull_draws(const gn_frame *frame, const gn_light_view *view, uint32_t object_idx, gn_layer layer,
+                          int *culled)
 {
     *culled = 0;
     if (!in_layer(frame->flags[object_idx], layer)) return 0;

@@ -52,7 +52,7 @@ static int persp_sees(const gn_frame *frame, const gn_light_view *view, const gn
     return (int64_t)gn_abs64(c[0]) - e[0] <= width && (int64_t)gn_abs64(c[1]) - e[1] <= width;
 }
 
-int gn_cull_sees(const gn_frame *frame, const gn_light_view *view, uint32_t object_idx)
+GN_COLD int gn_cull_sees(const gn_frame *frame, const gn_light_view *view, uint32_t object_idx)
 {
     const gn_object_state *object = &frame->object[object_idx];
     if (GN_PUNCTUAL_LIGHTS && view->perspective) return persp_sees(frame, view, object);

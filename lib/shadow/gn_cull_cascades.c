@@ -7,7 +7,7 @@
 #include "shadow/gn_filter.h"
 #include "shadow/gn_atlas.h"
 
-void gn_cull_begin(gn_frame *frame)
+GN_COLD void gn_cull_begin(gn_frame *frame)
 {
     int32_t(*box)[3] = frame->receivers_q16;
     for (int k = 0; k < 3; k++) {
@@ -54,7 +54,7 @@ static int64_t shadow_length_q16(const gn_frame *frame, const gn_light_view *vie
 }
 
 /* Whether a caster may be skipped in a larger cascade. [D8] */
-int gn_cull_shown_nearer(const gn_frame *frame, const gn_light_view *view, uint32_t object_idx)
+GN_COLD int gn_cull_shown_nearer(const gn_frame *frame, const gn_light_view *view, uint32_t object_idx)
 {
     const gn_object_state *object = &frame->object[object_idx];
     const gn_light *light = &frame->scene->lights[view->light_idx];

@@ -69,7 +69,7 @@ static uint64_t object_signature(uint64_t s, const gn_object *object)
 }
 
 /* Everything that the texels of a view's tile depend on. [A5] */
-uint64_t gn_kept_signature(const gn_frame *frame, const gn_light_view *view, gn_layer layer)
+GN_COLD uint64_t gn_kept_signature(const gn_frame *frame, const gn_light_view *view, gn_layer layer)
 {
     uint64_t s = view_signature(frame, view);
     for (uint32_t o = 0; o < frame->scene->n_objects; o++) {
@@ -79,7 +79,7 @@ uint64_t gn_kept_signature(const gn_frame *frame, const gn_light_view *view, gn_
     return s ? s : 1;
 }
 
-void gn_kept_check_layout(gn_frame *frame, const gn_tile_plan *plan)
+GN_COLD void gn_kept_check_layout(gn_frame *frame, const gn_tile_plan *plan)
 {
     uint64_t layout = gn_signature_add(GN_SIGNATURE_SEED, (uint64_t)GN_K(frame, depth_bits) << 8 |
                                                               (uint64_t)GN_K(frame, atlas_size) << 32);

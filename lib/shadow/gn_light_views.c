@@ -13,7 +13,7 @@
 #include "shadow/gn_persp.h"
 #include "shadow/gn_texel.h"
 
-void gn_light_view_axes(int32_t axis[3][3], const int32_t w_q30[3])
+GN_COLD void gn_light_view_axes(int32_t axis[3][3], const int32_t w_q30[3])
 {
     const uint32_t limit = 15U << 26; /* 15/16 */
     for (int i = 0; i < 3; i++) axis[2][i] = w_q30[i];
@@ -228,7 +228,7 @@ static void add_views(gn_frame *frame, const gn_tile_plan *plan)
     }
 }
 
-gn_status gn_light_views_setup(gn_frame *frame, gn_seen_job *job)
+GN_COLD gn_status gn_light_views_setup(gn_frame *frame, gn_seen_job *job)
 {
     gn_tile_plan plan[GN_MAX_LIGHTS];
     frame->has_cascades = 0;

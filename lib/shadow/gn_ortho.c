@@ -40,7 +40,7 @@ void gn_ortho_point(int64_t out[3], const gn_xform *xform, const int32_t p[3])
 }
 
 /* Cuts at sign * c[axis] <= `reach`, the cut distance. */
-static GN_NOINLINE void clip_side(gn_light_polygon *polygon, gn_light_polygon *in, int axis, int64_t sign)
+GN_COLD static GN_NOINLINE void clip_side(gn_light_polygon *polygon, gn_light_polygon *in, int axis, int64_t sign)
 {
     *in = *polygon;
     polygon->n = 0;
@@ -85,16 +85,6 @@ static int within_reach(int64_t p[3][3])
     return 1;
 }
 
-/* round(a * b * 2^shift), as gn_bf_apply gives it */
-GN_INLINE int64_t apply(int32_t a, gn_bfloat b, int32_t shift)
-{
-    int32_t s = -(b.exp + shift);
-    if (GN_SIZE_FIRST || s < 1 || s > 62) return gn_bf_apply(a, b, shift);
-    uint64_t r = (uint64_t)gn_abs32(a) * b.mant; /* 2^30 * 2^32 */
-    int64_t v = (int64_t)((r >> s) + ((r >> (s - 1)) & 1U));
-    return a < 0 ? -v : v;
-}
-
 /* Texels along w, Q16, as a fraction of the depth range, Q32. |.| < 2^49 */
 static inline int64_t depth_q32(const gn_light_view *view, int64_t texels_q16)
 {
@@ -114,13 +104,13 @@ static GN_NOINLINE int ortho_caster(gn_caster *out, const gn_light_view *view, c
     int64_t bias = view->bias_constant_q16;
     if (view->bias_slope_q16) {
         const int64_t steepest =
-            gn_clamp64(apply((int32_t)gn_max32((int32_t)gn_abs32(nu), (int32_t)gn_abs32(nv)), per_n, 16), 0,
+            gn_clamp64(gn_bf_apply((int32_t)gn_max32((int32_t)gn_abs32(nu), (int32_t)gn_abs32(nv)), per_n, 16), 0,
                        (int64_t)1 << 31);                      /* texels per texel, Q16 */
         bias += gn_shr64(steepest * view->bias_slope_q16, 16); /* 2^31 * 2^22 */
     }
     out->bias = depth_q32(view, bias);
-    out->dz_du = gn_clamp64(apply(nu, per_n, 16 + to_steps), -GN_CASTER_GRADIENT_MAX, GN_CASTER_GRADIENT_MAX);
-    out->dz_dv = gn_clamp64(apply(nv, per_n, 16 + to_steps), -GN_CASTER_GRADIENT_MAX, GN_CASTER_GRADIENT_MAX);
+    out->dz_du = gn_clamp64(gn_bf_apply(nu, per_n, 16 + to_steps), -GN_CASTER_GRADIENT_MAX, GN_CASTER_GRADIENT_MAX);
+    out->dz_dv = gn_clamp64(gn_bf_apply(nv, per_n, 16 + to_steps), -GN_CASTER_GRADIENT_MAX, GN_CASTER_GRADIENT_MAX);
     const int64_t far = (int64_t)1 << 32;
     out->lo = gn_clamp64(depth_q32(view, lo), 0, far); /* pancaking */
     out->hi = gn_clamp64(depth_q32(view, hi), 0, far);
@@ -128,7 +118,8 @@ static GN_NOINLINE int ortho_caster(gn_caster *out, const gn_light_view *view, c
 }
 
 /* Begins a caster with corners anywhere, by 64-bit differences. */
-static GN_NOINLINE int wide_caster_begin(gn_caster *out, const gn_light_view *view, int64_t p[3][3], uint32_t sides)
+GN_COLD static GN_NOINLINE int wide_caster_begin(gn_caster *out, const gn_light_view *view, int64_t p[3][3],
+                                                 uint32_t sides)
 {
     int64_t e1[3], e2[3], n[3], lo = p[0][2], hi = lo;
     int32_t e1n[3], e2n[3], nn[3];
@@ -323,7 +314,8 @@ static GN_NOINLINE int32_t general_box(const gn_frame *frame, const gn_light_vie
     return box_caster(frame, view, casting->job.sides, p[0], p[1], p[2]);
 }
 
-int32_t gn_ortho_triangle(const gn_frame *frame, const gn_light_view *view, gn_casting *casting, gn_alpha_cut *alpha)
+GN_COLD int32_t gn_ortho_triangle(const gn_frame *frame, const gn_light_view *view, gn_casting *casting,
+                                  gn_alpha_cut *alpha)
 {
     gn_caster caster;
     gn_light_polygon *polygon = &casting->of.polygon;
@@ -367,14 +359,12 @@ int32_t gn_ortho_small_triangle(const gn_frame *frame, const gn_light_view *view
             return -1;
     }
     int32_t e1[3], e2[3], nn[3];
-    GN_UNROLL
     for (int i = 0; i < 3; i++) {
         e1[i] = c[1]->vertex.v_q16[i] - c[0]->vertex.v_q16[i]; /* < 2^30 */
         e2[i] = c[2]->vertex.v_q16[i] - c[0]->vertex.v_q16[i];
     }
     int64_t n[3] = {0, 0, (int64_t)e1[0] * e2[1] - (int64_t)e1[1] * e2[0]};
     if (n[2] == 0 || !(sides & (n[2] > 0 ? GN_SIDE_CW : GN_SIDE_CCW))) return -1;
-    GN_UNROLL
     for (int k = 0; k < 3; k++) {
         x[k] = (c[k]->vertex.v_q16[0] + half) >> sub;
         y[k] = (c[k]->vertex.v_q16[1] + half) >> sub;

@@ -8,7 +8,7 @@
 #include "shadow/gn_caster.h"
 #include "shadow/gn_views.h"
 
-int64_t gn_light_coord_q16(const gn_light_view *view, int axis_idx, const int32_t p_q16[3])
+GN_COLD int64_t gn_light_coord_q16(const gn_light_view *view, int axis_idx, const int32_t p_q16[3])
 {
     /* |p| <= 2^30 per component times a unit axis: below sqrt(3) * 2^60 */
     return gn_bf_apply(gn_dot64(p_q16, view->axis_q30[axis_idx]), view->fit.ortho.inv_texel, 16 - 46);
@@ -49,7 +49,7 @@ static void disk_index(const gn_frame *frame, gn_light_view *view, const gn_ligh
 }
 
 /* The planes from which light coordinates along a pixel's ray follow: see gn_ray_plane. */
-void gn_ortho_rays(const gn_frame *frame, gn_light_view *view)
+GN_COLD void gn_ortho_rays(const gn_frame *frame, gn_light_view *view)
 {
     const gn_cam *cam = &frame->cam;
     gn_ortho_fit *fit = &view->fit.ortho;
@@ -90,7 +90,8 @@ static void place_tile(const gn_frame *frame, gn_light_view *view, const gn_ligh
         view->depth_log2++;
 }
 
-void gn_ortho_fit_view(gn_frame *frame, gn_light_view *view, const gn_light *light, int32_t near_q16, int32_t far_q16)
+GN_COLD void gn_ortho_fit_view(gn_frame *frame, gn_light_view *view, const gn_light *light, int32_t near_q16,
+                               int32_t far_q16)
 {
     gn_bfloat radius;
     int clamped;
@@ -215,7 +216,7 @@ static void place_box(const gn_frame *frame, gn_light_view *view, const gn_light
 }
 
 /* [D12] */
-int gn_ortho_fit_tight(gn_frame *frame, gn_light_view *view, const gn_light *light)
+GN_COLD int gn_ortho_fit_tight(gn_frame *frame, gn_light_view *view, const gn_light *light)
 {
     const gn_view_seen *seen = &frame->seen[view - frame->view];
     tight_box box = {seen, view->tile_texels, {0, 0}};
@@ -235,7 +236,7 @@ int gn_ortho_fit_tight(gn_frame *frame, gn_light_view *view, const gn_light *lig
     return 1;
 }
 
-int gn_ortho_covers(const gn_frame *frame, gn_light_view *view, const gn_light *light, const gn_view_seen *seen)
+GN_COLD int gn_ortho_covers(const gn_frame *frame, gn_light_view *view, const gn_light *light, const gn_view_seen *seen)
 {
     int32_t range_log2 = view->tile_log2 + view->depth_log2;
     int32_t margin = margin_q16(frame, view, light, (uint32_t)gn_max32(GN_TILE_SIDE(view), 1 << (range_log2 - 1)));

@@ -26,7 +26,7 @@ GN_HOT int32_t gn_persp_face(const int32_t from_light_q16[3])
 }
 
 /* Wide enough that a tap at a face's border, with filter and offset, still lies in its tile. [P6] */
-GN_HOT int64_t gn_persp_face_q24(int32_t filter_idx, int32_t nu_q16, int32_t tile_texels, int *clamped)
+GN_COLD int64_t gn_persp_face_q24(int32_t filter_idx, int32_t nu_q16, int32_t tile_texels, int *clamped)
 {
     const int64_t one = 1 << 24, two = 2 << 24;
     int64_t a = (int64_t)gn_udiv64((uint64_t)(2 * (filter_idx + 1)) << 24, (uint64_t)tile_texels); /* <= 2.25 */
@@ -44,7 +44,7 @@ GN_HOT int64_t gn_persp_face_q24(int32_t filter_idx, int32_t nu_q16, int32_t til
 }
 
 /* T / t in Q16 */
-GN_HOT static uint32_t focal2_q16(int32_t tile_texels, int64_t t_numerator, int64_t t_denominator)
+GN_COLD static uint32_t focal2_q16(int32_t tile_texels, int64_t t_numerator, int64_t t_denominator)
 {
     uint64_t scaled = ((uint64_t)tile_texels << 16) * (uint64_t)t_denominator; /* 2^26 * 2^31 */
     uint64_t focal2 = gn_udiv64(scaled + (uint64_t)t_numerator / 2, (uint64_t)t_numerator);
@@ -53,8 +53,8 @@ GN_HOT static uint32_t focal2_q16(int32_t tile_texels, int64_t t_numerator, int6
 
 /* n of MODEL 5: what is seen of the receivers is not nearer, nor comes nearer by its bias, which reaches that far.
  * Three significant bits, so that it seldom changes. [D12] */
-GN_HOT static int32_t depth_near_q16(const gn_frame *frame, const gn_light_view *view, const gn_light *light,
-                                     int32_t reach_q16)
+GN_COLD static int32_t depth_near_q16(const gn_frame *frame, const gn_light_view *view, const gn_light *light,
+                                      int32_t reach_q16)
 {
 #if GN_TIGHT_FIT
     if (frame->scene->shadow.fit != GN_FIT_TIGHT) return light->near_q16;
@@ -74,7 +74,7 @@ GN_HOT static int32_t depth_near_q16(const gn_frame *frame, const gn_light_view 
 }
 
 /* A spot's cone, or a face of a point light's cube. [P4] [P5] */
-GN_HOT void gn_persp_fit_view(gn_frame *frame, gn_light_view *view, const gn_light *light)
+GN_COLD void gn_persp_fit_view(gn_frame *frame, gn_light_view *view, const gn_light *light)
 {
     gn_persp_fit *fit = &view->fit.persp;
     int clamped = 0;
@@ -216,38 +216,10 @@ GN_HOT static void project_corner(const gn_frame *frame, const gn_light_view *vi
 }
 
 #if GN_SMALL_CASTERS
-#define OUT_OF_BITS (GN_OUT_ALL + 1U) /* in this view, texels need more bits */
-
-/* gn_outcode() of a frustum that is as high as it is wide. */
-GN_HOT static inline uint32_t outcode(const int32_t v_q16[3], int32_t near_q16, int32_t side_q16)
-{
-    const int32_t x = v_q16[0], y = v_q16[1], side = gn_sat32((int64_t)v_q16[2] * side_q16 >> 16), other = ~side;
-    return (v_q16[2] < near_q16 ? GN_OUT_NEAR : 0U) | (x <= other ? GN_OUT_LEFT : 0U) | (x > side ? GN_OUT_RIGHT : 0U) |
-           (y <= other ? GN_OUT_BOTTOM : 0U) | (y > side ? GN_OUT_TOP : 0U);
-}
-
-/* Both of a corner within the tile's border, up to 8 times as far aside as away: nothing is limited there. */
-GN_HOT static inline void project_inner(const gn_light_view *view, int32_t bits, const int32_t v_q16[3], int32_t *x,
-                                        int32_t *y)
-{
-    const int32_t clz = gn_clz32((uint32_t)v_q16[2]), centre = (view->tile_texels << bits) >> 1, down = 45 - bits;
-    const uint32_t recip = gn_recip_norm((uint32_t)v_q16[2] << clz, 2);
-    int32_t focal2 = (int32_t)view->fit.persp.focal2_q16;
-    GN_KEEP(focal2); /* signed: one multiplication */
-    const int32_t u_q28 = (int32_t)((((int64_t)v_q16[0] * (int64_t)recip >> (34 - clz)) + 1) >> 1),
-                  v_q28 = (int32_t)((((int64_t)v_q16[1] * (int64_t)recip >> (34 - clz)) + 1) >> 1);
-    const int64_t half = (int64_t)1 << (down - 1);
-    *x = (int32_t)(((int64_t)u_q28 * focal2 + half) >> down) + centre;
-    *y = (int32_t)(((int64_t)v_q28 * focal2 + half) >> down) + centre;
-}
-
 GN_HOT void gn_persp_corner(const gn_frame *frame, const gn_light_view *view, gn_caster_corner *c)
 {
-    const gn_persp_fit *fit = &view->fit.persp;
-    const int32_t side_q16 = fit->side_q16[0];
-    c->out = outcode(c->vertex.v_q16, fit->clip_q16, side_q16);
-    if (side_q16 >> 19 || fit->focal2_q16 >> 31) c->out |= OUT_OF_BITS;
-    if (!c->out) project_inner(view, GN_CASTER_BITS(frame), c->vertex.v_q16, &c->x, &c->y);
+    c->out = gn_outcode(c->vertex.v_q16, view->fit.persp.clip_q16, view->fit.persp.side_q16, 0);
+    if (!c->out) project_corner(frame, view, c->vertex.v_q16, &c->x, &c->y);
 }
 
 GN_HOT static inline void copy_corners(int32_t out[3][3], const gn_caster_corner *const c[3])

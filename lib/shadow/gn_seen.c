@@ -423,7 +423,7 @@ static void see_light(gn_frame *frame, gn_seen_job *job, gn_view_seen *seen, uin
     }
 }
 
-void gn_seen_find(gn_frame *frame, gn_seen_job *job, const gn_tile_plan *plan)
+GN_COLD void gn_seen_find(gn_frame *frame, gn_seen_job *job, const gn_tile_plan *plan)
 {
     uint32_t view_idx = 0;
     job->frame = frame;
@@ -434,7 +434,7 @@ void gn_seen_find(gn_frame *frame, gn_seen_job *job, const gn_tile_plan *plan)
     }
 }
 
-int32_t gn_seen_level(const gn_view_seen *seen, uint32_t in_other)
+GN_COLD int32_t gn_seen_level(const gn_view_seen *seen, uint32_t in_other)
 {
     if (!seen->worth_q16) return 0;
     int32_t clz = gn_clz64(seen->worth_q16);

@@ -11,7 +11,7 @@
 static const int32_t turn_cosine_q30[GN_TURNS + 1] = {1073741824, 1053110176, 992008094, 892783698, 759250125,
                                                       596538996,  410903207,  209476638, 0};
 
-void gn_seen_turn_axes(gn_light_view *view, uint32_t turn)
+GN_COLD void gn_seen_turn_axes(gn_light_view *view, uint32_t turn)
 {
     int64_t c = turn_cosine_q30[turn], s = turn_cosine_q30[GN_TURNS - turn];
     view->turn = (uint8_t)turn;
@@ -24,7 +24,7 @@ void gn_seen_turn_axes(gn_light_view *view, uint32_t turn)
 
 /* A point's coordinates, below 2^30, in all directions: sums of 2^60.5. Turn k and turn 8 - k have the same products.
  */
-void gn_seen_directions(const int32_t at[3], int32_t out[GN_SEEN_DIRECTIONS])
+GN_COLD void gn_seen_directions(const int32_t at[3], int32_t out[GN_SEEN_DIRECTIONS])
 {
     out[0] = at[0];
     out[1] = at[1];
@@ -40,7 +40,7 @@ void gn_seen_directions(const int32_t at[3], int32_t out[GN_SEEN_DIRECTIONS])
     }
 }
 
-void gn_seen_from(gn_seen_job *job, uint32_t object_idx)
+GN_COLD void gn_seen_from(gn_seen_job *job, uint32_t object_idx)
 {
     job->object = &job->frame->object[object_idx];
     for (int k = 0; k < 3; k++)
@@ -48,7 +48,7 @@ void gn_seen_from(gn_seen_job *job, uint32_t object_idx)
 }
 
 /* Along an axis: the middle of the box, per axis of the world half of it, and its bounds. */
-void gn_seen_project_box(gn_seen_job *job, const int32_t axis_q30[3], uint32_t to)
+GN_COLD void gn_seen_project_box(gn_seen_job *job, const int32_t axis_q30[3], uint32_t to)
 {
     int32_t *half = job->half[to];
     int64_t middle = gn_dot_q30(axis_q30, job->from), wide = 0;
@@ -61,7 +61,7 @@ void gn_seen_project_box(gn_seen_job *job, const int32_t axis_q30[3], uint32_t t
     job->hi[to] = gn_seen_limited(middle + wide);
 }
 
-void gn_seen_box_along(const gn_seen_job *job, int32_t lo[GN_SEEN_DIRECTIONS], int32_t hi[GN_SEEN_DIRECTIONS])
+GN_COLD void gn_seen_box_along(const gn_seen_job *job, int32_t lo[GN_SEEN_DIRECTIONS], int32_t hi[GN_SEEN_DIRECTIONS])
 {
     uint32_t wide[GN_SEEN_DIRECTIONS] = {0}; /* 3 * 2^30 */
     for (int j = 0; j < 3; j++) {
@@ -77,7 +77,7 @@ void gn_seen_box_along(const gn_seen_job *job, int32_t lo[GN_SEEN_DIRECTIONS], i
     }
 }
 
-uint32_t gn_seen_pick_turn(const gn_seen_job *job)
+GN_COLD uint32_t gn_seen_pick_turn(const gn_seen_job *job)
 {
     const int32_t *lo = job->along_lo, *hi = job->along_hi;
     uint64_t limit = UINT64_MAX;
@@ -101,7 +101,7 @@ static void along_turn(const gn_seen_job *job, const int32_t p_q16[3], uint32_t 
     for (uint32_t k = 0; k < 3; k++) out[k] = all[k < 2 ? 2 * turn + k : GN_SEEN_DIRECTIONS - 1];
 }
 
-void gn_seen_take(const gn_seen_job *job, gn_view_seen *seen, uint32_t turn)
+GN_COLD void gn_seen_take(const gn_seen_job *job, gn_view_seen *seen, uint32_t turn)
 {
     const gn_cam *cam = &job->frame->cam;
     int32_t centre[3], middle[3], eye[3], r_q16 = job->sphere_q16[1];
@@ -123,7 +123,7 @@ void gn_seen_take(const gn_seen_job *job, gn_view_seen *seen, uint32_t turn)
     }
 }
 
-int gn_seen_take_fixed(const gn_seen_job *job, gn_view_seen *seen, const gn_fixed_fit *fit)
+GN_COLD int gn_seen_take_fixed(const gn_seen_job *job, gn_view_seen *seen, const gn_fixed_fit *fit)
 {
     int outside = 0;
     if (gn_seen_any(seen)) gn_seen_take(job, seen, fit->turn);
@@ -142,7 +142,7 @@ int gn_seen_take_fixed(const gn_seen_job *job, gn_view_seen *seen, const gn_fixe
 
 /* ---- Casters ----------------------------------------------------------------------------------------------------- */
 
-void gn_seen_note(gn_seen_job *job)
+GN_COLD void gn_seen_note(gn_seen_job *job)
 {
     for (int k = 0; k < 3; k++) {
         int32_t half = job->object->half_q16[k] - (job->object->half_q16[k] >> 3);
@@ -210,7 +210,7 @@ static void widen_to_grid(gn_seen_job *job, int d, int32_t eye_q16)
     *hi = gn_seen_limited(to * ((int64_t)1 << step_log2) - eye_q16);
 }
 
-void gn_seen_crop(gn_seen_job *job)
+GN_COLD void gn_seen_crop(gn_seen_job *job)
 {
     const gn_frame *frame = job->frame;
     int32_t eye[GN_SEEN_DIRECTIONS], at[3];

@@ -20,20 +20,6 @@ GN_HOT static inline uint32_t gn_filter_fraction(int32_t c_q16, int32_t bits)
     return (((uint32_t)c_q16 & 0xFFFFU) + (0x8000U >> bits)) >> (16 - bits);
 }
 
-GN_HOT static inline void gn_tent_weights_inline(uint32_t *w, int32_t k, uint32_t u, int32_t bits)
-{
-    uint32_t f = 1U << bits, ff = f * f, uf4 = 4 * u * f, h = 2 * u;
-    uint32_t m = h < f ? f - h : 0, p = h > f ? h - f : 0; /* |2u - F| left and right of the texel's centre */
-    int32_t n = 2 * (k + 1);
-    w[0] = 2 * (f - u) * (f - u);
-    w[n - 1] = 2 * u * u;
-    for (int32_t i = 1; i <= k; i++) {
-        /* rising towards the peak 4i + 2, falling after it; the peak's corner is cut off the middle ones */
-        w[i] = (uint32_t)(4 * i + 2) * ff - uf4 - (i == k ? m * m : 0);
-        w[n - 1 - i] = (uint32_t)(4 * i - 2) * ff + uf4 - (i == k ? p * p : 0);
-    }
-}
-
 /* Sums of the weights in all subsets of four: bit i for weight i. */
 GN_HOT static inline void gn_subset_sums(uint32_t sums[16], const uint32_t w[4])
 {
@@ -44,24 +30,9 @@ GN_HOT static inline void gn_subset_sums(uint32_t sums[16], const uint32_t w[4])
     sums[12] = cd, sums[13] = a + cd, sums[14] = b + cd, sums[15] = ab + cd;
 }
 
-/* Sum of the products of weights of the dark texels of n x n, in few bytes. */
-GN_HOT static inline uint64_t gn_weighted_slowly(const uint8_t *dark, int32_t n, const uint32_t *wu, const uint32_t *wv)
+/* Sum of the products of weights of the dark texels of n x n, by subsets of the weights. */
+GN_HOT static inline uint64_t gn_weighted(const uint8_t *dark, int32_t n, const uint32_t *wu, const uint32_t *wv)
 {
-    uint64_t sum = 0;
-    for (int32_t j = 0; j < n; j++) {
-        uint32_t across = 0;
-        for (int32_t i = 0; i < n; i++)
-            if (dark[j] >> i & 1U) across += wu[i];
-        sum += (uint64_t)across * wv[j];
-    }
-    return sum;
-}
-
-/* The same by subsets of the weights. narrow: products stay below 2^32 together. */
-GN_HOT static inline uint64_t gn_weighted(const uint8_t *dark, int32_t n, const uint32_t *wu, const uint32_t *wv,
-                                          int narrow)
-{
-    if (GN_SIZE_FIRST) return gn_weighted_slowly(dark, n, wu, wv);
     uint64_t sum = 0;
     uint32_t left[16], right[16];
     gn_subset_sums(left, wu);
@@ -69,8 +40,7 @@ GN_HOT static inline uint64_t gn_weighted(const uint8_t *dark, int32_t n, const 
     for (int32_t j = 0; j < n; j++) {
         uint32_t across = left[dark[j] & 15U];
         if (n > 4) across += right[dark[j] >> 4];
-        if (narrow) sum += across * wv[j];
-        else sum += (uint64_t)across * wv[j];
+        sum += (uint64_t)across * wv[j];
     }
     return sum;
 }
@@ -91,10 +61,7 @@ GN_HOT static inline uint32_t gn_tent_dark(const gn_lookup *l, int32_t u, int32_
     int is_plain = gn_lookup_is_plain(l, u, v, n);
     uint32_t any = 0, all = 255;
     if (is_plain && depth_bits == 16)
-        return n == 4 && !GN_SIZE_FIRST
-                   ? gn_kernel_dark_texels16(gn_view_texels(l->view, u, v).d16, l->view->tile_texels, l->least, 4, dark)
-                   : gn_kernel_dark_texels16(gn_view_texels(l->view, u, v).d16, l->view->tile_texels, l->least, n,
-                                             dark);
+        return gn_kernel_dark_texels16(gn_view_texels(l->view, u, v).d16, l->view->tile_texels, l->least, n, dark);
     for (int32_t j = 0; j < n; j++) {
         uint32_t row_dark = 0;
         if (is_plain) {
@@ -109,32 +76,21 @@ GN_HOT static inline uint32_t gn_tent_dark(const gn_lookup *l, int32_t u, int32_
     return any | all << 16;
 }
 
-GN_INLINE uint32_t gn_tent_of_dark_inline(const uint8_t *dark, int32_t k, int32_t cu, int32_t cv, int32_t bits)
-{
-    uint32_t wu[GN_TENT_TAPS_MAX], wv[GN_TENT_TAPS_MAX];
-    uint32_t u = gn_filter_fraction(cu, bits), v = gn_filter_fraction(cv, bits);
-    if (GN_SIZE_FIRST) {
-        gn_tent_weights(wu, k, u, bits);
-        gn_tent_weights(wv, k, v, bits);
-    } else {
-        gn_tent_weights_inline(wu, k, u, bits);
-        gn_tent_weights_inline(wv, k, v, bits);
-    }
-    /* along a row <= 49 F^2 < 2^30, all <= (2k + 1)^4 F^4 <= 2401 * 2^48 */
-    uint32_t whole = k == 1 ? 81 : k == 2 ? 625 : 2401;
-    uint64_t sum = ((uint64_t)whole << 4 * bits) - gn_weighted(dark, 2 * (k + 1), wu, wv, 0);
-    return gn_weighted_fraction(sum, 4 * bits,
-                                k == 1   ? 53024288U
-                                : k == 2 ? 6871948U
-                                         : 1788824U); /* round(2^32 / whole) */
-}
-
 /* Attenuation of a lookup with both dark and lit texels, a byte of `dark` per row, by the tent of index k.
  * cu, cv: the receiver, half a texel down and right, Q16, of which the fraction counts. */
 GN_HOT static inline uint32_t gn_tent_of_dark(const uint8_t *dark, int32_t k, int32_t cu, int32_t cv, int32_t bits)
 {
-    if (k == 1 && !GN_SIZE_FIRST) return gn_tent_of_dark_inline(dark, 1, cu, cv, bits); /* without its loops */
-    return gn_tent_of_dark_inline(dark, k, cu, cv, bits);
+    uint32_t wu[GN_TENT_TAPS_MAX], wv[GN_TENT_TAPS_MAX];
+    uint32_t u = gn_filter_fraction(cu, bits), v = gn_filter_fraction(cv, bits);
+    gn_tent_weights(wu, k, u, bits);
+    gn_tent_weights(wv, k, v, bits);
+    /* along a row <= 49 F^2 < 2^30, all <= (2k + 1)^4 F^4 <= 2401 * 2^48 */
+    uint32_t whole = k == 1 ? 81 : k == 2 ? 625 : 2401;
+    uint64_t sum = ((uint64_t)whole << 4 * bits) - gn_weighted(dark, 2 * (k + 1), wu, wv);
+    return gn_weighted_fraction(sum, 4 * bits,
+                                k == 1   ? 53024288U
+                                : k == 2 ? 6871948U
+                                         : 1788824U); /* round(2^32 / whole) */
 }
 
 /* Attenuation by the 3x3 filter of four rows of four texels, a bit each that is dark, to 1/32 texel: u, v in Q16, half

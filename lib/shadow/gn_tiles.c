@@ -281,7 +281,7 @@ static void keep_sides(gn_frame *frame, const gn_tile_plan *plan)
 }
 #endif
 
-gn_status gn_tiles_plan(gn_frame *frame, gn_seen_job *job, gn_tile_plan plan[GN_MAX_LIGHTS])
+GN_COLD gn_status gn_tiles_plan(gn_frame *frame, gn_seen_job *job, gn_tile_plan plan[GN_MAX_LIGHTS])
 {
     request_tiles(frame, plan);
     uint32_t n_tiles = serve(frame, plan, 0, GN_MAX_SHADOW_TILES),

@@ -7,7 +7,7 @@
 #include "shadow/gn_views.h"
 
 /* Not inlined: a stage is counted by its name. */
-GN_NOINLINE gn_status gn_views_setup(gn_frame *frame, gn_scratch *scratch)
+GN_COLD GN_NOINLINE gn_status gn_views_setup(gn_frame *frame, gn_scratch *scratch)
 {
 #if GN_SHADOWS && GN_TIGHT_FIT
     gn_seen_job *job = &scratch->work.seen;

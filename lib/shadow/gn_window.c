@@ -6,7 +6,6 @@
 #include "base/gn_q.h"
 #include "shadow/gn_lookup.h"
 #include "shadow/gn_tent.h"
-#include "shadow/gn_texel_rows.h"
 #include "shadow/gn_window.h"
 
 #if GN_INTERPOLATES
@@ -76,47 +75,19 @@ typedef struct {
     int32_t reach_q30; /* so much farther than what may be before the plane is what surely is */
 } texel_rows;
 
-/* Rows of 16 bits, each before the plane moved away from the light. */
-GN_HOT static GN_NOINLINE void rows_before_16(const texel_rows *rows, uint32_t *near, const uint32_t *end)
-{
-    const uint16_t *texel = gn_view_texels(rows->view, rows->u, rows->v).d16;
-    int32_t depth = rows->depth_q30, step = rows->step_q30[0], n = rows->n, pitch = rows->view->tile_texels;
-    for (; near != end; near++, texel += pitch, depth += rows->step_q30[1])
-        *near = gn_texels_before(texel, n, depth, step);
-}
-
-/* Of texels of row j that may be before the plane, those that surely are. */
-GN_HOT static GN_NOINLINE uint32_t surely_16(const texel_rows *rows, int32_t j, uint32_t maybe)
-{
-    int32_t s = 31 - gn_clz32(maybe & (0U - maybe)), n = 32 - gn_clz32(maybe) - s, step = rows->step_q30[0],
-            depth = rows->depth_q30 - rows->reach_q30 + s * step + j * rows->step_q30[1];
-    return gn_texels_before(gn_view_texels(rows->view, rows->u + s, rows->v + j).d16, n, depth, step) << s;
-}
-
-/* Row j of texels of any size. */
-GN_HOT static void compare_row(const texel_rows *rows, int32_t j, uint32_t *maybe, uint32_t *surely)
+/* Which texels of row j are dark, as they may be before the plane, and which of them are in doubt. */
+GN_HOT static void compare_row(const texel_rows *rows, int32_t j, uint32_t *dark, uint32_t *doubt)
 {
     int32_t bits = GN_VIEW_BITS(rows->view), depth = rows->depth_q30 + j * rows->step_q30[1];
     gn_texels row = gn_view_texels(rows->view, rows->u, rows->v + j);
-    *maybe = *surely = 0;
+    uint32_t maybe = 0, surely = 0;
     for (int32_t i = rows->n - 1; i >= 0; i--) {
         int32_t beyond = (int32_t)(gn_texel_load(row, bits, (uint32_t)i) >> 2) - (depth + i * rows->step_q30[0]);
-        *maybe = *maybe << 1 | (uint32_t)beyond >> 31;
-        *surely = *surely << 1 | (uint32_t)(beyond + rows->reach_q30) >> 31;
+        maybe = maybe << 1 | (uint32_t)beyond >> 31;
+        surely = surely << 1 | (uint32_t)(beyond + rows->reach_q30) >> 31;
     }
-}
-
-/* Which texels of n rows are dark, and which of them are in doubt. */
-GN_HOT static void compare_rows(const texel_rows *rows, int32_t n, uint32_t *dark, uint32_t *doubt)
-{
-    int by_16 = GN_VIEW_BITS(rows->view) == 16;
-    if (by_16) rows_before_16(rows, dark, dark + n);
-    for (int32_t j = 0; j < n; j++) {
-        uint32_t surely = 0;
-        if (!by_16) compare_row(rows, j, &dark[j], &surely);
-        else if (dark[j]) surely = rows->reach_q30 ? surely_16(rows, j, dark[j]) : dark[j];
-        doubt[j] = dark[j] & ~surely;
-    }
+    *dark = maybe;
+    *doubt = maybe & ~surely;
 }
 
 /* Repeats the first and the last bit of n on both sides, or leaves both sides lit. */
@@ -197,7 +168,7 @@ GN_HOT int gn_window_compare(gn_window *window, const gn_window_place *place, in
     window->v0 = v0;
     window->w = w;
     window->h = h;
-    compare_rows(&rows, n_rows, window->dark + above, window->doubt + above);
+    for (int32_t j = 0; j < n_rows; j++) compare_row(&rows, j, &window->dark[above + j], &window->doubt[above + j]);
     window->plain = GN_VIEW_BITS(view) == 16 && n == w && n_rows == h;
     if (n != w || n_rows != h) repeat_borders(window, left, n, above, n_rows);
     sum_up(window);

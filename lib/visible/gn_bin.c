@@ -22,24 +22,12 @@ static inline void bin_by_bounds(gn_frame *frame, uint32_t tri_idx)
     } while (--tiles.height);
 }
 
-/* Sorts n_refs references. */
-static void sort_triangles(gn_frame *frame, const gn_scratch *scratch, uint32_t n_tiles)
+static void sort_triangles(gn_frame *frame, uint32_t n_tiles)
 {
     gn_ref_offset *first = frame->tile_first;
     /* offsets to the end of each bin; filling backwards leaves each at its bin's start, in triangle order */
     for (uint32_t i = 1; i <= n_tiles; i++) first[i] = (gn_ref_offset)(first[i] + first[i - 1]);
-    for (uint32_t t = frame->stats.n_triangles; t-- > 0;) {
-        uint32_t place = !GN_SIZE_FIRST && t < GN_PLACES ? scratch->pixel.rgb565[t] : GN_PLACE_MANY, way = place & 3;
-        if (way == GN_PLACE_MANY) {
-            bin_by_bounds(frame, t);
-            continue;
-        }
-        gn_ref_offset *at = first + (place >> 2);
-        frame->tile_ref[--*at] = (uint16_t)t;
-        if (way == GN_PLACE_ONE) continue;
-        at += way == GN_PLACE_NEXT ? 1 : frame->tiles_x;
-        frame->tile_ref[--*at] = (uint16_t)t;
-    }
+    for (uint32_t t = frame->stats.n_triangles; t-- > 0;) bin_by_bounds(frame, t);
 }
 
 /* Whether the identities of every screen tile have room, with groups. */
@@ -56,7 +44,7 @@ static gn_status check_tiles(gn_frame *frame, uint32_t n_tiles)
 
 /* The triangles of every screen tile, in the order of the scene. A function of its own: a stage that is counted. [R1]
  */
-GN_NOINLINE gn_status gn_bin_triangles(gn_frame *frame, const gn_scratch *scratch)
+GN_NOINLINE gn_status gn_bin_triangles(gn_frame *frame)
 {
     uint32_t n_tiles = (uint32_t)frame->tiles_x * frame->tiles_y;
     uint64_t n_refs = 0;
@@ -66,6 +54,6 @@ GN_NOINLINE gn_status gn_bin_triangles(gn_frame *frame, const gn_scratch *scratc
     if (n_refs > GN_MAX_TILE_REFS)
         return gn_fail_capacity(frame, GN_ERR_TILE_REFS_FULL, frame->stats.n_tile_refs, GN_MAX_TILE_REFS);
     GN_COUNT(tile_refs, n_refs);
-    sort_triangles(frame, scratch, n_tiles);
+    sort_triangles(frame, n_tiles);
     return GN_OK;
 }

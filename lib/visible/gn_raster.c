@@ -76,50 +76,6 @@ GN_INLINE void raster_span(uint32_t *cell, int32_t n, uint32_t iz, const raster_
         GN_CELL_(at[0]);
     }
 }
-
-/* A function of its own, so that short spans keep their registers. */
-GN_HOT static GN_NOINLINE void raster_long_span(uint32_t *cell, int32_t n, uint32_t iz, uint32_t minus_dx,
-                                                uint32_t id_mask, uint32_t below)
-{
-    const raster_depth depth = {minus_dx, 0, 0, id_mask,
-                                below}; /* passed by value: a pointer would keep them in memory */
-    raster_span(cell, n, iz, &depth);
-}
-
-/* The same for n that may be 0 or negative, and is seldom above eight. */
-GN_INLINE void raster_short_span(uint32_t *cell, int32_t n, uint32_t iz, const raster_depth *depth)
-{
-    uint32_t minus_dx = depth->minus_dx, id_mask = depth->id_mask, below = depth->below;
-    GN_COUNT(covered, n > 0 && n <= 8 ? n : 0);
-    switch (n) {
-    case 8:
-        GN_CELL_(cell[7]);
-        GN_GOES_ON;
-    case 7:
-        GN_CELL_(cell[6]);
-        GN_GOES_ON;
-    case 6:
-        GN_CELL_(cell[5]);
-        GN_GOES_ON;
-    case 5:
-        GN_CELL_(cell[4]);
-        GN_GOES_ON;
-    case 4:
-        GN_CELL_(cell[3]);
-        GN_GOES_ON;
-    case 3:
-        GN_CELL_(cell[2]);
-        GN_GOES_ON;
-    case 2:
-        GN_CELL_(cell[1]);
-        GN_GOES_ON;
-    case 1:
-        GN_CELL_(cell[0]);
-        break;
-    default:
-        if (n > 0) raster_long_span(cell, n, iz, minus_dx, id_mask, below);
-    }
-}
 #undef GN_CELL_
 
 /* The state that is stepped from row to row of a triangle. */
@@ -129,23 +85,16 @@ typedef struct {
     uint32_t *row;
 } stepped_rows;
 
-/* The rows before `end`, at least one; borders have `fraction` bits. Rows are cut to the tile's width, unless all lie
- * inside. */
-GN_INLINE void raster_rows(stepped_rows *rows, const uint32_t *end, int32_t stride, int32_t fraction, int inside,
-                           int32_t width, const raster_depth *depth)
+/* The rows before `end`, at least one, cut to the tile's width. */
+GN_INLINE void raster_rows(stepped_rows *rows, const uint32_t *end, int32_t stride, int32_t width,
+                           const raster_depth *depth)
 {
     uint32_t left = rows->left.x, right = rows->right.x, iz = rows->iz;
     uint32_t *row = rows->row;
     do {
-        int32_t xa = (int32_t)left >> fraction, xb = (int32_t)right >> fraction;
-        if (!inside) {
-            xa = gn_max32(xa, 0);
-            xb = gn_min32(xb, width);
-        }
+        int32_t xa = gn_max32((int32_t)left >> GN_FIXED_BITS, 0), xb = gn_min32((int32_t)right >> GN_FIXED_BITS, width);
         GN_COUNT(rows, xb > xa);
-        if (fraction == GN_NARROW_BITS)
-            raster_short_span(row + xa, xb - xa, iz - (uint32_t)xb * depth->minus_dx, depth);
-        else if (xb > xa) raster_span(row + xa, xb - xa, iz - (uint32_t)xb * depth->minus_dx, depth);
+        if (xb > xa) raster_span(row + xa, xb - xa, iz - (uint32_t)xb * depth->minus_dx, depth);
         left += rows->left.step;
         right += rows->right.step;
         iz += rows->iz_dy;
@@ -186,10 +135,8 @@ typedef struct gn_raster_target {
     const gn_frame *frame;
     gn_scratch *scratch;
     gn_rect rect;
-    int32_t width, height;   /* pixels */
-    int32_t x, y;            /* of the picture's centre from the tile's corner, as corners of triangles */
-    int32_t column_x, row_y; /* the same, less half a pixel and with the rounding of gn_first_px: of narrow triangles */
-    uint32_t inside;         /* coordinates below it, a power of two, are left of the right border */
+    int32_t width, height; /* pixels */
+    int32_t x, y;          /* of the picture's centre from the tile's corner, as corners of triangles */
     uint32_t id_mask;
 } raster_tile;
 
@@ -282,49 +229,8 @@ GN_HOT static GN_NOINLINE void raster_small(const raster_tile *tile, const gn_tr
             rows.right = gn_walk_line_at(from[0].x, from[0].y, from[-1].x, from[-1].y, at, lasts, bits);
         }
         int32_t stop = gn_min32(left_end, right_end);
-        raster_rows(&rows, rows.row + (stop - at) * stride, stride, GN_FIXED_BITS, 0, tile->width, &depth);
+        raster_rows(&rows, rows.row + (stop - at) * stride, stride, tile->width, &depth);
         at = stop;
-    }
-}
-
-GN_HOT static inline gn_walk_line narrow_line(gn_walk_corner from, gn_walk_corner to, int32_t y, int32_t bits)
-{
-    return gn_walk_narrow_at(from.x, from.y, to.x, to.y, y, bits, GN_CORE_DIVIDES);
-}
-
-/* A triangle of a few pixels, without alpha, whose depth needs no bounds. Most lie in one or two screen tiles. Its
- * corners already include the rounding to rows and to centres of columns. */
-GN_HOT static GN_NOINLINE void raster_narrow(const raster_tile *tile, const gn_tri *tri, uint32_t id)
-{
-    const int32_t bits = GN_K(tile->frame, subpixel_bits), one = 1 << bits, half = one >> 1,
-                  stride = GN_K(tile->frame, tile_width);
-    const gn_walk_corner top = {tri->x[0] + tile->column_x, tri->y[0] + tile->row_y},
-                         left = {tri->x[1] + tile->column_x, tri->y[1] + tile->row_y},
-                         right = {tri->x[2] + tile->column_x, tri->y[2] + tile->row_y};
-    int32_t at = gn_max32(top.y >> bits, 0), left_end = left.y >> bits, right_end = right.y >> bits;
-    int32_t end = gn_min32(gn_max32(left_end, right_end), tile->height), bend = gn_min32(left_end, right_end);
-    if (at >= end) return;
-    int inside = (uint32_t)(top.x | left.x | right.x) < tile->inside;
-    uint32_t minus_dx = 0U - (uint32_t)tri->iz_dx, *cells = GN_CELLS(tile->scratch);
-    GN_KEEP(minus_dx); /* one of the two */
-    const raster_depth depth = {minus_dx, 0, 0, tile->id_mask, tile->id_mask - id};
-    stepped_rows rows;
-    rows.iz_dy = (uint32_t)tri->iz_dy;
-    rows.iz = tri->iz_ref + (uint32_t)(at - ((top.y - half + 1) >> bits)) * rows.iz_dy +
-              (uint32_t)((top.x + half + one) >> bits) * minus_dx;
-    rows.row = cells + at * stride;
-    int32_t y = at * one + one - 1;
-    rows.left = at < left_end ? narrow_line(top, left, y, bits) : narrow_line(left, right, y, bits);
-    rows.right = at < right_end ? narrow_line(top, right, y, bits) : narrow_line(right, left, y, bits);
-    if (bend <= at || bend > end) bend = end;
-    for (;;) {
-        if (inside) raster_rows(&rows, cells + bend * stride, stride, GN_NARROW_BITS, 1, 0, &depth);
-        else raster_rows(&rows, cells + bend * stride, stride, GN_NARROW_BITS, 0, tile->width, &depth);
-        if (bend == end) return;
-        y = bend * one + one - 1;
-        if (bend == left_end) rows.left = narrow_line(left, right, y, bits);
-        else rows.right = narrow_line(right, left, y, bits);
-        bend = end;
     }
 }
 
@@ -427,7 +333,6 @@ GN_HOT static inline void raster_one(const raster_tile *tile, const gn_tri *tri,
 {
     if (!GN_SIZE_FIRST && !gn_tri_is_bounded(tri) && tri->iz.unbounded.walk != GN_TRI_EXACT) {
         if (tri->iz.unbounded.walk & GN_TRI_MASK) raster_mask(tile, tri, id);
-        else if (tri->iz.unbounded.walk == GN_TRI_NARROW) raster_narrow(tile, tri, id);
         else raster_small(tile, tri, id);
         return;
     }
@@ -472,11 +377,6 @@ GN_HOT void gn_raster_tile(const gn_frame *frame, gn_scratch *scratch, uint32_t 
     tile.x = ((frame->picture.width << bits) >> 1) - tile.rect.x0 * (1 << bits);
     tile.y = ((frame->picture.height << bits) >> 1) - tile.rect.y0 * (1 << bits);
     tile.id_mask = (1U << frame->id_bits) - 1;
-    if (!GN_SIZE_FIRST) {
-        tile.column_x = tile.x - ((1 << bits) >> 1);
-        tile.row_y = tile.y + ((1 << bits) >> 1) - 1;
-        tile.inside = 1U << (31 - gn_clz32((uint32_t)tile.width) + bits);
-    }
     GN_COUNT(screen_tiles, 1);
     GN_COUNT(pixels, tile.width * tile.height);
     memset(GN_CELLS(scratch), 0, sizeof *scratch->cell * (uint32_t)(GN_K(frame, tile_width) * tile.height));

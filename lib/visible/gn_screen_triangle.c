@@ -82,10 +82,9 @@ static inline uint32_t depth_margin(int32_t dx, int32_t dy, int32_t bits)
 /* With a smaller margin, and neither end of the depth format within it, depth needs no bounds. */
 #define MARGIN_MAX (1U << 18)
 
-/* Depth of any triangle, moved from c0 to the centre of the pixel that contains it. */
-static GN_NOINLINE void general_depth(gn_tri *tri, const gn_projected *c0, const gn_projected *c1,
-                                      const gn_projected *c2, int32_t to_x_q16, int32_t to_y_q16, int32_t walk,
-                                      int32_t bits)
+/* Depth of a triangle, moved from c0 to the centre of the pixel that contains it. */
+static inline void set_depth(gn_tri *tri, const gn_projected *c0, const gn_projected *c1, const gn_projected *c2,
+                             int32_t to_x_q16, int32_t to_y_q16, int32_t walk, int32_t bits)
 {
     depth_range depth;
     depth_of_corners(&depth, c0, c1, c2, to_x_q16, to_y_q16);
@@ -101,67 +100,9 @@ static GN_NOINLINE void general_depth(gn_tri *tri, const gn_projected *c0, const
     tri->iz.bounds.largest = (uint16_t)(depth.largest >> 16);
 }
 
-/* gradient() of a shift below 32: the lower word as a signed one */
-static inline int quick_gradient(int32_t *out, int64_t n, int32_t f, int32_t s)
-{
-    int32_t lo = (int32_t)((uint32_t)n & ~1U), hi = (int32_t)(n >> 32) + (int32_t)((uint32_t)lo >> 31);
-    GN_KEEP(hi);
-    int64_t v = (int64_t)hi * f + (int32_t)((int64_t)lo * f >> 32);
-    *out = (int32_t)((uint32_t)v >> s | (uint32_t)(v >> 32) << (32 - s));
-    return (int32_t)(v >> 32) >> s == *out >> 31;
-}
-
-/* The same for a triangle that faces the camera, has more than half a pixel and less than 2^17, and needs no bounds.
- * Returns 0 for others. */
-static inline int quick_depth(gn_tri *tri, const gn_projected *c0, const gn_projected *c1, const gn_projected *c2,
-                              int32_t to_x_q16, int32_t to_y_q16, int32_t walk, int32_t bits)
-{
-    int32_t ax = c1->x_q16 - c0->x_q16, ay = c1->y_q16 - c0->y_q16, minus_bx = c0->x_q16 - c2->x_q16,
-            by = c2->y_q16 - c0->y_q16;
-    uint64_t size = (uint64_t) - ((int64_t)ax * by + (int64_t)minus_bx * ay) | 1U;
-    uint32_t hi = (uint32_t)(size >> 32), i0 = c0->iz_q32, i1 = c1->iz_q32, i2 = c2->iz_q32;
-    if (hi - 1 >= (1U << 18) - 1) return 0;
-    int32_t clz = gn_clz32(hi), s = 45 - clz, dx, dy;
-    int32_t recip = -(int32_t)(gn_recip_norm2(hi << clz | (uint32_t)size >> (32 - clz)) >> 1);
-    int32_t a = (int32_t)(i1 >> 1) - (int32_t)(i0 >> 1), b = (int32_t)(i2 >> 1) - (int32_t)(i0 >> 1);
-    if (!quick_gradient(&dx, (int64_t)a * by + (int64_t)-b * ay, recip, s) ||
-        !quick_gradient(&dy, (int64_t)b * ax + (int64_t)a * minus_bx, recip, s))
-        return 0;
-    uint32_t margin = depth_margin(dx, dy, bits), more = margin + 1, range = UINT32_MAX - margin - more;
-    GN_KEEP(more);
-    if (margin >= MARGIN_MAX || i0 - more >= range || i1 - more >= range || i2 - more >= range) return 0;
-    int64_t step = (int64_t)dx * to_x_q16 + (int64_t)dy * to_y_q16; /* less than two pixels */
-    tri->iz_ref = i0 + (uint32_t)(step >> 16);
-    tri->iz_dx = dx;
-    tri->iz_dy = dy;
-    gn_tri_set_walk(tri, walk);
-    return 1;
-}
-
 /* ---- Triangles --------------------------------------------------------------------------------------------------- */
 
-/* Counts a triangle in the screen tiles that it may have pixels in, if these are few, and notes them for gn_bin.c.
- * Returns 0 if they are many. */
-static inline int count_few_tiles(const gn_screen_job *job, const gn_rect *px, uint32_t tri_idx)
-{
-    const gn_frame *frame = job->frame;
-    uint32_t w = (uint32_t)GN_K(frame, tile_width), h = (uint32_t)GN_K(frame, tile_height),
-             tiles_x = frame->tiles_x; /* nothing is negative */
-    uint32_t one = (uint32_t)px->y0 / h * tiles_x + (uint32_t)px->x0 / w;
-    uint32_t apart = (uint32_t)(px->y1 - 1) / h * tiles_x + (uint32_t)(px->x1 - 1) / w - one;
-    uint32_t way = !apart             ? GN_PLACE_ONE
-                   : apart == 1       ? GN_PLACE_NEXT
-                   : apart == tiles_x ? GN_PLACE_BELOW
-                                      : GN_PLACE_MANY;
-    if (tri_idx < GN_PLACES) job->place[tri_idx] = (uint16_t)(one << 2 | way);
-    if (way == GN_PLACE_MANY) return 0;
-    gn_ref_offset *n_first = &job->tile_first[one];
-    ++*n_first;
-    if (apart) ++n_first[apart];
-    return 1;
-}
-
-/* The same for any number of tiles. */
+/* Counts a triangle in the screen tiles that it may have pixels in. */
 static inline void count_tiles(const gn_screen_job *job, const gn_rect *px)
 {
     gn_tile_walk tiles = gn_setup_tiles(job->frame, px); /* of some tiles */
@@ -179,7 +120,7 @@ static inline gn_tri *count_record(const gn_screen_job *job, const gn_rect *px)
 {
     uint32_t n = job->stats->n_triangles++; /* counting continues, so that gn_detail can tell the needed capacity */
     if (n >= GN_MAX_TRIANGLES) return NULL;
-    if (GN_SIZE_FIRST || !count_few_tiles(job, px, n)) count_tiles(job, px);
+    count_tiles(job, px);
     gn_tri *tri = &job->tri[n];
     GN_KEEP(tri);
     return tri;
@@ -215,8 +156,7 @@ static inline int32_t walk_of(const gn_screen_job *job, const gn_rect *px, const
                               const grid_corner *c, int32_t left, int32_t right, int32_t bottom)
 {
     const gn_picture *picture = &job->frame->picture;
-    const int32_t bits = GN_K(job->frame, subpixel_bits), first = (1 << bits) - 1, width = right - left,
-                  height = bottom - a->y;
+    const int32_t bits = GN_K(job->frame, subpixel_bits), first = (1 << bits) - 1;
     const int32_t x = (left + job->add_px[0]) >> bits, y = (a->y + job->add_px[1]) >> bits,
                   columns = ((right + job->add_px[0]) >> bits) - x, rows = ((bottom + job->add_px[1]) >> bits) - y;
     if (columns <= GN_MASK_WIDTH && rows <= GN_MASK_HEIGHT) {
@@ -227,10 +167,10 @@ static inline int32_t walk_of(const gn_screen_job *job, const gn_rect *px, const
             mask = gn_mask_cut(mask, x, y, picture->width, picture->height);
         if (!mask) return 0;
         const int32_t top = (a->x + ((picture->width << bits) >> 1)) >> bits;
-        if (!GN_SIZE_FIRST && job->narrow) return GN_TRI_MASK | (1 + top - x) << 12 | (int32_t)mask;
+        if (!GN_SIZE_FIRST && job->fixed_mask) return GN_TRI_MASK | (1 + top - x) << 12 | (int32_t)mask;
     }
-    if (!GN_SIZE_FIRST && width < job->narrow && height < job->narrow) return GN_TRI_NARROW;
-    return gn_max32(job->fixed_mask & gn_walk_lasts((uint32_t)width | (uint32_t)height), GN_TRI_EXACT);
+    return gn_max32(job->fixed_mask & gn_walk_lasts((uint32_t)(right - left) | (uint32_t)(bottom - a->y)),
+                    GN_TRI_EXACT);
 }
 
 /* Everything of a triangle that begins with its top. */
@@ -250,8 +190,7 @@ static inline void fill_triangle(const gn_screen_job *job, gn_tri *tri, const gr
             y = a->y + ((frame->picture.height << bits) >> 1);
     int32_t to_x_q16 = ((a->x - (x & (one - 1))) * 2 + one) * (1 << (15 - bits)) - a->at->x_q16;
     int32_t to_y_q16 = ((a->y - (y & (one - 1))) * 2 + one) * (1 << (15 - bits)) - a->at->y_q16;
-    if (!GN_SIZE_FIRST && quick_depth(tri, a->at, b->at, c->at, to_x_q16, to_y_q16, walk, bits)) return;
-    general_depth(tri, a->at, b->at, c->at, to_x_q16, to_y_q16, walk, bits);
+    set_depth(tri, a->at, b->at, c->at, to_x_q16, to_y_q16, walk, bits);
 }
 
 /* A triangle's corners in the order of a record. */
@@ -360,5 +299,4 @@ void gn_screen_object(gn_screen_job *job)
 {
     job->sides = gn_sides_of(job->frame->flags[job->object_idx], GN_OBJECT_TWO_SIDED);
     job->fixed_mask = GN_VISIBLE_ALPHA && job->object->visible_alpha != GN_ALPHA_OPAQUE ? 0 : -1;
-    job->narrow = job->fixed_mask & gn_walk_narrow(GN_K(job->frame, subpixel_bits));
 }

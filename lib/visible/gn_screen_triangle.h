@@ -59,14 +59,12 @@ typedef struct {
     gn_stats *stats; /* this and the next are written in a frame's setup only */
     gn_ref_offset *tile_first;
     gn_tri *tri;
-    uint16_t *place; /* see gn_setup.h */
 #if GN_GROUPS
     gn_tri_group *group;      /* of the next triangle; it grows by it */
     gn_screen_tile_job *tile; /* NULL in a frame's setup: triangles are counted */
 #endif
     int32_t add_px[2];  /* see gn_setup_bounds_of */
-    int32_t fixed_mask; /* 0 if alpha cuts the object: the fast path for small triangles in gn_raster.c is not used */
-    int32_t narrow;     /* gn_walk_narrow, 0 there too */
+    int32_t fixed_mask; /* 0 if alpha cuts the object: the fast paths for small triangles in gn_raster.c are not used */
 } gn_screen_job;
 
 /* Sets the frame's constants, and one object's, except its position and index, and what is written. */

@@ -119,7 +119,7 @@ GN_INLINE void project(const setup_job *job, const int32_t v_q16[3], gn_projecte
 }
 
 /* A cut vertex may miss the guard band by a rounding of view space, which a long focal length magnifies. */
-static GN_NOINLINE void project_cut(const setup_job *job, const int32_t v_q16[3], gn_projected *at)
+GN_COLD static GN_NOINLINE void project_cut(const setup_job *job, const int32_t v_q16[3], gn_projected *at)
 {
     int32_t most = job->screen.frame->cam.coord_max_q16;
     project(job, v_q16, at);
@@ -185,7 +185,8 @@ GN_INLINE int fill_corner_fast(const setup_job *job, setup_corner *c, uint32_t v
 /* ---- Triangles --------------------------------------------------------------------------------------------------- */
 
 /* A triangle that leaves the guard band, or comes nearer than near. [R3] */
-static GN_NOINLINE void clip_triangle(const setup_job *job, const setup_corner *const c[3], uint32_t triangle_idx)
+GN_COLD static GN_NOINLINE void clip_triangle(const setup_job *job, const setup_corner *const c[3],
+                                              uint32_t triangle_idx)
 {
     const gn_frame *frame = job->screen.frame;
     gn_polygon *polygon = &job->clipping->polygon;
@@ -404,7 +405,6 @@ gn_status gn_setup_triangles(gn_frame *frame, gn_scratch *scratch)
     setup_window(&job, &picture);
     job.screen.tile_first = frame->tile_first;
     job.screen.tri = frame->tri;
-    job.screen.place = scratch->pixel.rgb565;
 #if GN_GROUPS
     job.screen.tile = NULL;
     if (GN_K(frame, triangle_groups)) setup_begin_groups(frame);

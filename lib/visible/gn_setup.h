@@ -7,11 +7,6 @@
 #include "gnomon.h"
 #include "visible/gn_raster.h"
 
-/* Records: pixel memory is free during setup; it stores, for the first triangles, (first tile << 2) | GN_PLACE_*: that
- * tile alone, the next one too, the one below too, or others too. Not with GN_SIZE_FIRST. */
-#define GN_PLACES GN_TILE_PIXELS_MAX
-enum { GN_PLACE_ONE, GN_PLACE_NEXT, GN_PLACE_BELOW, GN_PLACE_MANY };
-
 /* View position of an object's vertex through the cache. Returns 0 if it is beyond +-16384 units, or
  * its position beyond +-2^30. */
 int gn_setup_vertex(int32_t out_q16[3], gn_vertex_entry *cache, const gn_xform *xform, const gn_object *object,

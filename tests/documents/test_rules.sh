@@ -76,7 +76,7 @@ none "recursion in lib/" "$tmp/found"
 grep -l '^GN_HOT' lib/*/*.c >"$tmp/hot"
 [ "$(wc -l <"$tmp/hot")" -gt 20 ] && pass || fail "$(wc -l <"$tmp/hot") files of hot code"
 xargs awk 'FNR == 1 { head = "" } /^[A-Za-z_]/ && !/;/ { head = $0 }
-    /^\{/ { if (head ~ /\(/ && head !~ /^(GN_HOT|GN_INLINE) /) print FILENAME ": " head; head = "" }' <"$tmp/hot" >"$tmp/found"
+    /^\{/ { if (head ~ /\(/ && head !~ /^(GN_HOT|GN_COLD|GN_INLINE) /) print FILENAME ": " head; head = "" }' <"$tmp/hot" >"$tmp/found"
 none "a function of a hot file without GN_HOT" "$tmp/found"
 
 # ---- Who includes whom -----------------------------------------------------------------------------------------------------

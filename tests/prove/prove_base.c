@@ -51,14 +51,14 @@ void prove_shifts(void)
     }
 }
 
-/* gn_scale64_inline: all numbers, all shifts */
+/* gn_scale64: all numbers, all shifts */
 void prove_scale(void)
 {
-    sink = gn_scale64_inline(any_i64(INT64_MIN, -1), any_i32(-1000, 1000));
-    sink = gn_scale64_inline(0, any_i32(-1000, 1000));
-    sink = gn_scale64_inline(any_i64(1, INT64_MAX), any_i32(-1000, 1000));
+    sink = gn_scale64(any_i64(INT64_MIN, -1), any_i32(-1000, 1000));
+    sink = gn_scale64(0, any_i32(-1000, 1000));
+    sink = gn_scale64(any_i64(1, INT64_MAX), any_i32(-1000, 1000));
     for (int s = 1; s <= 70; s++) {
-        int64_t v = gn_scale64_inline(any_i64(INT64_MIN, INT64_MAX), s);
+        int64_t v = gn_scale64(any_i64(INT64_MIN, INT64_MAX), s);
         //@ assert s > 62 || -(INT64_MAX >> s) - 1 <= v <= (INT64_MAX >> s) + 1;
     }
 }
@@ -218,7 +218,7 @@ void prove_tents(void)
     }
 }
 
-/* gn_weighted_slowly, gn_weighted, gn_weighted_fraction: weights below 2^30 */
+/* gn_weighted, gn_weighted_fraction: weights below 2^30 */
 void prove_weighted(void)
 {
     uint32_t wu[GN_TENT_TAPS_MAX], wv[GN_TENT_TAPS_MAX];
@@ -227,7 +227,7 @@ void prove_weighted(void)
         wu[i] = any_u32(0, 1U << 30), wv[i] = any_u32(0, 1U << 30);
         dark[i] = (uint8_t)any_u32(0, 255);
     }
-    for (int n = 4; n <= 8; n += 2) usink = gn_weighted_slowly(dark, n, wu, wv) + gn_weighted(dark, n, wu, wv, n & 2);
+    for (int n = 4; n <= 8; n += 2) usink = gn_weighted(dark, n, wu, wv);
     for (int bits = 4; bits <= 48; bits++)
         usink = gn_weighted_fraction(any_u64(0, UINT64_MAX), bits, any_u32(0, UINT32_MAX));
 }

@@ -23,12 +23,6 @@ void prove_walk_ratio(void)
     for (int32_t b = 1; b < 1 << 14; b *= 2) usink = gn_walk_ratio(any_i32(-(5 << 26), 5 << 26), any_i32(b, 2 * b - 1));
 }
 
-/* gn_walk_share: |a| < 2^15, reciprocals of 1 to 1900 */
-void prove_walk_share(void)
-{
-    for (uint32_t dy = 2; dy <= 1900; dy++) usink = gn_walk_share(any_i32(-32767, 32767), 0x80000000U / dy);
-}
-
 /* floor_div: |a| < 2^61, 0 < b < 2^30 */
 void prove_floor_div(void)
 {
@@ -98,13 +92,12 @@ void prove_snap(void)
     }
 }
 
-/* gradient: |n| < 2^60, |f| < 2^31; quick_gradient: s < 32 */
+/* gradient: |n| < 2^60, |f| < 2^31 */
 void prove_gradient(void)
 {
     const int64_t most = (int64_t)1 << 60;
     int32_t out;
     for (int s = 1; s <= 62; s++) sink = gradient(&out, any_i64(-most, most), any_i32(-INT32_MAX, INT32_MAX), s);
-    for (int s = 1; s < 32; s++) sink = quick_gradient(&out, any_i64(-most, most), any_i32(-INT32_MAX, INT32_MAX), s);
 }
 
 static void any_projected(gn_projected *p)

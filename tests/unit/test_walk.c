@@ -204,37 +204,6 @@ static void test_fixed_point_limits(void)
     CHECK_TALLY(t, "limits of fixed point");
 }
 
-/* The edges of narrow triangles: every row of many, and rows within 1 / dy of a pixel centre of those that are as high
- * as they may be. */
-static void test_narrow_edges(void)
-{
-    tally t = {0};
-    for (uint32_t i = 0; i < 400000; i++) {
-        int32_t bits = rng_range(&random_state, 2, 8), one = 1 << bits, most = gn_walk_narrow(bits) - 1;
-        int32_t dy = i & 1 ? most - rng_range(&random_state, 0, 20) : rng_range(&random_state, 1, most),
-                dx = rng_range(&random_state, -most, most);
-        if (i & 2) dx = dx < 0 ? -most : most;
-        int32_t x0 = rng_range(&random_state, -4000, 4000) * (i & 4 ? 16 : 1),
-                y0 = rng_range(&random_state, -3000, 3000);
-        int32_t first = gn_first_px(y0, bits), end = gn_first_px(y0 + dy, bits),
-                from = rng_range(&random_state, first, end > first ? end - 1 : first);
-        if (from >= end) continue;
-        gn_walk_line line =
-            gn_walk_narrow_at(x0 - one / 2, y0, x0 - one / 2 + dx, y0 + dy, from * one + one / 2, bits, i & 8 ? 1 : 0);
-        int good = 1;
-        for (int32_t row = from; row < end; row++, line.x += line.step) {
-            int64_t over = ((int64_t)x0 - one / 2) * dy + ((int64_t)row * one + one / 2 - y0) * dx,
-                    centre = (int64_t)dy * one; /* ceil(over / centre) */
-            int64_t exact = over >= 0 ? (over + centre - 1) / centre : -(-over / centre);
-            good = good && (int32_t)line.x >> GN_NARROW_BITS == exact;
-        }
-        HOLDS(&t, good, "bits %d: (%d, %d) + (%d, %d) from row %d", (int)bits, (int)x0, (int)y0, (int)dx, (int)dy,
-              (int)from);
-    }
-    CHECK(t.n > 100000);
-    CHECK_TALLY(t, "edges of narrow triangles");
-}
-
 /* A walk that starts and ends at tile borders gives the spans of the walk over everything. */
 static void test_tile_borders(void)
 {
@@ -596,7 +565,6 @@ int main(void)
     test_masks();
     test_huge_triangles();
     test_fixed_point_limits();
-    test_narrow_edges();
     test_tile_borders();
     test_grid();
     test_fan();
