@@ -7,6 +7,10 @@ BUILD ?= build
 OPT ?= -O2
 # The library and the rest can differ: the oracles need not be slow where the library is tested without optimisation.
 HOST_OPT ?= $(OPT)
+# Of tests but for the oracles and the reference, whose own code hardly counts: a third of the time to compile.
+TEST_OPT ?= $(if $(filter -O2,$(HOST_OPT)),-Og,$(HOST_OPT))
+# Of what reads scenes: where little is optimised, files by the thousand and pictures are read soon.
+SCENE_OPT ?= $(HOST_OPT)
 SAN ?=
 SIZE ?= 320x240
 SCENES ?=
@@ -41,7 +45,9 @@ ALONE := $(filter-out %/test_culling %/test_golden %/test_golden_random %/test_g
 # have sizes of their own.
 CONSTANT := $(filter-out %/test_arrival %/test_casters %/test_corner %/test_radiance %/test_refused %/test_runs %/test_tiles,$(ALONE))
 
-LIB_OBJ := $(LIB_SRC:%.c=$(BUILD)/obj/%.o)
+# ONE_FILE=1: as users compile it, for builds that happen once.
+ONE_FILE ?=
+LIB_OBJ := $(patsubst %.c,$(BUILD)/obj/%.o,$(if $(ONE_FILE),lib/gnomon.c,$(LIB_SRC)))
 HOST_OBJ := $(HOST_SRC:%.c=$(BUILD)/obj/%.o)
 SCENE_OBJ := $(SCENE_SRC:%.c=$(BUILD)/obj/%.o)
 PANEL_OBJ := $(patsubst %.c,$(BUILD)/obj/%.o, $(wildcard boards/displays/*.c) $(wildcard tests/firmware/panel_*.c))
@@ -223,6 +229,8 @@ $(BUILD)/obj/lib/%.o: lib/%.c
 	@$(CC) $(LIB_CFLAGS) $(HOST_KNOBS) -MMD -MP -c -o $@ $<
 
 $(BUILD)/obj/tests/%.o: HOST_CFLAGS += -Itests -Itests/support
+$(foreach folder,unit property tool firmware,$(eval $(BUILD)/obj/tests/$(folder)/%.o: HOST_CFLAGS += $(TEST_OPT)))
+$(BUILD)/obj/host/scene/%.o: HOST_CFLAGS += $(SCENE_OPT)
 
 $(BUILD)/obj/%.o: %.c
 	@mkdir -p $(@D)

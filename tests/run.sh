@@ -101,7 +101,7 @@ fi
 # Of one preset the atlases differ: a view of one must not point into the other.
 # constants NAME FLAGS: warnings of a configuration are for test_config.sh, which compiles the one file that users do
 constants() {
-    build constant-programs WERROR= BUILD=build/test/"$1" CC=clang OPT=-O0 SAN="$sanitizers" CONSTANTS="$2"
+    build constant-programs WERROR= BUILD=build/test/"$1" CC=clang OPT=-O0 ONE_FILE=1 SAN="$sanitizers" CONSTANTS="$2"
     for program in build/test/"$1"/test_*; do job "$1/$(basename "$program")" "SCENES=1000 $program"; done # test_shipped.sh has more of them
 }
 constants balanced "-DGN_PRESET=GN_PRESET_BALANCED -DGN_ATLAS_SIZE=64 -DGN_OTHER_ATLAS_SIZE=256"
@@ -109,7 +109,7 @@ constants balanced "-DGN_PRESET=GN_PRESET_BALANCED -DGN_ATLAS_SIZE=64 -DGN_OTHER
 [ -z "$THOROUGH" ] || constants fast "-DGN_PRESET=GN_PRESET_FAST -DGN_ATLAS_SIZE=64 -DGN_OTHER_ATLAS_SIZE=64"
 [ -z "$THOROUGH" ] || constants accurate "-DGN_PRESET=GN_PRESET_ACCURATE -DGN_ATLAS_SIZE=128 -DGN_OTHER_ATLAS_SIZE=128"
 
-build build/test/threads/test_cores BUILD=build/test/threads CC=clang OPT=-O0 SAN=-fsanitize=thread
+build build/test/threads/test_cores BUILD=build/test/threads CC=clang OPT=-O0 ONE_FILE=1 SAN=-fsanitize=thread
 job threads/test_cores build/test/threads/test_cores
 
 # ---- What is run -----------------------------------------------------------------------------------------------------------

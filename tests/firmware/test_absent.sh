@@ -138,8 +138,8 @@ LIST
 
 # Nor of a level what only a higher one has.
 while read -r feature level pattern; do
-    object "level-$feature" -Og -fno-inline $(but all 0 NOTHING | sed "s/^-DGN_$feature=.*/-DGN_$feature=$level/")
-    ${prefix}nm --defined-only "$tmp/level-$feature.o" | awk '{ print $3 }' | grep -x -E "$pattern" >"$tmp/found" && fail "$feature is $level, and there is $(tr '\n' ' ' <"$tmp/found")" || pass
+    whole "all-level-$feature" NOTHING "-UGN_$feature -DGN_$feature=$level"
+    gone "level-$feature" NOTHING "$pattern" "-UGN_$feature -DGN_$feature=$level" && pass || fail "$feature is $level, and there is $(tr '\n' ' ' <"$tmp/found")"
 done <<'LIST'
 FILTER_MAX 4 gn_disk_.*|gn_blocks_.*
 MANY_CASCADES 2 gn_cull_shown_nearer
