@@ -18,7 +18,7 @@
 /* Knobs that are gone. */
 #if defined(GN_TILE_LIGHTS) || defined(GN_LINEAR_KERNELS) || defined(GN_DEPTH_BLOCKS) || defined(GN_ATTEN_BITS) ||     \
     defined(GN_NEWTON_STEPS) || defined(GN_SHADOW_DEPTH_FRAC) || defined(GN_SHADOW_SUBPIXEL_BITS) ||                   \
-    defined(GN_WEIGHT_BITS)
+    defined(GN_WEIGHT_BITS) || defined(GN_VERTEX_CACHE)
 #error "the configuration sets a knob that is gone: docs/CHANGELOG.md says what to do instead"
 #endif
 #if defined(GN_CASTER_ALPHA) || defined(GN_VISIBLE_ALPHA) || defined(GN_EMISSIVE_TEXTURES) || defined(GN_MASKS) ||     \
@@ -142,9 +142,6 @@
 #endif
 #ifndef GN_OTHER_ATLAS_TEXELS
 #define GN_OTHER_ATLAS_TEXELS (GN_OTHER_ATLAS_SIZE * GN_OTHER_ATLAS_SIZE)
-#endif
-#ifndef GN_VERTEX_CACHE
-#define GN_VERTEX_CACHE 32
 #endif
 
 /* Features: 0 means absent from the image. */
@@ -276,6 +273,13 @@
  * can do both). */
 #define GN_RECORDS (GN_RUNTIME_KNOBS || !GN_TRIANGLE_GROUPS)
 #define GN_GROUPS  (GN_RUNTIME_KNOBS || GN_TRIANGLE_GROUPS)
+
+/* Entries of the cache of vertices that are shaded: screen tiles of few pixels have few triangles. */
+#if GN_RUNTIME_KNOBS
+#define GN_VERTEX_CACHE 1024
+#else
+#define GN_VERTEX_CACHE ((GN_TILE_WIDTH) * (GN_TILE_HEIGHT) >= 512 ? 32 : 8)
+#endif
 
 /* Layers of transparent surfaces that there is memory for. */
 #if GN_RUNTIME_KNOBS

@@ -69,8 +69,7 @@
       "depth_bits / 8 bytes each: tiles fill an atlas only if there are 1, 4 or 16 of them, or with sizes by "         \
       "importance")                                                                                                    \
     X(other_atlas_texels, OTHER_ATLAS_TEXELS, 64, 1048576, "the same of the local-light atlas",                        \
-      "other_depth_bits / 8 bytes each")                                                                               \
-    X(vertex_cache, VERTEX_CACHE, 4, 1024, "entries of the transformed-vertex caches, a power of two", "16 bytes each")
+      "other_depth_bits / 8 bytes each")
 
 /* How the library is built: constant in every build. */
 #define GN_BUILD_KNOBS(X)                                                                                              \

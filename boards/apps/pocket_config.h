@@ -11,7 +11,6 @@
 #define GN_SURFACE_LIGHTS   1
 #define GN_MAX_OBJECTS      9
 #define GN_MAX_SHADOW_TILES 1
-#define GN_VERTEX_CACHE     4
 #define GN_ATLAS_SIZE       64
 #define GN_DEPTH_BITS       16
 #define GN_PERSP_STEP       1 /* every pixel exact: interpolated shading takes 3.5 KB more */

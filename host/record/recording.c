@@ -46,7 +46,6 @@ static const struct {
     {"max_other_tiles", "as recorded: a light without a tile casts no shadow, which is no error"},
     {"atlas_texels", "as recorded: sizes of tiles follow from it"},
     {"other_atlas_texels", "as recorded: sizes of tiles follow from it"},
-    {"vertex_cache", "as recorded: speed alone"},
     {"object_boxes", "as recorded: speed alone"},
     {"clipping", "as recorded: another place of the camera may need it"},
     {"validation", "as recorded: it refuses what is not built"},

@@ -58,7 +58,7 @@ size_of() { # by bisection: for messages
 
 # the library's default capacities
 sets=
-for key in max_width max_height max_triangles max_tile_refs max_lights surface_lights max_objects max_shadow_tiles max_other_tiles vertex_cache; do
+for key in max_width max_height max_triangles max_tile_refs max_lights surface_lights max_objects max_shadow_tiles max_other_tiles; do
     macro=GN_$(echo $key | tr a-z A-Z)
     sets="$sets $key=$(printf '#include "gn_config.h"\nGN_%s\n' "${macro#GN_}" | gcc -E -P -Ilib - | tail -n 1 | sed 's/^(0 ? [0-9]* : \([0-9]*\))$/\1/')"
 done
@@ -91,7 +91,7 @@ if [ -n "$target" ]; then
         predicted $preset punctual_lights=0 main_light=0 shadows=0 max_objects=3 max_lights=1
         predicted $preset depth_bits=8 other_depth_bits=32 atlas_size=16 other_atlas_size=512
         predicted $preset depth_bits=32 other_depth_bits=8 atlas_size=32 other_atlas_size=16 incremental=2
-        predicted $preset max_width=333 max_height=17 max_triangles=7 max_tile_refs=9 max_lights=3 max_shadow_tiles=16 vertex_cache=64
+        predicted $preset max_width=333 max_height=17 max_triangles=7 max_tile_refs=9 max_lights=3 max_shadow_tiles=16
         predicted $preset max_objects=777 max_other_tiles=13 surface_lights=3 max_shadow_tiles=1 max_lights=5
         predicted $preset max_tile_refs=70001 atlas_size=64 tile_width=72 tile_height=5 max_lights=8
         predicted $preset max_tile_refs=70001 atlas_size=16 tile_width=24 tile_height=1 shadows=0

@@ -137,6 +137,7 @@ static const char *why_gone(const char *key)
         {"shadow_depth_frac", "4 bits always"},
         {"shadow_subpixel_bits", "follows from persp_step: 12 with 1, else 10"},
         {"weight_bits", "follows from persp_step: 12 with 1, else 8"},
+        {"vertex_cache", "follows from the screen tile: 32 from 512 pixels on, else 8"},
         {"blended_cascades", "many_cascades=2 has it"},
         {"disk_filter", "filter_max=5 has it"},
         {"static_layer", "incremental=2 has it"},

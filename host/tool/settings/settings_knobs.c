@@ -108,7 +108,7 @@ void settings_preset_scene(scene *s, int preset)
 
 void settings_init(settings *out)
 {
-    static const settings defaults = {.output = GN_FORMAT_RGB888, .capacity.vertex_cache = 32};
+    static const settings defaults = {.output = GN_FORMAT_RGB888};
     *out = defaults;
     for (size_t i = 0; i < groups[FEATURE].n; i++) *field(out, &feature_knobs[i]) = feature_knobs[i].hi;
     out->feature.incremental = out->feature.other_formats = 1; /* no picture needs more */
@@ -187,7 +187,6 @@ static const char *refine(const settings *s, const void *changed, int n)
     if (changed == &s->quality.tile_width && n % 8) return "a multiple of 8";
     if ((changed == &s->capacity.atlas_texels || changed == &s->capacity.other_atlas_texels) && n % 64)
         return "a multiple of 64";
-    if (changed == &s->capacity.vertex_cache && (n & (n - 1))) return "a power of two";
     return NULL;
 }
 
