@@ -25,7 +25,7 @@
     defined(GN_BAKED_LIGHT) || defined(GN_RECEIVER_BIAS) || defined(GN_CASTER_BIAS) || defined(GN_RECEIVER_PLANE) ||   \
     defined(GN_BLENDED_CASCADES) || defined(GN_CASTER_CULLING) || defined(GN_DISK_FILTER) ||                           \
     defined(GN_TEXTURE_LEVELS) || defined(GN_STATIC_LAYER) || defined(GN_TILE_IMPORTANCE) || defined(GN_TIGHT_FIT) ||  \
-    defined(GN_CASTER_CLIPPING) || defined(GN_CLIPS) || defined(GN_PICKING) || defined(GN_RAW_VIEWS)
+    defined(GN_CASTER_CLIPPING) || defined(GN_CLIPS) || defined(GN_PICKING) || defined(GN_RAW_VIEWS) || defined(GN_ERROR_FIELDS)
 #error "the configuration sets a knob that is part of another one now: docs/CHANGELOG.md says of which"
 #endif
 
@@ -218,17 +218,13 @@
 #define GN_CLIPPING (GN_COMPACT ? 0 : 2)
 #endif
 
-/* How the library is built. A program may be compiled with another size_first or error_fields than the library: no type
- * depends on them. */
+/* How the library is built. A program may be compiled with another size_first than the library: no type depends on it. */
 #ifndef GN_SIZE_FIRST
 #ifdef __OPTIMIZE_SIZE__
 #define GN_SIZE_FIRST 1
 #else
 #define GN_SIZE_FIRST 0
 #endif
-#endif
-#ifndef GN_ERROR_FIELDS
-#define GN_ERROR_FIELDS 0
 #endif
 
 /* No knob: quality knobs as data, with all that they may need, for host tools. */
@@ -259,6 +255,7 @@
 #define GN_RECEIVER_PLANE   (GN_OTHER_BIASES)
 #define GN_CASTER_CLIPPING  ((GN_CLIPPING) >= 2)
 #define GN_RAW_VIEWS        ((GN_OTHER_FORMATS) >= 2)
+#define GN_ERROR_FIELDS     ((GN_VALIDATION) >= 2)
 
 /* Whether the boxes of objects are needed. */
 #define GN_BOXES (GN_PUNCTUAL_LIGHTS || (GN_SHADOWS && (GN_OBJECT_BOXES || GN_CASTER_CULLING || GN_TIGHT_FIT)))

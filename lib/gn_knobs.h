@@ -80,9 +80,7 @@
     X(size_first, SIZE_FIRST, 0, 1,                                                                                    \
       "less flash rather than fewer instructions: one code path where two give the same bits, calls in place of "      \
       "inline code; by default 1 where the compiler optimises for size (-Os)",                                         \
-      "instructions; the same picture")                                                                                \
-    X(error_fields, ERROR_FIELDS, 0, 1, "errors name the field that is wrong: gn_detail.field",                        \
-      "flash; 3 KB more where gn_field_text is called")
+      "instructions; the same picture")
 
 #define GN_FEATURE_KNOBS(X)                                                                                            \
     X(shadows, SHADOWS, 0, 1, "shadow maps", "atlas, rasteriser and filters")                                          \
@@ -124,8 +122,10 @@
       "flash; vertices of skinned objects are blended once for their box, and each time they are transformed")         \
     X(tile_drawing, TILE_DRAWING, 0, 1, "a background gradient; the caller's drawing behind and over a screen tile",   \
       "flash")                                                                                                         \
-    X(validation, VALIDATION, 0, 1,                                                                                    \
-      "scenes are checked before they are drawn; without, an invalid scene has undefined behaviour", "flash")          \
+    X(validation, VALIDATION, 0, 2,                                                                                    \
+      "1: scenes are checked before they are drawn; 2: errors also name the field that is wrong, gn_detail.field; "    \
+      "without, an invalid scene has undefined behaviour",                                                             \
+      "flash; 2: 0.5 KB, 3 KB more where gn_field_text is called")                                                     \
     X(other_formats, OTHER_FORMATS, 0, 2,                                                                              \
       "pixel formats other than RGB565: 1 RGB888, grey, one bit; 2 also views of depth, normals, shadow and triangle " \
       "identity, for host tools",                                                                                      \

@@ -121,7 +121,7 @@ typedef enum { GN_STATUS_LIST(GN_STATUS_ENUM_) GN_STATUS_COUNT } gn_status;
 /* What the last failing call was about. */
 typedef struct {
     gn_status status;
-    gn_field field;     /* that is wrong, with GN_ERROR_FIELDS; GN_FIELD_NONE: no single one */
+    gn_field field;     /* that is wrong, with GN_VALIDATION 2; GN_FIELD_NONE: no single one */
     uint32_t index;     /* of the object, light, triangle or tile it concerns; 0 where there is only one */
     uint32_t needed;    /* capacity errors: how much would have been enough; otherwise 0 */
     uint32_t available; /* capacity errors: how much there is */

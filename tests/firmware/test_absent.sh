@@ -16,7 +16,7 @@ most() {
     FILTER_MAX) echo 5 ;;
     VERTEX_JOINTS) echo 4 ;;
     MANY_CASCADES) echo 3 ;;
-    TEXTURES | INCREMENTAL | TILE_SIZES | CLIPPING | OTHER_FORMATS) echo 2 ;;
+    TEXTURES | INCREMENTAL | TILE_SIZES | CLIPPING | OTHER_FORMATS | VALIDATION) echo 2 ;;
     TEXTURE_FORMATS) echo 1023 ;;
     *) echo 1 ;;
     esac
@@ -128,7 +128,7 @@ OTHER_BIASES corner_normals|start_plane|dark_on_plane
 AUTO_BIAS gn_bias_auto_.*|.*_share_q3[02]|auto_.*
 INCREMENTAL gn_kept_.*|view_signature|stays|gn_static_layer_.*
 MAIN_LIGHT main_light
-VALIDATION gn_scene_validate|check_.*light
+VALIDATION gn_scene_validate|check_.*light|gn_fail_field
 TILE_DRAWING gradient_row|draw_behind
 OTHER_FORMATS luminance_q20|fill_(grey4|mono)
 TILE_SIZES sizes_by_importance|weight_of|gn_seen_.*|gn_ortho_(fit_tight|covers)|sides_by_worth|sixteenth_octaves|place_by_worth
@@ -146,13 +146,9 @@ MANY_CASCADES 2 gn_cull_shown_nearer
 TEXTURES 1 gn_texture_(level_at|level_depth2|use_level)
 INCREMENTAL 1 gn_static_layer_.*
 CLIPPING 1 clip_side|clip_to_reach
+VALIDATION 1 gn_fail_field
 TILE_SIZES 1 gn_seen_.*|gn_ortho_(fit_tight|covers)|sides_by_worth
 LIST
-
-# Errors name fields only where that is asked for.
-if symbols NOTHING | grep -q -x 'gn_fail_field'; then fail "names of fields without error_fields"; else pass; fi
-whole all-FIELDS NOTHING -DGN_ERROR_FIELDS=1
-symbols FIELDS | grep -q -x gn_fail_field && pass || fail "error_fields: there is no symbol gn_fail_field at all"
 
 # Neither way of keeping triangles knows the other's functions.
 gone NOTHING NOTHING 'gn_setup_tile|gn_raster_triangle|setup_.*groups|count_group|check_tiles' && pass || fail "groups of triangles without triangle_groups: $(tr '\n' ' ' <"$tmp/found")"

@@ -35,12 +35,12 @@ done
 
 # ---- Range: the compilers of the test suite, with sanitizers -----------------------------------------------------------------------
 
-for how in "gcc -O1 -DGN_AUTO_BIAS=0" "clang -O0 -DGN_ERROR_FIELDS=1"; do
+for how in "gcc -O1 -DGN_AUTO_BIAS=0" "clang -O0 -DGN_VALIDATION=2"; do
     if $how -std=c11 -w -fsanitize=address,undefined -fno-sanitize-recover=all $flags -DGN_MAX_TRIANGLES=64 -DGN_MAX_HEIGHT=64 -Ilib -Itests/support \
         -o "$tmp/range" tests/oracle/compact_range.c lib/gnomon.c -lm 2>"$tmp/log"; then counted "$tmp/range" 5000
     else fail "$how: $(grep -m 1 error "$tmp/log")"; fi
 done
-for knobs in -O2 "-fsyntax-only -DGN_PRESET=GN_PRESET_ACCURATE -DGN_VALIDATION=0" "-fsyntax-only -DGN_AUTO_BIAS=0" "-fsyntax-only -DGN_ERROR_FIELDS=1"; do
+for knobs in -O2 "-fsyntax-only -DGN_PRESET=GN_PRESET_ACCURATE -DGN_VALIDATION=0" "-fsyntax-only -DGN_AUTO_BIAS=0" "-fsyntax-only -DGN_VALIDATION=2"; do
     gcc -std=c99 -pedantic $warn -Ilib -DGN_COMPACT=1 $knobs -c -o "$tmp/warnings.o" lib/gnomon.c 2>"$tmp/log" && pass || fail "$knobs: $(grep -m 1 -E 'error|warning' "$tmp/log")"
 done
 for contradiction in TEXTURES MANY_CASCADES FILTER_MAX PUNCTUAL_LIGHTS OTHER_FORMATS INCREMENTAL; do

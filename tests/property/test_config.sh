@@ -100,7 +100,7 @@ pairs() {
     echo "TRANSPARENT_LAYERS=1 TEXTURES=0 SIZE_FIRST=1"
     echo "fast TRANSPARENT_LAYERS=3 TRIANGLE_GROUPS=64 MAX_TRIANGLES=400"
     more "accurate all TRANSPARENT_LAYERS=2 OTHER_FORMATS=0 ORTHOGRAPHIC=0"
-    more "none TRIANGLE_GROUPS=3 TILE_WIDTH=24 SIZE_FIRST=1 ERROR_FIELDS=1"
+    more "none TRIANGLE_GROUPS=3 TILE_WIDTH=24 SIZE_FIRST=1 VALIDATION=2"
     more "tiny all TRIANGLE_GROUPS=4096"
     more "-m32 accurate TRIANGLE_GROUPS=17"
     for preset in tiny fast accurate; do # balanced is the default
@@ -108,7 +108,7 @@ pairs() {
         more "$preset none"
         more "-m32 $preset"
     done
-    more "tiny all SRGB=0 ERROR_FIELDS=1"
+    more "tiny all SRGB=0 VALIDATION=2"
     more "accurate all SRGB=0"
     more "-m32"
     more "-m32 none"
@@ -217,7 +217,7 @@ refused triangle_groups_have_tiles "-DGN_TRIANGLE_GROUPS=1 -DGN_TILE_WIDTH=8 -DG
 refused triangle_groups_have_up_to_128 "-DGN_TRIANGLE_GROUPS=1 -DGN_TILE_HEIGHT=1"
 for gone in TILE_LIGHTS LINEAR_KERNELS DEPTH_BLOCKS ATTEN_BITS NEWTON_STEPS SHADOW_DEPTH_FRAC SHADOW_SUBPIXEL_BITS WEIGHT_BITS VERTEX_CACHE; do refused "knob that is gone" "-DGN_$gone=0"; done
 for part in CASTER_ALPHA VISIBLE_ALPHA EMISSIVE_TEXTURES MASKS BAKED_LIGHT RECEIVER_BIAS CASTER_BIAS RECEIVER_PLANE BLENDED_CASCADES CASTER_CULLING DISK_FILTER \
-    TEXTURE_LEVELS STATIC_LAYER TILE_IMPORTANCE TIGHT_FIT CASTER_CLIPPING CLIPS PICKING RAW_VIEWS; do
+    TEXTURE_LEVELS STATIC_LAYER TILE_IMPORTANCE TIGHT_FIT CASTER_CLIPPING CLIPS PICKING RAW_VIEWS ERROR_FIELDS; do
     refused "part of another one" "-DGN_$part=0"
 done
 refused transparent_layers_need_alpha "-DGN_TRANSPARENT_LAYERS=1 -DGN_ALPHA=0"

@@ -147,6 +147,7 @@ static const char *why_gone(const char *key)
         {"visible_alpha", "alpha has it"},
         {"masks", "baked has it"},
         {"raw_views", "other_formats=2 has it"},
+        {"error_fields", "validation=2 has it"},
         {"runtime_knobs", "GN_RUNTIME_KNOBS is for host tools"},
         {"baked_light", "baked has it"},
         {"receiver_bias", "other_biases has it"},
