@@ -19,7 +19,7 @@ trap 'exit 1' HUP INT TERM
 # ---- Configurations -----------------------------------------------------------------------------------------------------------
 
 features=$(sed -n '/GN_FEATURE_KNOBS/,$s/^    X([a-z_0-9]*, \([A-Z_0-9]*\), .*/\1/p' lib/gn_knobs.h)
-most() { case $1 in FILTER_MAX) echo 5 ;; VERTEX_JOINTS) echo 4 ;; TEXTURE_FORMATS) echo 1023 ;; MANY_CASCADES) echo 3 ;; TEXTURES | INCREMENTAL | TILE_SIZES | CLIPPING) echo 2 ;; *) echo 1 ;; esac; }
+most() { case $1 in SHADOWS) echo 6 ;; VERTEX_JOINTS) echo 4 ;; TEXTURE_FORMATS) echo 1023 ;; MANY_CASCADES) echo 3 ;; TEXTURES | INCREMENTAL | TILE_SIZES | CLIPPING) echo 2 ;; *) echo 1 ;; esac; }
 # Formats of textures, in the order of gn_scene_types.h
 FORMATS="RGBA8888 RGB565 RGB565A1 PALETTE8 PALETTE4 PALETTE1 GREY8 GREY4 ALPHA8 ALPHA4"
 # base FEATURE: what must be built for it to have something to do
@@ -41,7 +41,7 @@ configurations() {
     echo "none $(with SHADOWS=0)"
     echo "shadows $(with SHADOWS=1)"
     echo "lights $(with PUNCTUAL_LIGHTS=1)"
-    echo "filters $(with SHADOWS=1 FILTER_MAX=4)"
+    echo "filters $(with SHADOWS=5)"
     echo "textures $(with TEXTURES=1 TEXTURE_FORMATS=1)"
     echo "shadows+lights $(with SHADOWS=1 PUNCTUAL_LIGHTS=1)"
     echo "all $(without nothing)"
@@ -56,7 +56,7 @@ configurations() {
         none) echo "none+$feature $(with TEXTURE_FORMATS=1 "$feature=$value")" ;;
         textures) echo "textures+$feature $(with TEXTURES=1 TEXTURE_FORMATS=1 "$feature=$value")" ;;
         lights) echo "lights+$feature $(with PUNCTUAL_LIGHTS=1 "$feature=$value")" ;;
-        filters) echo "filters+$feature $(with SHADOWS=1 FILTER_MAX=4 "$feature=$value")" ;;
+        filters) echo "filters+$feature $(with SHADOWS=5 "$feature=$value")" ;;
         shadows) echo "shadows+$feature $(with SHADOWS=1 "$feature=$value")" ;;
         esac
         echo "all-$feature $(without "$feature")"
@@ -151,7 +151,7 @@ tables() {
             n = split(scenes, scene, " ")
             for (i = 1; i <= n; i++) row("own-" scene[i], scene[i] ", its own")
             print "\n## What each feature costs\n"
-            print "Bytes; *alone*: more than what it stands on (none of the features; `shadows`; `punctual_lights`; `shadows` with `filter_max` 4; `textures` of RGBA8888); *of all*: what all of them take more than all but this.\n"
+            print "Bytes; *alone*: more than what it stands on (none of the features; `shadows`; `punctual_lights`; `shadows` 5; `textures` of RGBA8888); *of all*: what all of them take more than all but this.\n"
             print "| feature | alone, over | flash, M0 | flash, M4 | RAM | stack, M4 | of all: flash, M0 | flash, M4 | RAM | stack, M4 |"
             print "| --- | --- | --- | --- | --- | --- | --- | --- | --- | --- |"
             n_features = split(features, feature, " ")

@@ -25,7 +25,8 @@
     defined(GN_BAKED_LIGHT) || defined(GN_RECEIVER_BIAS) || defined(GN_CASTER_BIAS) || defined(GN_RECEIVER_PLANE) ||   \
     defined(GN_BLENDED_CASCADES) || defined(GN_CASTER_CULLING) || defined(GN_DISK_FILTER) ||                           \
     defined(GN_TEXTURE_LEVELS) || defined(GN_STATIC_LAYER) || defined(GN_TILE_IMPORTANCE) || defined(GN_TIGHT_FIT) ||  \
-    defined(GN_CASTER_CLIPPING) || defined(GN_CLIPS) || defined(GN_PICKING) || defined(GN_RAW_VIEWS) || defined(GN_ERROR_FIELDS)
+    defined(GN_CASTER_CLIPPING) || defined(GN_CLIPS) || defined(GN_PICKING) || defined(GN_RAW_VIEWS) ||                \
+    defined(GN_ERROR_FIELDS) || defined(GN_FILTER_MAX)
 #error "the configuration sets a knob that is part of another one now: docs/CHANGELOG.md says of which"
 #endif
 
@@ -146,10 +147,11 @@
 
 /* Features: 0 means absent from the image. */
 #ifndef GN_SHADOWS
+#if GN_COMPACT
 #define GN_SHADOWS 1
+#else
+#define GN_SHADOWS 6
 #endif
-#ifndef GN_FILTER_MAX
-#define GN_FILTER_MAX (GN_COMPACT ? 0 : 5)
 #endif
 #ifndef GN_PUNCTUAL_LIGHTS
 #define GN_PUNCTUAL_LIGHTS (!GN_COMPACT)
@@ -218,7 +220,8 @@
 #define GN_CLIPPING (GN_COMPACT ? 0 : 2)
 #endif
 
-/* How the library is built. A program may be compiled with another size_first than the library: no type depends on it. */
+/* How the library is built. A program may be compiled with another size_first than the library: no type depends on it.
+ */
 #ifndef GN_SIZE_FIRST
 #ifdef __OPTIMIZE_SIZE__
 #define GN_SIZE_FIRST 1
@@ -240,6 +243,7 @@
 #endif
 
 /* What the features above stand for, by parts of the library. */
+#define GN_FILTER_MAX       ((GN_SHADOWS) - ((GN_SHADOWS) > 0))
 #define GN_DISK_FILTER      ((GN_FILTER_MAX) >= 5)
 #define GN_BLENDED_CASCADES ((GN_MANY_CASCADES) >= 2)
 #define GN_CASTER_CULLING   ((GN_MANY_CASCADES) >= 3)

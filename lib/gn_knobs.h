@@ -83,10 +83,10 @@
       "instructions; the same picture")
 
 #define GN_FEATURE_KNOBS(X)                                                                                            \
-    X(shadows, SHADOWS, 0, 1, "shadow maps", "atlas, rasteriser and filters")                                          \
-    X(filter_max, FILTER_MAX, 0, 5,                                                                                    \
-      "largest filter built: 0 hard, 1 2x2, 2 3x3, 3 5x5, 4 7x7, 5 the rotated disk, too",                             \
-      "flash; 5: a table of 256 bytes; 4 bytes of RAM per 64 texels")                                                  \
+    X(shadows, SHADOWS, 0, 6,                                                                                          \
+      "shadow maps, and the largest filter built: 0 no shadows, 1 hard, 2 2x2, 3 3x3, 4 5x5, 5 7x7, 6 the rotated "    \
+      "disk, too",                                                                                                     \
+      "atlas, rasteriser and filters; 6: a table of 256 bytes; 4 bytes of RAM per 64 texels")                          \
     X(punctual_lights, PUNCTUAL_LIGHTS, 0, 1, "spot and point lights", "flash; the local-light atlas")                 \
     X(main_light, MAIN_LIGHT, 0, 1, "a main light with cascades; other directional lights take one tile each",         \
       "flash; the local-light atlas")                                                                                  \

@@ -16,7 +16,7 @@
 #define GN_PERSP_STEP       1 /* every pixel exact: interpolated shading takes 3.5 KB more */
 #define GN_TILE_WIDTH       128
 #define GN_TILE_HEIGHT      2
-#define GN_FILTER_MAX       2 /* hard, 2x2, 3x3 */
+#define GN_SHADOWS          3 /* filters hard, 2x2, 3x3 */
 
 /* What the scene does not use, and what only saves instructions, is not built. */
 #define GN_PUNCTUAL_LIGHTS 0

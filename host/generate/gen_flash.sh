@@ -32,12 +32,11 @@ fi
 
 features=$(sed -n '/GN_FEATURE_KNOBS/,$s/^    X([a-z_0-9]*, \([A-Z_0-9]*\), .*/\1/p' lib/gn_knobs.h)
 # One directional light with a filtered shadow on smooth meshes
-typical="SHADOWS VERTEX_NORMALS"
-# flags NAME...: these features; FILTER_MAX as it is given, else 2
+typical="SHADOWS=3 VERTEX_NORMALS"
+# flags NAME...: these features
 flags() {
     for feature in $features; do
         value=0
-        [ "$feature" = FILTER_MAX ] && value=2
         for name in "$@"; do
             case $name in
             "$feature") value=1 ;;
@@ -59,15 +58,15 @@ without() { # without FEATURE: of the typical ones
 
 m0=$(size cortex-m0 $(flags $typical)) m4=$(size cortex-m4 $(flags $typical))
 echo "/* Made by host/generate/gen_flash.sh with $(arm-none-eabi-gcc -dumpversion). Bytes of flash: on Cortex-M0, on Cortex-M4. */"
-echo "FLASH(typical, $m0, $m4) /* shadows, vertex_normals, filter_max 2, preset balanced */"
+echo "FLASH(typical, $m0, $m4) /* shadows 3, vertex_normals, preset balanced */"
 row no_shadows "without shadows, and what is of shadows" $(flags VERTEX_NORMALS)
 for feature in VERTEX_NORMALS; do
     row no_$(echo $feature | tr A-Z a-z) "without" $(flags $(without $feature))
 done
-for max in 0 1 3 4 5; do row filter_max_$max "another filter_max" $(flags $typical FILTER_MAX=$max); done
+for level in 1 2 4 5 6; do row shadows_$level "other shadows" $(flags $typical SHADOWS=$level); done
 row punctual_unshadowed "spot and point lights, no shadows: above no_shadows too" $(flags VERTEX_NORMALS PUNCTUAL_LIGHTS)
 for feature in $features; do
-    case " $typical FILTER_MAX " in *" $feature "*) continue ;; esac
+    case " SHADOWS $typical " in *" $feature "*) continue ;; esac
     row $(echo $feature | tr A-Z a-z) "with" $(flags $typical $feature)
     level=2
     while [ $level -le $(levels $feature) ]; do

@@ -147,13 +147,13 @@ static void use_frame(const gn_frame *frame)
 static void use_scene(const gn_scene *s)
 {
     const uses_list to = {use_knob, NULL};
-    for (uint32_t i = 0; i < s->n_lights; i++) uses_light(&to, &s->shadow, &s->lights[i], i, 1);
+    for (uint32_t i = 0; i < s->n_lights; i++) uses_light(&to, &s->lights[i], i, 1);
     for (uint32_t i = 0; i < s->n_objects; i++) {
         uses_object(&to, &s->objects[i], i);
         uses_mesh(&to, s->objects[i].mesh, i);
     }
     uses_camera(&to, &s->camera);
-    uses_shadows(&to, &s->shadow); /* they are checked without a shadow, too, and cost nothing then */
+    if (find("shadows")->used) uses_shadows(&to, s);
 }
 
 static void begin(void)

@@ -14,16 +14,22 @@ int uses_both(const char *knob, int a, int b)
     return a > b ? a : b;
 }
 
+/* A filter is a level of shadows: 1 is hard. */
+static void use_filter(const uses_list *to, gn_filter filter, const char *what, uses_owner owner, uint32_t idx)
+{
+    use(to, "shadows", 1 + (int)filter, what, owner, idx);
+}
+
 static void use_softness(const uses_list *to, const gn_shadow_settings *shadow, const gn_light *light, uint32_t idx)
 {
     const gn_filter a = shadow->filter, b = shadow->other_filter;
     if (light->softness == GN_SOFTNESS_SOFT && (a != GN_FILTER_DISK || b != GN_FILTER_DISK))
-        use(to, "filter_max", GN_FILTER_5X5, "soft light", USES_LIGHT, idx);
+        use_filter(to, GN_FILTER_5X5, "soft light", USES_LIGHT, idx);
     if (light->softness == GN_SOFTNESS_HARD && (a != GN_FILTER_HARD || b != GN_FILTER_HARD))
-        use(to, "filter_max", GN_FILTER_2X2, "hard light", USES_LIGHT, idx);
+        use_filter(to, GN_FILTER_2X2, "hard light", USES_LIGHT, idx);
 }
 
-void uses_light(const uses_list *to, const gn_shadow_settings *shadow, const gn_light *light, uint32_t idx, int casts)
+void uses_light(const uses_list *to, const gn_light *light, uint32_t idx, int casts)
 {
     const int32_t *r = light->bias_receiver_q16;
     if (light->kind != GN_LIGHT_DIRECTIONAL) use(to, "punctual_lights", 1, "light", USES_LIGHT, idx);
@@ -33,7 +39,6 @@ void uses_light(const uses_list *to, const gn_shadow_settings *shadow, const gn_
     if (light->bias_caster_q16) use(to, "other_biases", 1, "bias_caster of light", USES_LIGHT, idx);
     if (light->receiver_plane) use(to, "other_biases", 1, "receiver_plane of light", USES_LIGHT, idx);
     if (light->auto_bias != GN_AUTO_BIAS_OFF) use(to, "auto_bias", 1, "auto_bias of light", USES_LIGHT, idx);
-    use_softness(to, shadow, light, idx);
 }
 
 static void use_texture(const uses_list *to, const gn_texture *t, uint32_t idx)
@@ -70,10 +75,12 @@ void uses_camera(const uses_list *to, const gn_camera *camera)
     if (camera->half_height_q16) use(to, "orthographic", 1, "the camera", USES_SETTING, 0);
 }
 
-void uses_shadows(const uses_list *to, const gn_shadow_settings *s)
+void uses_shadows(const uses_list *to, const gn_scene *scene)
 {
-    use(to, "filter_max", (int)s->filter, "the filter of directional lights", USES_SETTING, 0);
-    use(to, "filter_max", (int)s->other_filter, "the filter of spot and point lights", USES_SETTING, 0);
+    const gn_shadow_settings *s = &scene->shadow;
+    for (uint32_t i = 0; i < scene->n_lights; i++) use_softness(to, s, &scene->lights[i], i);
+    use_filter(to, s->filter, "the filter of directional lights", USES_SETTING, 0);
+    use_filter(to, s->other_filter, "the filter of spot and point lights", USES_SETTING, 0);
     if (s->blend != GN_BLEND_HARD) use(to, "many_cascades", 2, "the setting cascade_blend", USES_SETTING, 0);
     if (s->main_light) use(to, "main_light", 1, "the setting main_light", USES_SETTING, 0);
     if (s->n_cascades > 1) use(to, "many_cascades", 1, "the setting cascades", USES_SETTING, 0);

@@ -13,12 +13,12 @@ typedef struct {
     void *user;
 } uses_list;
 
-void uses_light(const uses_list *to, const gn_shadow_settings *shadow, const gn_light *light, uint32_t idx, int casts);
+void uses_light(const uses_list *to, const gn_light *light, uint32_t idx, int casts);
 void uses_object(const uses_list *to, const gn_object *object, uint32_t idx);
 void uses_mesh(const uses_list *to, const gn_mesh *mesh, uint32_t idx);
 void uses_camera(const uses_list *to, const gn_camera *camera);
 /* Only where shadows are drawn. */
-void uses_shadows(const uses_list *to, const gn_shadow_settings *shadow);
+void uses_shadows(const uses_list *to, const gn_scene *scene);
 
 /* A knob's value for two uses: the larger, but of texture_formats both. */
 int uses_both(const char *knob, int a, int b);

@@ -47,10 +47,11 @@ flags_of() {
         for feature in $features; do
             case $feature in
             OBJECT_BOXES) echo "-DGN_$feature=0" ;;
+            SHADOWS) echo "-DGN_$feature=6" ;;
             VERTEX_JOINTS) echo "-DGN_$feature=4" ;;
             MANY_CASCADES) echo "-DGN_$feature=3" ;;
             TEXTURES | INCREMENTAL | TILE_SIZES | CLIPPING) echo "-DGN_$feature=2" ;;
-            *) [ "$feature" = FILTER_MAX ] || echo "-DGN_$feature=1" ;;
+            *) echo "-DGN_$feature=1" ;;
             esac
         done
         echo "-DGN_PERSP_STEP=1" ;;

@@ -13,7 +13,7 @@ if command -v arm-none-eabi-gcc >/dev/null 2>&1; then
 fi
 most() {
     case $1 in
-    FILTER_MAX) echo 5 ;;
+    SHADOWS) echo 6 ;;
     VERTEX_JOINTS) echo 4 ;;
     MANY_CASCADES) echo 3 ;;
     TEXTURES | INCREMENTAL | TILE_SIZES | CLIPPING | OTHER_FORMATS | VALIDATION) echo 2 ;;
@@ -114,7 +114,6 @@ while read -r feature pattern; do
 done <<'LIST'
 SHADOWS gn_(atlas|caster|cascade|ortho|persp|filter|blocks|cull|tiles|bias)_.*|gn_tent.*|gn_disk_.*
 PUNCTUAL_LIGHTS gn_(persp|punctual|object_list)_.*
-FILTER_MAX gn_tent_weights|gn_disk_.*|disk.*|gn_blocks_.*
 MANY_CASCADES gn_cull_shown_nearer
 ALPHA alpha_plane|cut_begin|cut_row
 TEXTURE_FORMATS gn_linear_(31|63)_table|gn_texel_decode_.*
@@ -141,7 +140,8 @@ while read -r feature level pattern; do
     object "level-$feature" -Og -fno-inline $(but all 0 NOTHING | sed "s/^-DGN_$feature=.*/-DGN_$feature=$level/")
     ${prefix}nm --defined-only "$tmp/level-$feature.o" | awk '{ print $3 }' | grep -x -E "$pattern" >"$tmp/found" && fail "$feature is $level, and there is $(tr '\n' ' ' <"$tmp/found")" || pass
 done <<'LIST'
-FILTER_MAX 4 gn_disk_.*|gn_blocks_.*
+SHADOWS 1 gn_tent_weights|gn_disk_.*|disk.*|gn_blocks_.*
+SHADOWS 5 gn_disk_.*|gn_blocks_.*
 MANY_CASCADES 2 gn_cull_shown_nearer
 TEXTURES 1 gn_texture_(level_at|level_depth2|use_level)
 INCREMENTAL 1 gn_static_layer_.*

@@ -77,14 +77,14 @@ if [ -n "$target" ]; then
         predicted $preset
         predicted $preset punctual_lights=1 main_light=0 incremental=0 max_objects=1
         predicted $preset shadows=0 punctual_lights=0 max_lights=3
-        predicted $preset srgb=0 textures=0 specular=0 baked=0 alpha=0 filter_max=0
+        predicted $preset srgb=0 textures=0 specular=0 baked=0 alpha=0 shadows=1
         predicted $preset shadows=0
         predicted $preset other_formats=2
-        predicted $preset filter_max=4
+        predicted $preset shadows=5
         predicted $preset incremental=0
         predicted $preset vertex_joints=0 textures=1 auto_bias=0
         predicted $preset incremental=2
-        predicted $preset incremental=2 filter_max=4
+        predicted $preset incremental=2 shadows=5
         predicted $preset punctual_lights=0
         predicted $preset main_light=0
         predicted $preset punctual_lights=0 main_light=0

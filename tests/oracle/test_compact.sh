@@ -43,8 +43,8 @@ done
 for knobs in -O2 "-fsyntax-only -DGN_PRESET=GN_PRESET_ACCURATE -DGN_VALIDATION=0" "-fsyntax-only -DGN_AUTO_BIAS=0" "-fsyntax-only -DGN_VALIDATION=2"; do
     gcc -std=c99 -pedantic $warn -Ilib -DGN_COMPACT=1 $knobs -c -o "$tmp/warnings.o" lib/gnomon.c 2>"$tmp/log" && pass || fail "$knobs: $(grep -m 1 -E 'error|warning' "$tmp/log")"
 done
-for contradiction in TEXTURES MANY_CASCADES FILTER_MAX PUNCTUAL_LIGHTS OTHER_FORMATS INCREMENTAL; do
-    gcc -std=c99 -w -Ilib -DGN_COMPACT=1 -DGN_$contradiction=1 -fsyntax-only lib/frame/gn_frame.c 2>"$tmp/log" && fail "compact builds with $contradiction"
+for contradiction in TEXTURES=1 MANY_CASCADES=1 SHADOWS=2 PUNCTUAL_LIGHTS=1 OTHER_FORMATS=1 INCREMENTAL=1; do
+    gcc -std=c99 -w -Ilib -DGN_COMPACT=1 -DGN_ -fsyntax-only lib/frame/gn_frame.c 2>"$tmp/log" && fail "compact builds with $contradiction"
     grep -q 'error.*compact_' "$tmp/log" && pass || fail "$contradiction: the message does not name compact: $(grep -m 1 error "$tmp/log")"
 done
 # The tool refuses by name what it has not, in a scene, in what is set afterwards, and in the picture.
@@ -59,7 +59,7 @@ refused "'punctual_lights': 0, and spot light 'lamp'" desk
 refused 'lights: 5, and compact arithmetic has one' mixed
 refused 'atlas_size 512, and .* up to 256' fence
 refused 'picture has 320x240, .* up to 256x256' sundial --size 320x240
-refused "'filter_max': 0, and filter 3x3" sundial --set filter=3x3
+refused "'shadows': 1, and filter 3x3" sundial --set filter=3x3
 refused "'many_cascades': 0, and cascades 2" sundial --set cascades=2
 refused 'output is grey8, .* rgb565' sundial --set output=grey8
 refused 'textures 1, ' sundial --set textures=1

@@ -59,6 +59,11 @@ static void use_flag(const char *flag)
     GN_FEATURE_KNOBS(NAMED)
 }
 
+static int32_t filter_max(void)
+{
+    return use.shadows ? use.shadows - 1 : 0;
+}
+
 /* ---- The scene --------------------------------------------------------------------------------------------------- */
 
 static gn_renderer renderer;
@@ -98,14 +103,14 @@ static void use_lights(int variant)
     if (use.other_biases) sun.bias_caster_q16 = GN_Q16(0.4);
     sun.receiver_plane = use.other_biases && variant % 2;
     if (use.auto_bias && variant) sun.auto_bias = variant % 2 ? GN_AUTO_BIAS_NORMAL : GN_AUTO_BIAS_DEPTH;
-    sun.softness = use.filter_max >= 3 && variant == 1 ? GN_SOFTNESS_SOFT : GN_SOFTNESS_DEFAULT;
+    sun.softness = filter_max() >= 3 && variant == 1 ? GN_SOFTNESS_SOFT : GN_SOFTNESS_DEFAULT;
     sun.near_q16 = GN_Q16(0.1);
     lights[0] = lights[1] = lights[2] = lights[3] = sun;
     lights[1].direction[0] = -lights[1].direction[0];
     lights[1].colour_uq16[0] /= 2;
     lights[1].shadow_strength_uq16 = 50000;
     lights[1].mask_channel = -1;
-    if (use.filter_max >= 1 && variant == 2) lights[1].softness = GN_SOFTNESS_HARD;
+    if (filter_max() >= 1 && variant == 2) lights[1].softness = GN_SOFTNESS_HARD;
     lights[2].kind = GN_LIGHT_SPOT;
     lights[2].position_q16[0] = GN_Q16(-2);
     lights[2].position_q16[1] = GN_Q16(4);
@@ -184,7 +189,7 @@ static void use_materials(int variant)
 
 static gn_filter filter_of(int variant)
 {
-    return (gn_filter)(variant % VARIANTS < use.filter_max ? variant % VARIANTS : use.filter_max);
+    return (gn_filter)(variant % VARIANTS < filter_max() ? variant % VARIANTS : filter_max());
 }
 
 static void use_shadow_settings(int variant)

@@ -26,7 +26,7 @@ flags() {
 }
 most() {
     case $1 in
-    FILTER_MAX) echo 5 ;;
+    SHADOWS) echo 6 ;;
     VERTEX_JOINTS) echo 4 ;;
     MANY_CASCADES) echo 3 ;;
     TEXTURES | INCREMENTAL | TILE_SIZES | CLIPPING | OTHER_FORMATS) echo 2 ;;
@@ -62,7 +62,7 @@ pairs() {
     for feature in $features; do
         value=$(most "$feature")
         case $feature in
-        *FILTER* | *CASC* | *BIAS* | MAIN* | INCREM* | TILE_S* | OBJECT_B*)
+        *CASC* | *BIAS* | MAIN* | INCREM* | TILE_S* | OBJECT_B*)
             idle="$idle $feature=$value"
             more "none SHADOWS=1 $feature=$value" ;;
         *) more "none $feature=$value" ;;
@@ -76,24 +76,24 @@ pairs() {
         more "none SHADOWS=1 TEXTURES=1 $cut=1"
         more "all TEXTURES=0 ALPHA=0 BAKED=0 $cut=1"
     done
-    for level in TEXTURES=1 MANY_CASCADES=1 MANY_CASCADES=2 TILE_SIZES=1 INCREMENTAL=1 OTHER_FORMATS=1 FILTER_MAX=4; do echo "all $level"; done
+    for level in TEXTURES=1 MANY_CASCADES=1 MANY_CASCADES=2 TILE_SIZES=1 INCREMENTAL=1 OTHER_FORMATS=1 SHADOWS=5; do echo "all $level"; done
     echo "none SHADOWS=1"
     more "none SHADOWS=1 PUNCTUAL_LIGHTS=1"
     more "none SHADOWS=1 PUNCTUAL_LIGHTS=1 MAIN_LIGHT=1 OTHER_BIASES=1"
     more "all PUNCTUAL_LIGHTS=0 MANY_CASCADES=1"
     echo "all PUNCTUAL_LIGHTS=0 MAIN_LIGHT=0"
     more "none SHADOWS=1 INCREMENTAL=2"
-    for max in 0 1 2 3; do # with what builds upon kernels
-        $([ $max = 1 ] && echo echo || echo more) "all FILTER_MAX=$max OTHER_BIASES=$((max % 2))"
+    for level in 1 2 3 4; do # with what builds upon kernels
+        $([ $level = 2 ] && echo echo || echo more) "all SHADOWS=$level OTHER_BIASES=$(((level + 1) % 2))"
     done
     for bits in "8 32" "16 8" "32 16"; do
-        echo "DEPTH_BITS=${bits% *} OTHER_DEPTH_BITS=${bits#* } FILTER_MAX=$((4 + ${bits% *} / 16 % 2))"
+        echo "DEPTH_BITS=${bits% *} OTHER_DEPTH_BITS=${bits#* } SHADOWS=$((5 + ${bits% *} / 16 % 2))"
     done
     more "PUNCTUAL_LIGHTS=0 MAIN_LIGHT=0 DEPTH_BITS=8"
     more "EDGE=4"
     more "tiny all EDGE=8 DEPTH_BITS=32"
     echo "fast EDGE=1 PUNCTUAL_LIGHTS=0 OTHER_BIASES=0"
-    more "accurate EDGE=3 FILTER_MAX=0"
+    more "accurate EDGE=3 SHADOWS=1"
     more "PUNCTUAL_LIGHTS=0 MAIN_LIGHT=0 DEPTH_BITS=32 INCREMENTAL=2"
     echo "OTHER_ATLAS_SIZE=32 ATLAS_SIZE=64 TILE_WIDTH=32 TILE_HEIGHT=5"
     echo "TRIANGLE_GROUPS=64 MAX_TRIANGLES=400 MAX_TILE_REFS=1"
@@ -117,7 +117,7 @@ pairs() {
     more "-m32 all PUNCTUAL_LIGHTS=0 DEPTH_BITS=32"
     echo "RUNTIME_KNOBS=1"
     more "RUNTIME_KNOBS=1 SHADOWS=0"
-    more "RUNTIME_KNOBS=1 FILTER_MAX=0"
+    more "RUNTIME_KNOBS=1 SHADOWS=1"
     echo "SUBPIXEL_BITS=8 MAX_TILE_REFS=65535"
     echo "MAX_TILE_REFS=65536 MAX_LIGHTS=4 SURFACE_LIGHTS=4 MAX_OBJECTS=3"
     echo "MAX_WIDTH=56 MAX_HEIGHT=44 TILE_WIDTH=8 TILE_HEIGHT=1 MAX_TILE_REFS=2000"
@@ -217,7 +217,7 @@ refused triangle_groups_have_tiles "-DGN_TRIANGLE_GROUPS=1 -DGN_TILE_WIDTH=8 -DG
 refused triangle_groups_have_up_to_128 "-DGN_TRIANGLE_GROUPS=1 -DGN_TILE_HEIGHT=1"
 for gone in TILE_LIGHTS LINEAR_KERNELS DEPTH_BLOCKS ATTEN_BITS NEWTON_STEPS SHADOW_DEPTH_FRAC SHADOW_SUBPIXEL_BITS WEIGHT_BITS VERTEX_CACHE; do refused "knob that is gone" "-DGN_$gone=0"; done
 for part in CASTER_ALPHA VISIBLE_ALPHA EMISSIVE_TEXTURES MASKS BAKED_LIGHT RECEIVER_BIAS CASTER_BIAS RECEIVER_PLANE BLENDED_CASCADES CASTER_CULLING DISK_FILTER \
-    TEXTURE_LEVELS STATIC_LAYER TILE_IMPORTANCE TIGHT_FIT CASTER_CLIPPING CLIPS PICKING RAW_VIEWS ERROR_FIELDS; do
+    TEXTURE_LEVELS STATIC_LAYER TILE_IMPORTANCE TIGHT_FIT CASTER_CLIPPING CLIPS PICKING RAW_VIEWS ERROR_FIELDS FILTER_MAX; do
     refused "part of another one" "-DGN_$part=0"
 done
 refused transparent_layers_need_alpha "-DGN_TRANSPARENT_LAYERS=1 -DGN_ALPHA=0"

@@ -97,7 +97,7 @@ wrong 2 "does not use --size" "$log" -o "$tmp/no.h" --size 8x8
 wrong 1 "no.h: " "$log" -o "$tmp/none/no.h"
 wrong 1 "not a knob" "$log" -o "$tmp/no.h" --set preset=tiny
 wrong 1 "not a knob" "$log" -o "$tmp/no.h" --set shadows
-wrong 1 "setting 'filter_max': '9' is not" "$log" -o "$tmp/no.h" --set filter_max=9
+wrong 1 "setting 'shadows': '9' is not" "$log" -o "$tmp/no.h" --set shadows=9
 broken "another version of the library" '1s/$/9/'
 broken "line 2: there is no preset 7" '2s/2 2/2 7/'
 broken "the preset is missing" 2d

@@ -507,8 +507,8 @@ f 1 4 2
 f 2 4 3
 f 3 4 1
 OBJ
-differ "$cube" shadows=0 shadows=1
-differ "$cube" shadows=1 strength=0
+differ "$cube" shadows=0 shadows=2
+differ "$cube" shadows=2 strength=0
 good compare "$cube" --size 64x48 --set shadows=0 --json
 is shadow_mismatch 0 'shadows=0'
 is atten_max 0 'shadows=0'
@@ -529,13 +529,13 @@ for engine in fixed reference; do # smooth normals that are not built are face n
     cmp -s "$tmp/a.png" "$tmp/b.png" && fail "$engine: vertex_normals=0 changes nothing" || pass
 done
 for command in info compare; do
-    bad 1 "filter_max.*3x3" $command "$cube" --size 8x8 --set filter=3x3 --set filter_max=1
+    bad 1 "shadows.*3x3" $command "$cube" --size 8x8 --set filter=3x3 --set shadows=2
     bad 1 "many_cascades.*soft" $command "$cube" --size 8x8 --set cascades=2 --set cascade_blend=soft --set many_cascades=1
-    bad 1 "filter_max.*other_filter" $command "$cube" --size 8x8 --set other_filter=disk --set filter_max=4
+    bad 1 "shadows.*other_filter" $command "$cube" --size 8x8 --set other_filter=disk --set shadows=5
     bad 1 "setting 'kernel' is gone: .*tents" $command "$cube" --size 8x8 --set kernel=linear
     bad 1 "punctual_lights.*spot light" $command "$cube" --size 8x8 --set lights=spot --set punctual_lights=0
     bad 1 "punctual_lights.*point light" $command "$cube" --size 8x8 --set add_light=point --set punctual_lights=0
-    bad 1 "filter_max.*soft light.*3" $command "$cube" --size 8x8 --set softness=soft --set filter_max=2
+    bad 1 "shadows.*soft light.*4" $command "$cube" --size 8x8 --set softness=soft --set shadows=3
     bad 1 "other_biases.*bias_receiver" $command "$cube" --size 8x8 --set bias_receiver=0,0,0,1 --set other_biases=0
     bad 1 "other_biases.*bias_caster" $command "$cube" --size 8x8 --set bias_caster=1 --set other_biases=0
     bad 1 "baked.*mixing" $command "$cube" --size 8x8 --set mixing=always --set baked=0
@@ -544,9 +544,9 @@ for command in info compare; do
     bad 1 "max_height.*6" $command "$cube" --size 8x6 --set max_height=5
     bad 1 "4 needed, max_shadow_tiles is 3" $command "$cube" --size 8x8 --set cascades=4 --set max_shadow_tiles=3
 done
-good info "$cube" --size 8x6 --set max_width=8 --set max_height=6 --set cascades=4 --set max_shadow_tiles=4 --set filter=3x3 --set filter_max=2
+good info "$cube" --size 8x6 --set max_width=8 --set max_height=6 --set cascades=4 --set max_shadow_tiles=4 --set filter=3x3 --set shadows=3
 good info "$cube" --size 8x6 --set cascades=4 --set cascade_blend=hard --set many_cascades=1
-good info "$cube" --size 8x6 --set filter=7x7 --set filter_max=0 --set cascades=4 --set max_shadow_tiles=1 --set shadows=0 # no filter, no tiles
+good info "$cube" --size 8x6 --set filter=7x7 --set cascades=4 --set max_shadow_tiles=1 --set shadows=0 # no filter, no tiles
 bad 1 'max_objects is 1' compare "$cube" --size 8x8 --set max_objects=1
 bad 1 'max_lights is 2' compare "$cube" --size 8x8 --set lights=spot,point,spot --set max_lights=2
 bad 1 'surface_lights is 1' compare "$cube" --size 8x8 --set lights=directional,directional --set surface_lights=1
@@ -554,7 +554,7 @@ good compare "$cube" --size 8x8 --set lights=directional,directional --set surfa
 good info "$cube" --size 8x8 --set receiver_plane=0 --set receiver_plane@0=1 # what one light uses is built
 for knob in object_boxes incremental; do
     for on in 0 1; do
-        good render "$cube" -o "$tmp/b.png" --size 64x48 --set $knob=$on --set shadows=1
+        good render "$cube" -o "$tmp/b.png" --size 64x48 --set $knob=$on --set shadows=2
         [ $on = 0 ] && mv "$tmp/b.png" "$tmp/a.png"
     done
     cmp -s "$tmp/a.png" "$tmp/b.png" && pass || fail "$knob changes the picture"
@@ -835,7 +835,7 @@ while read -r name low high; do
         1) # a capacity that is too small for the scene, or a feature that it needs: said in one line
             if [ "$(wc -l <"$tmp/err")" = 1 ] && grep -q '^gnomon: ' "$tmp/err"; then pass
             else fail "$name=$value is refused without a clear line: $(head -n 1 "$tmp/err")"; fi
-            case $name in max_* | atlas_texels | shadows | filter_max | vertex_* | persp_step | tile_* | compact) ;;
+            case $name in max_* | atlas_texels | shadows | vertex_* | persp_step | tile_* | compact) ;;
             *) fail "$name=$value, an end of its range, is refused: $(head -n 1 "$tmp/err")" ;; esac ;;
         *) fail "$name=$value exits with $status" ;;
         esac

@@ -23,7 +23,7 @@ static bool is_set(const compiled *c, const char *key)
 /* Of what --set compact=1 draws otherwise, and does not refuse. */
 static bool is_simple(const compiled *c)
 {
-    return !c->set.feature.vertex_normals && !c->set.feature.vertex_colours && !c->set.feature.filter_max &&
+    return !c->set.feature.vertex_normals && !c->set.feature.vertex_colours && c->set.feature.shadows < 2 &&
            !c->set.feature.many_cascades && !c->requested.quality.vertex_light;
 }
 

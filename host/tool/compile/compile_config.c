@@ -120,7 +120,6 @@ static void use_nothing(compiled *c)
 {
 #define NOTHING(name) (c->set.feature.name = 0, because(c, #name, "nothing uses it"))
     NOTHING(shadows);
-    NOTHING(filter_max);
     NOTHING(punctual_lights);
     NOTHING(main_light);
     NOTHING(many_cascades);
@@ -147,11 +146,11 @@ static void choose_features(compiled *c)
     use_nothing(c);
     for (uint32_t i = 0; i < f->scene.n_objects; i++) flags |= f->objects[i].flags;
     const bool casts = (flags & GN_OBJECT_CASTS) && (flags & GN_OBJECT_RECEIVES);
-    for (uint32_t i = 0; i < f->scene.n_lights; i++) uses_light(&to, &f->scene.shadow, &f->lights[i], i, casts);
+    for (uint32_t i = 0; i < f->scene.n_lights; i++) uses_light(&to, &f->lights[i], i, casts);
     for (uint32_t i = 0; i < f->scene.n_objects; i++) uses_object(&to, &f->objects[i], i);
     for (uint32_t i = 0; i < f->n_meshes; i++) uses_mesh(&to, &f->meshes[i], i);
     uses_camera(&to, &f->scene.camera);
-    if (c->set.feature.shadows) uses_shadows(&to, &f->scene.shadow);
+    if (c->set.feature.shadows) uses_shadows(&to, &f->scene);
 }
 
 /* What changes no picture is built where it has something to do, unless it was switched off. */

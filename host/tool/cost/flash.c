@@ -25,9 +25,9 @@ static long of_surfaces(const settings *s, flash_core core)
 
 static long of_filter(const settings *s, flash_core core)
 {
-    const int *const by_max[] = {filter_max_0_bytes, filter_max_1_bytes, NULL,
-                                 filter_max_3_bytes, filter_max_4_bytes, filter_max_5_bytes};
-    const int *row = by_max[s->feature.filter_max];
+    const int *const of_level[] = {shadows_1_bytes, shadows_2_bytes, NULL,
+                                   shadows_4_bytes, shadows_5_bytes, shadows_6_bytes};
+    const int *row = of_level[s->feature.shadows - 1];
     return row ? row[core] : 0;
 }
 

@@ -1,12 +1,12 @@
 /* Made by host/generate/gen_flash.sh with 12.2.1. Bytes of flash: on Cortex-M0, on Cortex-M4. */
-FLASH(typical, 58972, 53888)               /* shadows, vertex_normals, filter_max 2, preset balanced */
+FLASH(typical, 58972, 53888)               /* shadows 3, vertex_normals, preset balanced */
 FLASH(no_shadows, -27472, -25904)          /* without shadows, and what is of shadows */
 FLASH(no_vertex_normals, -3572, -3244)     /* without */
-FLASH(filter_max_0, -2328, -2340)          /* another filter_max */
-FLASH(filter_max_1, -2228, -2240)          /* another filter_max */
-FLASH(filter_max_3, 0, 0)                  /* another filter_max */
-FLASH(filter_max_4, 0, 8)                  /* another filter_max */
-FLASH(filter_max_5, 2376, 2160)            /* another filter_max */
+FLASH(shadows_1, -2328, -2340) /* other shadows */
+FLASH(shadows_2, -2228, -2240) /* other shadows */
+FLASH(shadows_4, 0, 0) /* other shadows */
+FLASH(shadows_5, 0, 8) /* other shadows */
+FLASH(shadows_6, 2376, 2160) /* other shadows */
 FLASH(punctual_unshadowed, -18280, -17560) /* spot and point lights, no shadows: above no_shadows too */
 FLASH(punctual_lights, 18360, 16908)       /* with */
 FLASH(main_light, 368, 336)                /* with */

@@ -18,7 +18,8 @@ static bool has_feature(const char *feature)
 /* user: what a feature has that is not switched off */
 static void switch_feature(void *user, const char *name, int *value)
 {
-    if (!has_feature(name)) *value = user ? settings_feature(user, name) : 0;
+    const int all = user ? settings_feature(user, name) : strcmp(name, "shadows") == 0;
+    if (!has_feature(name) || (strcmp(name, "shadows") == 0 && *value)) *value = all;
 }
 
 /* Presets that have other depths have these in compact arithmetic: as GN_DEPTH_BITS. */

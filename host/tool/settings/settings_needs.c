@@ -48,7 +48,7 @@ size_t settings_shadow_lights(const scene *s)
 static void needs_of_filter(need_list *list, const char *setting, scene_filter filter)
 {
     if (filter > SCENE_FILTER_HARD)
-        need(list, "filter_max", (int)filter, "%s %s", setting, settings_filter_names[filter]);
+        need(list, "shadows", 1 + (int)filter, "%s %s", setting, settings_filter_names[filter]);
 }
 
 static void needs_of_shadows(need_list *list, const scene *s)
@@ -70,9 +70,9 @@ static void needs_of_softness(need_list *list, const scene *s, const scene_light
     bool beside = s->shadow.main_light || l->kind != SCENE_LIGHT_DIRECTIONAL;
     scene_filter atlas = beside ? s->shadow.other_filter : s->shadow.filter;
     if (l->softness == SCENE_SOFT_SOFT && atlas != SCENE_FILTER_DISK)
-        need(list, "filter_max", SCENE_FILTER_5X5, "soft light '%s'", l->name);
+        need(list, "shadows", 1 + SCENE_FILTER_5X5, "soft light '%s'", l->name);
     if (l->softness == SCENE_SOFT_HARD && atlas != SCENE_FILTER_HARD)
-        need(list, "filter_max", SCENE_FILTER_2X2, "hard light '%s'", l->name);
+        need(list, "shadows", 1 + SCENE_FILTER_2X2, "hard light '%s'", l->name);
 }
 
 static void needs_of_light(need_list *list, const scene *s, const scene_light *l, bool shadows)

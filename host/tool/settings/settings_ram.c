@@ -26,7 +26,7 @@ static long put_atlas(layout *l, const settings *s, long side, long texels, long
     if (!texels) texels = side * side;
     long bytes = 0, layers = s->feature.incremental > 1 ? 2 : 1;
     for (long i = 0; i < layers; i++) bytes += put(l, texels * depth_bits / 8, 1, 4);
-    if (s->feature.filter_max > 4) bytes += put(l, texels / 64, 4, 2);
+    if (s->feature.shadows > 5) bytes += put(l, texels / 64, 4, 2);
     return bytes;
 }
 
@@ -41,7 +41,7 @@ static long n_views(const settings *s)
 static void put_views(layout *l, const settings *s)
 {
     const long views = n_views(s);
-    long view = 180 + (s->feature.filter_max > 4 ? 4 : 0) + (s->feature.auto_bias ? 8 : 0) +
+    long view = 180 + (s->feature.shadows > 5 ? 4 : 0) + (s->feature.auto_bias ? 8 : 0) +
                 (s->feature.tile_sizes > 1 ? 8 : 0);
     put(l, views, (view + 7) / 8 * 8, 8);
     if (s->feature.tile_sizes > 1) put(l, views, 56, 8); /* seen */
