@@ -26,7 +26,7 @@
     defined(GN_BLENDED_CASCADES) || defined(GN_CASTER_CULLING) || defined(GN_DISK_FILTER) ||                           \
     defined(GN_TEXTURE_LEVELS) || defined(GN_STATIC_LAYER) || defined(GN_TILE_IMPORTANCE) || defined(GN_TIGHT_FIT) ||  \
     defined(GN_CASTER_CLIPPING) || defined(GN_CLIPS) || defined(GN_PICKING) || defined(GN_RAW_VIEWS) ||                \
-    defined(GN_ERROR_FIELDS) || defined(GN_FILTER_MAX)
+    defined(GN_ERROR_FIELDS) || defined(GN_FILTER_MAX) || defined(GN_TEXTURES)
 #error "the configuration sets a knob that is part of another one now: docs/CHANGELOG.md says of which"
 #endif
 
@@ -162,11 +162,8 @@
 #ifndef GN_ALPHA
 #define GN_ALPHA (!GN_COMPACT)
 #endif
-#ifndef GN_TEXTURES
-#define GN_TEXTURES (GN_COMPACT ? 0 : 2)
-#endif
 #ifndef GN_TEXTURE_FORMATS
-#define GN_TEXTURE_FORMATS 1023
+#define GN_TEXTURE_FORMATS (GN_COMPACT ? 0 : 2047)
 #endif
 #ifndef GN_SPECULAR
 #define GN_SPECULAR (!GN_COMPACT)
@@ -247,6 +244,9 @@
 #define GN_DISK_FILTER      ((GN_FILTER_MAX) >= 5)
 #define GN_BLENDED_CASCADES ((GN_MANY_CASCADES) >= 2)
 #define GN_CASTER_CULLING   ((GN_MANY_CASCADES) >= 3)
+#define GN_FORMATS          ((GN_TEXTURE_FORMATS)&1023)
+#define GN_TEXTURES         (GN_FORMATS != 0)
+#define GN_MIPMAPS          ((GN_TEXTURE_FORMATS) >= 1024)
 #define GN_STATIC_LAYER     ((GN_INCREMENTAL) >= 2)
 #define GN_TILE_IMPORTANCE  ((GN_TILE_SIZES) >= 1)
 #define GN_TIGHT_FIT        ((GN_SHADOWS) && (GN_TILE_SIZES) >= 2)
@@ -263,9 +263,6 @@
 
 /* Whether the boxes of objects are needed. */
 #define GN_BOXES (GN_PUNCTUAL_LIGHTS || (GN_SHADOWS && (GN_OBJECT_BOXES || GN_CASTER_CULLING || GN_TIGHT_FIT)))
-
-/* Whether textures may have half-size levels. */
-#define GN_MIPMAPS ((GN_TEXTURES) >= 2)
 
 /* Whether light that a surface emits may have to be added after colours of vertices or a texture. */
 #define GN_GLOW_APART (GN_EMISSIVE && (GN_TEXTURES || GN_VERTEX_COLOURS))

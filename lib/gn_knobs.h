@@ -91,15 +91,12 @@
     X(main_light, MAIN_LIGHT, 0, 1, "a main light with cascades; other directional lights take one tile each",         \
       "flash; the local-light atlas")                                                                                  \
     X(alpha, ALPHA, 0, 1, "alpha of surfaces and of casters: clip and dither", "flash")                                \
-    X(textures, TEXTURES, 0, 2,                                                                                        \
-      "textures: colour and alpha; 2: also half-size levels (mip chains), chosen per cell by depth: far textures do "  \
-      "not glitter",                                                                                                   \
-      "flash; a table of 512 bytes; a lookup per pixel; 2: a third more flash per texture that has levels; a root "    \
+    X(texture_formats, TEXTURE_FORMATS, 0, 2047,                                                                       \
+      "textures, colour and alpha: the formats that are built, their sum; 0: no textures; 1 RGBA8888, 2 RGB565, 4 "    \
+      "RGB565 with 1 bit of alpha, 8, 16, 32 palettes of 8, 4, 1 bits, 64, 128 grey of 8, 4 bits, 256, 512 alpha of "  \
+      "8, 4 bits; 1024: also half-size levels (mip chains), chosen per cell by depth: far textures do not glitter",    \
+      "flash; a table of 512 bytes; a lookup per pixel; 1024: a third more flash per texture that has levels; a root " \
       "per triangle")                                                                                                  \
-    X(texture_formats, TEXTURE_FORMATS, 0, 1023,                                                                       \
-      "formats of textures that are built, their sum: 1 RGBA8888, 2 RGB565, 4 RGB565 with 1 bit of alpha, 8, 16, 32 "  \
-      "palettes of 8, 4, 1 bits, 64, 128 grey of 8, 4 bits, 256, 512 alpha of 8, 4 bits",                              \
-      "flash")                                                                                                         \
     X(specular, SPECULAR, 0, 1, "specular highlights",                                                                 \
       "flash; a reciprocal root per light and sample of such objects")                                                 \
     X(emissive, EMISSIVE, 0, 1, "emissive colours and, with textures, textures of them: objects that glow",            \

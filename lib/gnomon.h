@@ -81,7 +81,7 @@ extern "C" {
                       "or have more than 15 fraction bits, or an emissive texture that clamps otherwise")              \
     X(GN_ERR_TEXTURE_FORMAT,                                                                                           \
       "unknown format of a texture, or one not built in (GN_TEXTURE_FORMATS), or smaller levels that are not "         \
-      "(GN_TEXTURES 2), or a mask image that is not RGBA8888")                                                         \
+      "(1024 more), or a mask image that is not RGBA8888")                                                             \
     X(GN_ERR_MATERIAL, "alpha, cutoff, specular or emissive colour or shininess out of range, or an alpha mode, "      \
                        "caster mode or such a colour or emissive texture that is not built in")                        \
     X(GN_ERR_MASK, "mask image without coordinates, or masks or baked light where they are not built in")              \

@@ -23,7 +23,7 @@
 #define GN_MAIN_LIGHT      0
 #define GN_MANY_CASCADES   1 /* without blending */
 #define GN_ALPHA           0
-#define GN_TEXTURES        0
+#define GN_TEXTURE_FORMATS 0
 #define GN_SPECULAR        0
 #define GN_BAKED           0
 #define GN_OTHER_BIASES    0

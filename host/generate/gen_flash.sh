@@ -51,7 +51,7 @@ row() { # row NAME COMMENT FLAGS...: more than the typical build
     shift 2
     echo "FLASH($name, $(($(size cortex-m0 "$@") - m0)), $(($(size cortex-m4 "$@") - m4))) /* $comment */"
 }
-levels() { case $1 in MANY_CASCADES) echo 3 ;; INCREMENTAL | TEXTURES | TILE_SIZES | CLIPPING) echo 2 ;; *) echo 1 ;; esac; }
+levels() { case $1 in MANY_CASCADES) echo 3 ;; INCREMENTAL | TILE_SIZES | CLIPPING) echo 2 ;; *) echo 1 ;; esac; }
 without() { # without FEATURE: of the typical ones
     for name in $typical; do [ "$name" = "$1" ] || echo "$name"; done
 }
@@ -74,6 +74,7 @@ for feature in $features; do
         level=$((level + 1))
     done
 done
+row texture_formats_1025 "with 1025" $(flags $typical TEXTURE_FORMATS=1025)
 row edge "edge 4" $(flags $typical) -DGN_EDGE=4
 row preset_accurate "quality of preset accurate" $(flags $typical) -DGN_PRESET=GN_PRESET_ACCURATE
 row accurate_unshadowed "the same without shadows" $(flags VERTEX_NORMALS) -DGN_PRESET=GN_PRESET_ACCURATE

@@ -8,9 +8,14 @@ static void use(const uses_list *to, const char *knob, int value, const char *wh
     to->use(to->user, knob, value, what, owner, idx);
 }
 
+int uses_is_sum(const char *knob)
+{
+    return strcmp(knob, "texture_formats") == 0;
+}
+
 int uses_both(const char *knob, int a, int b)
 {
-    if (strcmp(knob, "texture_formats") == 0) return a | b;
+    if (uses_is_sum(knob)) return a | b;
     return a > b ? a : b;
 }
 
@@ -41,12 +46,13 @@ void uses_light(const uses_list *to, const gn_light *light, uint32_t idx, int ca
     if (light->auto_bias != GN_AUTO_BIAS_OFF) use(to, "auto_bias", 1, "auto_bias of light", USES_LIGHT, idx);
 }
 
+enum { LEVELS = 1024 }; /* of texture_formats */
+
 static void use_texture(const uses_list *to, const gn_texture *t, uint32_t idx)
 {
     if (!t) return;
-    use(to, "textures", 1, "object", USES_OBJECT, idx);
     use(to, "texture_formats", 1 << t->format, "object", USES_OBJECT, idx);
-    if (t->flags & GN_TEXTURE_MIPMAPPED) use(to, "textures", 2, "the texture of object", USES_OBJECT, idx);
+    if (t->flags & GN_TEXTURE_MIPMAPPED) use(to, "texture_formats", LEVELS, "the texture of object", USES_OBJECT, idx);
 }
 
 void uses_object(const uses_list *to, const gn_object *o, uint32_t idx)

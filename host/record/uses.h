@@ -20,7 +20,10 @@ void uses_camera(const uses_list *to, const gn_camera *camera);
 /* Only where shadows are drawn. */
 void uses_shadows(const uses_list *to, const gn_scene *scene);
 
-/* A knob's value for two uses: the larger, but of texture_formats both. */
+/* Whether a knob is a sum of parts, not a level. */
+int uses_is_sum(const char *knob);
+
+/* A knob's value for two uses: the larger level, or the parts of both. */
 int uses_both(const char *knob, int a, int b);
 
 /* The most lights that one surface of the frame takes: all directional ones, and those of an object's list. */

@@ -34,6 +34,7 @@ GN_STATIC_ASSERT(triangle_groups_have_up_to_128_columns_and_rows_of_tiles, /* gn
                      ((GN_MAX_WIDTH) <= 128 * (GN_TILE_WIDTH) && (GN_MAX_HEIGHT) <= 128 * (GN_TILE_HEIGHT)));
 GN_STATIC_ASSERT(triangle_groups_have_tiles_from_16_pixels, /* gn_setup.c has a vertex in them */
                  !(GN_TRIANGLE_GROUPS) || (GN_TILE_WIDTH) * (GN_TILE_HEIGHT) >= 16);
+GN_STATIC_ASSERT(texture_formats_of_levels_alone, GN_TEXTURES || !GN_MIPMAPS);
 GN_STATIC_ASSERT(transparent_layers_need_alpha, !(GN_TRANSPARENT_LAYERS) || (GN_ALPHA));
 
 /* Compact arithmetic: its features are shadows, optionally automatic bias and validation. Clipping is always built. */

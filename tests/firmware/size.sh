@@ -50,7 +50,8 @@ flags_of() {
             SHADOWS) echo "-DGN_$feature=6" ;;
             VERTEX_JOINTS) echo "-DGN_$feature=4" ;;
             MANY_CASCADES) echo "-DGN_$feature=3" ;;
-            TEXTURES | INCREMENTAL | TILE_SIZES | CLIPPING) echo "-DGN_$feature=2" ;;
+            TEXTURE_FORMATS) echo "-DGN_$feature=1025" ;;
+            INCREMENTAL | TILE_SIZES | CLIPPING) echo "-DGN_$feature=2" ;;
             *) echo "-DGN_$feature=1" ;;
             esac
         done

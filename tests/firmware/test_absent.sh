@@ -16,8 +16,8 @@ most() {
     SHADOWS) echo 6 ;;
     VERTEX_JOINTS) echo 4 ;;
     MANY_CASCADES) echo 3 ;;
-    TEXTURES | INCREMENTAL | TILE_SIZES | CLIPPING | OTHER_FORMATS | VALIDATION) echo 2 ;;
-    TEXTURE_FORMATS) echo 1023 ;;
+    INCREMENTAL | TILE_SIZES | CLIPPING | OTHER_FORMATS | VALIDATION) echo 2 ;;
+    TEXTURE_FORMATS) echo 2047 ;;
     *) echo 1 ;;
     esac
 }
@@ -61,7 +61,7 @@ without() { whole "all-$1" "$1"; }
 # What a feature stands on: alone it has nothing to do.
 under() {
     case $1 in
-    CLIPPING | SHADOWS | PUNCTUAL_LIGHTS | ALPHA | TEXTURES | SPECULAR | EMISSIVE | ORTHOGRAPHIC | BAKED | VERTEX* | RAW* | VALID* | *FORMATS | TILE_DRAWING) ;;
+    CLIPPING | SHADOWS | PUNCTUAL_LIGHTS | ALPHA | SPECULAR | EMISSIVE | ORTHOGRAPHIC | BAKED | VERTEX* | RAW* | VALID* | *FORMATS | TILE_DRAWING) ;;
     *) echo SHADOWS ;;
     esac
 }
@@ -116,8 +116,7 @@ SHADOWS gn_(atlas|caster|cascade|ortho|persp|filter|blocks|cull|tiles|bias)_.*|g
 PUNCTUAL_LIGHTS gn_(persp|punctual|object_list)_.*
 MANY_CASCADES gn_cull_shown_nearer
 ALPHA alpha_plane|cut_begin|cut_row
-TEXTURE_FORMATS gn_linear_(31|63)_table|gn_texel_decode_.*
-TEXTURES gn_texture_(level_at|level_depth2|use_level)|gn_texture_colour|gn_alpha_coords|gn_srgb_decode_table
+TEXTURE_FORMATS gn_texture_(level_at|level_depth2|use_level)|gn_texture_colour|gn_alpha_coords|gn_srgb_decode_table|gn_linear_(31|63)_table|gn_texel_decode_.*
 SPECULAR highlight_q30
 VERTEX_JOINTS gn_skin_.*|mean_matrix|skin_signature|gn_scene_skin_check
 ORTHOGRAPHIC flat_plane|flat_sphere|intersect_flat
@@ -143,7 +142,8 @@ done <<'LIST'
 SHADOWS 1 gn_tent_weights|gn_disk_.*|disk.*|gn_blocks_.*
 SHADOWS 5 gn_disk_.*|gn_blocks_.*
 MANY_CASCADES 2 gn_cull_shown_nearer
-TEXTURES 1 gn_texture_(level_at|level_depth2|use_level)
+TEXTURE_FORMATS 1 gn_texture_(level_at|level_depth2|use_level)|gn_linear_(31|63)_table|gn_texel_decode_.*
+TEXTURE_FORMATS 1023 gn_texture_(level_at|level_depth2|use_level)
 INCREMENTAL 1 gn_static_layer_.*
 CLIPPING 1 clip_side|clip_to_reach
 VALIDATION 1 gn_fail_field

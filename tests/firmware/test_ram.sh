@@ -77,12 +77,12 @@ if [ -n "$target" ]; then
         predicted $preset
         predicted $preset punctual_lights=1 main_light=0 incremental=0 max_objects=1
         predicted $preset shadows=0 punctual_lights=0 max_lights=3
-        predicted $preset srgb=0 textures=0 specular=0 baked=0 alpha=0 shadows=1
+        predicted $preset srgb=0 texture_formats=0 specular=0 baked=0 alpha=0 shadows=1
         predicted $preset shadows=0
         predicted $preset other_formats=2
         predicted $preset shadows=5
         predicted $preset incremental=0
-        predicted $preset vertex_joints=0 textures=1 auto_bias=0
+        predicted $preset vertex_joints=0 texture_formats=1023 auto_bias=0
         predicted $preset incremental=2
         predicted $preset incremental=2 shadows=5
         predicted $preset punctual_lights=0
@@ -97,10 +97,10 @@ if [ -n "$target" ]; then
         predicted $preset max_tile_refs=70001 atlas_size=16 tile_width=24 tile_height=1 shadows=0
         predicted $preset surface_lights=1 baked=0 punctual_lights=0 many_cascades=1 # casting is larger than shading
         predicted $preset surface_lights=1 baked=0 punctual_lights=0 many_cascades=1 other_biases=0
-        predicted $preset surface_lights=1 baked=0 punctual_lights=0 many_cascades=1 textures=0 alpha=0
-        predicted $preset surface_lights=1 baked=0 punctual_lights=0 many_cascades=1 textures=0 alpha=0 other_biases=0
-        predicted $preset surface_lights=1 max_lights=1 shadows=0 baked=0 punctual_lights=0 textures=0 specular=0 vertex_normals=0 vertex_colours=0
-        predicted $preset surface_lights=1 textures=0 specular=0 baked=0 punctual_lights=0 main_light=0 shadows=0 persp_step=1
+        predicted $preset surface_lights=1 baked=0 punctual_lights=0 many_cascades=1 texture_formats=0 alpha=0
+        predicted $preset surface_lights=1 baked=0 punctual_lights=0 many_cascades=1 texture_formats=0 alpha=0 other_biases=0
+        predicted $preset surface_lights=1 max_lights=1 shadows=0 baked=0 punctual_lights=0 texture_formats=0 specular=0 vertex_normals=0 vertex_colours=0
+        predicted $preset surface_lights=1 texture_formats=0 specular=0 baked=0 punctual_lights=0 main_light=0 shadows=0 persp_step=1
         predicted $preset triangle_groups=100 max_triangles=333
         predicted $preset triangle_groups=1 max_triangles=8 tile_width=72 tile_height=5 shadows=0 orthographic=0
         predicted $preset transparent_layers=2 tile_width=72 tile_height=5

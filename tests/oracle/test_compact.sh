@@ -43,7 +43,7 @@ done
 for knobs in -O2 "-fsyntax-only -DGN_PRESET=GN_PRESET_ACCURATE -DGN_VALIDATION=0" "-fsyntax-only -DGN_AUTO_BIAS=0" "-fsyntax-only -DGN_VALIDATION=2"; do
     gcc -std=c99 -pedantic $warn -Ilib -DGN_COMPACT=1 $knobs -c -o "$tmp/warnings.o" lib/gnomon.c 2>"$tmp/log" && pass || fail "$knobs: $(grep -m 1 -E 'error|warning' "$tmp/log")"
 done
-for contradiction in TEXTURES=1 MANY_CASCADES=1 SHADOWS=2 PUNCTUAL_LIGHTS=1 OTHER_FORMATS=1 INCREMENTAL=1; do
+for contradiction in TEXTURE_FORMATS=1 MANY_CASCADES=1 SHADOWS=2 PUNCTUAL_LIGHTS=1 OTHER_FORMATS=1 INCREMENTAL=1; do
     gcc -std=c99 -w -Ilib -DGN_COMPACT=1 -DGN_ -fsyntax-only lib/frame/gn_frame.c 2>"$tmp/log" && fail "compact builds with $contradiction"
     grep -q 'error.*compact_' "$tmp/log" && pass || fail "$contradiction: the message does not name compact: $(grep -m 1 error "$tmp/log")"
 done
@@ -54,7 +54,7 @@ refused() { # refused MESSAGE SCENE OPTIONS...
     build/gnomon render "host/scenes/$scene.gltf" -o "$tmp/no.png" --size 64x48 --set compact=1 "$@" >"$tmp/log" 2>&1 && fail "the tool renders $scene with compact=1 $*"
     grep -q "$message" "$tmp/log" && pass || fail "$scene, compact=1 $*: $(cat "$tmp/log")"
 }
-refused "'textures': 0, and the texture of object 'cube'" cube
+refused "'texture_formats': 0, and the texture of object 'cube'" cube
 refused "'punctual_lights': 0, and spot light 'lamp'" desk
 refused 'lights: 5, and compact arithmetic has one' mixed
 refused 'atlas_size 512, and .* up to 256' fence
@@ -62,7 +62,7 @@ refused 'picture has 320x240, .* up to 256x256' sundial --size 320x240
 refused "'shadows': 1, and filter 3x3" sundial --set filter=3x3
 refused "'many_cascades': 0, and cascades 2" sundial --set cascades=2
 refused 'output is grey8, .* rgb565' sundial --set output=grey8
-refused 'textures 1, ' sundial --set textures=1
+refused 'texture_formats 1, ' sundial --set texture_formats=1
 refused 'depth_bits 8, .* 16' sundial --set depth_bits=8
 refused 'triangle_groups 64' sundial --set triangle_groups=64
 refused 'distance_mode is radius, .* depth' sundial --set distance_mode=radius

@@ -157,16 +157,16 @@ static void use_materials(int variant)
     demo.ground.uv_frac_bits = demo.box.uv_frac_bits = 10;
     demo.ground.mask_uv_uq16 = demo.box.mask_uv_uq16 = mask_uv;
     texture.flags = (uint8_t)(variant % 3 == 2 ? GN_TEXTURE_BILINEAR : variant % 3);
-    if (use.textures > 1) texture.flags |= GN_TEXTURE_MIPMAPPED;
-    if (use.textures) use_format(3 * variant);
+    if (use.texture_formats >= 1024) texture.flags |= GN_TEXTURE_MIPMAPPED;
+    if (use.texture_formats) use_format(3 * variant);
     if (use.vertex_joints) use_skin();
     gn_alpha cut = variant % 2 ? GN_ALPHA_CLIP : GN_ALPHA_DITHER;
     for (int i = 0; i < DEMO_OBJECTS; i++) {
         demo.object[i].alpha_uq16 = 50000;
         demo.object[i].alpha_cutoff_uq16 = 30000;
     }
-    if (use.textures) box->texture = ground->texture = &texture;
-    if (use.textures && use.emissive) ground->emissive_texture = &texture;
+    if (use.texture_formats) box->texture = ground->texture = &texture;
+    if (use.texture_formats && use.emissive) ground->emissive_texture = &texture;
     if (use.alpha) {
         box->visible_alpha = cut;
         ball->visible_alpha = variant % 3 ? cut : GN_ALPHA_BLEND;

@@ -19,7 +19,6 @@ flags() {
         all) for feature in $features; do echo "-DGN_$feature=$(most "$feature")"; done ;;
         tiny | fast | balanced | accurate) echo "-DGN_PRESET=GN_PRESET_$(echo "$word" | tr a-z A-Z)" ;;
         -*) echo "$word" ;;
-        TEXTURES=[12]) echo "-DGN_$word" && echo "-DGN_TEXTURE_FORMATS=$(most TEXTURE_FORMATS)" ;; # nothing to read otherwise
         *) echo "-DGN_$word" ;;
         esac
     done | awk -F= '!($1 in at) { at[$1] = ++n } { flag[at[$1]] = $0 } END { for (i = 1; i <= n; i++) print flag[i] }'
@@ -29,8 +28,8 @@ most() {
     SHADOWS) echo 6 ;;
     VERTEX_JOINTS) echo 4 ;;
     MANY_CASCADES) echo 3 ;;
-    TEXTURES | INCREMENTAL | TILE_SIZES | CLIPPING | OTHER_FORMATS) echo 2 ;;
-    TEXTURE_FORMATS) echo 1023 ;;
+    INCREMENTAL | TILE_SIZES | CLIPPING | OTHER_FORMATS) echo 2 ;;
+    TEXTURE_FORMATS) echo 2047 ;;
     *) echo 1 ;;
     esac
 }
@@ -73,10 +72,10 @@ pairs() {
     echo "all VALIDATION=0"
     more "none SHADOWS=1 VALIDATION=0 tiny SRGB=0"
     for cut in ALPHA BAKED; do
-        more "none SHADOWS=1 TEXTURES=1 $cut=1"
-        more "all TEXTURES=0 ALPHA=0 BAKED=0 $cut=1"
+        more "none SHADOWS=1 TEXTURE_FORMATS=1023 $cut=1"
+        more "all TEXTURE_FORMATS=0 ALPHA=0 BAKED=0 $cut=1"
     done
-    for level in TEXTURES=1 MANY_CASCADES=1 MANY_CASCADES=2 TILE_SIZES=1 INCREMENTAL=1 OTHER_FORMATS=1 SHADOWS=5; do echo "all $level"; done
+    for level in TEXTURE_FORMATS=1023 MANY_CASCADES=1 MANY_CASCADES=2 TILE_SIZES=1 INCREMENTAL=1 OTHER_FORMATS=1 SHADOWS=5; do echo "all $level"; done
     echo "none SHADOWS=1"
     more "none SHADOWS=1 PUNCTUAL_LIGHTS=1"
     more "none SHADOWS=1 PUNCTUAL_LIGHTS=1 MAIN_LIGHT=1 OTHER_BIASES=1"
@@ -97,7 +96,7 @@ pairs() {
     more "PUNCTUAL_LIGHTS=0 MAIN_LIGHT=0 DEPTH_BITS=32 INCREMENTAL=2"
     echo "OTHER_ATLAS_SIZE=32 ATLAS_SIZE=64 TILE_WIDTH=32 TILE_HEIGHT=5"
     echo "TRIANGLE_GROUPS=64 MAX_TRIANGLES=400 MAX_TILE_REFS=1"
-    echo "TRANSPARENT_LAYERS=1 TEXTURES=0 SIZE_FIRST=1"
+    echo "TRANSPARENT_LAYERS=1 TEXTURE_FORMATS=0 SIZE_FIRST=1"
     echo "fast TRANSPARENT_LAYERS=3 TRIANGLE_GROUPS=64 MAX_TRIANGLES=400"
     more "accurate all TRANSPARENT_LAYERS=2 OTHER_FORMATS=0 ORTHOGRAPHIC=0"
     more "none TRIANGLE_GROUPS=3 TILE_WIDTH=24 SIZE_FIRST=1 VALIDATION=2"
@@ -217,7 +216,7 @@ refused triangle_groups_have_tiles "-DGN_TRIANGLE_GROUPS=1 -DGN_TILE_WIDTH=8 -DG
 refused triangle_groups_have_up_to_128 "-DGN_TRIANGLE_GROUPS=1 -DGN_TILE_HEIGHT=1"
 for gone in TILE_LIGHTS LINEAR_KERNELS DEPTH_BLOCKS ATTEN_BITS NEWTON_STEPS SHADOW_DEPTH_FRAC SHADOW_SUBPIXEL_BITS WEIGHT_BITS VERTEX_CACHE; do refused "knob that is gone" "-DGN_$gone=0"; done
 for part in CASTER_ALPHA VISIBLE_ALPHA EMISSIVE_TEXTURES MASKS BAKED_LIGHT RECEIVER_BIAS CASTER_BIAS RECEIVER_PLANE BLENDED_CASCADES CASTER_CULLING DISK_FILTER \
-    TEXTURE_LEVELS STATIC_LAYER TILE_IMPORTANCE TIGHT_FIT CASTER_CLIPPING CLIPS PICKING RAW_VIEWS ERROR_FIELDS FILTER_MAX; do
+    TEXTURE_LEVELS STATIC_LAYER TILE_IMPORTANCE TIGHT_FIT CASTER_CLIPPING CLIPS PICKING RAW_VIEWS ERROR_FIELDS FILTER_MAX TEXTURES; do
     refused "part of another one" "-DGN_$part=0"
 done
 refused transparent_layers_need_alpha "-DGN_TRANSPARENT_LAYERS=1 -DGN_ALPHA=0"

@@ -6,6 +6,7 @@
 
 #include "compile_emit.h"
 #include "rig.h"
+#include "../../record/uses.h"
 #include "../../scene/core/texture_format.h"
 #include "../cli/remarks.h"
 
@@ -15,9 +16,10 @@ enum { PATH_BYTES = 4096, SYMBOL_BYTES = 64 };
 
 static void write_check(FILE *f, const char *knob, const char *compare, int value, const char *why)
 {
-    fprintf(f, "#if GN_");
+    const bool sum = uses_is_sum(knob);
+    fprintf(f, sum ? "#if ~(GN_" : "#if (GN_");
     open_write_upper(f, knob);
-    fprintf(f, " %s %d\n#error \"compile the library and the program with -DGN_", compare, value);
+    fprintf(f, ") %s %d\n#error \"compile the library and the program with -DGN_", sum ? "&" : compare, value);
     open_write_upper(f, knob);
     fprintf(f, "=%d: ", value);
     for (; *why; why++) fputc(*why == '"' || *why == '\\' || *why < 32 || *why > 126 ? '.' : *why, f);

@@ -50,7 +50,7 @@ static int take_values(program_log *log, const logged_knob *k, const char *built
     if (settings_feature_at(&log->set, k->name)) {
         header_because(&log->reasons, k->name, "%s", why);
         log->less |= uses_both(k->name, most, *value) != most;
-        if (strcmp(k->name, "texture_formats") == 0) *value &= most;
+        if (uses_is_sum(k->name)) *value &= most;
     } else if (strcmp(k->name, "max_triangles") == 0 || strcmp(k->name, "max_tile_refs") == 0) {
         header_because(&log->reasons, k->name, "%d %s, and %d %% more", *value, why, o->margin);
         *value = (int)header_with_margin((size_t)*value, o->margin);

@@ -125,7 +125,6 @@ static void use_nothing(compiled *c)
     NOTHING(many_cascades);
     NOTHING(tile_sizes);
     NOTHING(alpha);
-    NOTHING(textures);
     NOTHING(texture_formats);
     NOTHING(specular);
     NOTHING(emissive);

@@ -16,7 +16,8 @@ static long of_surfaces(const settings *s, flash_core core)
     long bytes = 0;
     if (!s->feature.vertex_normals) bytes += no_vertex_normals_bytes[core];
     if (s->feature.vertex_colours) bytes += vertex_colours_bytes[core];
-    bytes += of_level(s->feature.textures, (const int *const[]){textures_bytes, textures_2_bytes}, core);
+    bytes += of_level((s->feature.texture_formats > 0) + (s->feature.texture_formats >= 1024),
+                      (const int *const[]){texture_formats_bytes, texture_formats_1025_bytes}, core);
     if (s->feature.specular) bytes += specular_bytes[core];
     if (s->feature.baked) bytes += baked_bytes[core];
     if (s->feature.alpha) bytes += alpha_bytes[core];

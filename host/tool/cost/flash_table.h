@@ -11,9 +11,8 @@ FLASH(punctual_unshadowed, -18280, -17560) /* spot and point lights, no shadows:
 FLASH(punctual_lights, 18360, 16908)       /* with */
 FLASH(main_light, 368, 336)                /* with */
 FLASH(alpha, 728, 644)                     /* with */
-FLASH(textures, 4420, 4016)                /* with */
-FLASH(textures_2, 6308, 5812)              /* with 2 */
-FLASH(texture_formats, 0, 0)               /* with */
+FLASH(texture_formats, 4420, 4016)                /* with */
+FLASH(texture_formats_1025, 6308, 5812)              /* with 1025 */
 FLASH(specular, 1444, 1592)                /* with */
 FLASH(emissive, 172, 148)                  /* with */
 FLASH(baked, 2192, 2008)                   /* with */

@@ -9,7 +9,7 @@ enum { SIDE_MAX = 256 }; /* of the picture, and of the atlas */
 
 static bool has_feature(const char *feature)
 {
-    static const char *const all[] = {"shadows", "auto_bias", "validation", "texture_formats"};
+    static const char *const all[] = {"shadows", "auto_bias", "validation"};
     for (size_t i = 0; i < sizeof all / sizeof *all; i++)
         if (strcmp(feature, all[i]) == 0) return true;
     return false;

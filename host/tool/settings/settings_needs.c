@@ -4,6 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "../../record/uses.h"
 #include "settings_parse.h"
 
 typedef struct {
@@ -17,16 +18,19 @@ __attribute__((format(printf, 4, 5)))
 static void
 need(need_list *list, const char *knob, int value, const char *format, ...);
 
-/* Of several that need one knob, the first that needs most is named. */
+/* Of several that need one knob, the first that needs most is named; of parts, the first. */
 static void need(need_list *list, const char *knob, int value, const char *format, ...)
 {
     settings_need *found = NULL;
     for (int i = 0; i < list->n; i++)
         if (strcmp(list->all[i].knob, knob) == 0) found = &list->all[i];
-    if (found && found->value >= value) return;
+    const int both = found ? uses_both(knob, found->value, value) : value;
+    if (found && both == found->value) return;
+    const bool is_named = found && uses_is_sum(knob);
     if (!found) found = &list->all[list->n++];
     found->knob = knob;
-    found->value = value;
+    found->value = both;
+    if (is_named) return;
     va_list arguments;
     va_start(arguments, format);
     vsnprintf(found->what, sizeof found->what, format, arguments);
@@ -110,9 +114,9 @@ static void needs_of_object(need_list *list, const scene *s, const scene_object 
     if (o->visible_alpha != SCENE_ALPHA_OPAQUE) need(list, "alpha", 1, "alpha of object '%s'", o->name);
     for (int i = 0; i < 2; i++) {
         if (shown[i] >= s->n_textures) continue;
-        need(list, "textures", 1, "the texture of object '%s'", o->name);
+        need(list, "texture_formats", 1 << s->textures[shown[i]].format, "the texture of object '%s'", o->name);
         if (s->textures[shown[i]].mipmapped)
-            need(list, "textures", 2, "the texture of object '%s', whose sampler has a mipmap,", o->name);
+            need(list, "texture_formats", 1024, "the texture of object '%s', whose sampler has a mipmap,", o->name);
     }
     if (o->emissive_texture_idx < s->n_textures)
         need(list, "emissive", 1, "the emissive texture of object '%s'", o->name);
@@ -194,7 +198,7 @@ int settings_enforce(const settings *set, scene *s, int width, int height, char 
     int n = settings_needs(s, set->feature.shadows, needs);
     for (int i = 0; i < n; i++) {
         int value = settings_feature(set, needs[i].knob);
-        if (value >= needs[i].value) continue;
+        if (uses_both(needs[i].knob, value, needs[i].value) == value) continue;
         snprintf(error, error_bytes, "setting '%s': %d, and %s needs %d%s", needs[i].knob, value, needs[i].what,
                  needs[i].value, set->build.compact ? " (compact is 1)" : "");
         return -1;

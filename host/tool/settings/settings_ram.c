@@ -41,8 +41,8 @@ static long n_views(const settings *s)
 static void put_views(layout *l, const settings *s)
 {
     const long views = n_views(s);
-    long view = 180 + (s->feature.shadows > 5 ? 4 : 0) + (s->feature.auto_bias ? 8 : 0) +
-                (s->feature.tile_sizes > 1 ? 8 : 0);
+    long view =
+        180 + (s->feature.shadows > 5 ? 4 : 0) + (s->feature.auto_bias ? 8 : 0) + (s->feature.tile_sizes > 1 ? 8 : 0);
     put(l, views, (view + 7) / 8 * 8, 8);
     if (s->feature.tile_sizes > 1) put(l, views, 56, 8); /* seen */
 }
@@ -63,7 +63,7 @@ static void put_shadows(layout *l, const settings *s, settings_ram_parts *r)
 static long cut_bytes(const settings *s)
 {
     if (!s->feature.alpha) return 0;
-    if (!s->feature.textures) return 24;
+    if (!s->feature.texture_formats) return 24;
     return 216;
 }
 
@@ -88,7 +88,7 @@ static long corner_bytes(const settings *s)
     pad(&light, 4);
     put(&all, 8, 4, 4); /* state to base_q24 */
     if (s->feature.vertex_colours) put(&all, 3, 4, 4);
-    if (s->feature.textures) put(&all, 2, 4, 4);
+    if (s->feature.texture_formats) put(&all, 2, 4, 4);
     if (s->feature.baked) put(&all, 2, 4, 4);
     if (s->feature.vertex_normals) put(&all, 3, 4, 4);
     if (s->feature.punctual_lights) put(&all, 3, 4, 4);
@@ -98,7 +98,7 @@ static long corner_bytes(const settings *s)
 
 static int has_levels(const settings *s)
 {
-    return s->feature.textures > 1;
+    return s->feature.texture_formats >= 1024;
 }
 
 static int wide_coordinates(const settings *s);
@@ -112,7 +112,7 @@ static long patch_bytes(const settings *s)
     put(&all, 1, 168, 4);                                                           /* view_q14 to colour */
     put(&all, 3, 252, 4);                                                           /* light */
     put(&all, 3, 16, 4);                                                            /* tint_q16 */
-    if (s->feature.textures) put(&all, 1, has_levels(s) ? 52 : 36, 4);              /* texture to level */
+    if (s->feature.texture_formats) put(&all, 1, has_levels(s) ? 52 : 36, 4);       /* texture to level */
     put(&all, 1, 384, 4);                                                           /* attenuation to texel */
     return all.size;
 }
@@ -130,14 +130,14 @@ static long patch_shared_bytes(const settings *s)
 
 static int has_glow(const settings *s)
 {
-    return s->feature.textures && s->feature.emissive;
+    return s->feature.texture_formats && s->feature.emissive;
 }
 
 /* gn_drawing of lib/shade/gn_lattice_types.h */
 static long drawing_bytes(const settings *s)
 {
-    const int glows = s->feature.emissive && (s->feature.textures || s->feature.vertex_colours);
-    return 88 + (glows ? 12 : 0) + (has_glow(s) ? 4 + 92 : 0) + (s->feature.textures ? 76 : 0) +
+    const int glows = s->feature.emissive && (s->feature.texture_formats || s->feature.vertex_colours);
+    return 88 + (glows ? 12 : 0) + (has_glow(s) ? 4 + 92 : 0) + (s->feature.texture_formats ? 76 : 0) +
            (has_levels(s) ? 28 : 0);
 }
 
@@ -174,13 +174,13 @@ static void put_work(layout *out, const settings *s)
     int per_light = (s->feature.shadows && s->feature.many_cascades > 1) || s->feature.punctual_lights ? 7
                     : s->feature.shadows                                                               ? 4
                                                                                                        : 1;
-    long values = (s->feature.textures ? 2 : 0) + (s->feature.baked ? 4 : 0) + (s->feature.baked ? 3 : 0) + 5 +
+    long values = (s->feature.texture_formats ? 2 : 0) + (s->feature.baked ? 4 : 0) + (s->feature.baked ? 3 : 0) + 5 +
                   (long)per_light * s->capacity.surface_lights;
     put(&surface, 1, s->feature.orthographic ? 244 : 200, 8); /* object to the colours of attribute_q16 */
     put(&surface, 15, 4, 4);                                  /* v_q16 to hi_q16 */
     if (s->feature.baked) put(&surface, 12, 4, 4);
     if (s->feature.baked) put(&surface, 9, 4, 4);
-    if (s->feature.textures) put(&surface, 6, 8, 8);
+    if (s->feature.texture_formats) put(&surface, 6, 8, 8);
     if (has_levels(s)) put(&surface, 1, 28, 8);
     if (has_glow(s)) put(&surface, 1, 4, 4);
     if (has_levels(s) && has_glow(s)) put(&surface, 1, 8, 8); /* glow_depth2_q32 */
@@ -269,7 +269,7 @@ settings_ram_parts settings_ram(const settings *s)
     all = frame;
     r.cells = put(&all, 1 + tile_w * tile_h, 4, 4);
     r.pixels = put(&all, tile_w * tile_h, s->feature.other_formats > 1 ? 4 : 3, 4);
-    put(&all, tile_w * tile_h >= 512 ? 32 : 8, 16, 4); /* GN_VERTEX_CACHE */
+    put(&all, tile_w * tile_h >= 512 ? 32 : 8, 16, 4);                               /* GN_VERTEX_CACHE */
     put(&all, 64, tile_w * tile_h > 65535 ? 4 : 2, tile_w * tile_h > 65535 ? 4 : 2); /* run_list */
     if (groups) r.triangles += put(&all, 1 + s->capacity.max_triangles, 4, 2);       /* drawn */
     if (s->quality.transparent_layers) {
