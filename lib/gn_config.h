@@ -26,7 +26,8 @@
     defined(GN_BLENDED_CASCADES) || defined(GN_CASTER_CULLING) || defined(GN_DISK_FILTER) ||                           \
     defined(GN_TEXTURE_LEVELS) || defined(GN_STATIC_LAYER) || defined(GN_TILE_IMPORTANCE) || defined(GN_TIGHT_FIT) ||  \
     defined(GN_CASTER_CLIPPING) || defined(GN_CLIPS) || defined(GN_PICKING) || defined(GN_RAW_VIEWS) ||                \
-    defined(GN_ERROR_FIELDS) || defined(GN_FILTER_MAX) || defined(GN_TEXTURES)
+    defined(GN_ERROR_FIELDS) || defined(GN_FILTER_MAX) || defined(GN_TEXTURES) || defined(GN_AUTO_BIAS) ||             \
+    defined(GN_OTHER_BIASES)
 #error "the configuration sets a knob that is part of another one now: docs/CHANGELOG.md says of which"
 #endif
 
@@ -174,11 +175,8 @@
 #ifndef GN_BAKED
 #define GN_BAKED (!GN_COMPACT)
 #endif
-#ifndef GN_OTHER_BIASES
-#define GN_OTHER_BIASES (!GN_COMPACT)
-#endif
-#ifndef GN_AUTO_BIAS
-#define GN_AUTO_BIAS 1
+#ifndef GN_BIASES
+#define GN_BIASES (GN_COMPACT ? 1 : 3)
 #endif
 #ifndef GN_INCREMENTAL
 #define GN_INCREMENTAL (!GN_COMPACT)
@@ -254,6 +252,8 @@
 #define GN_VISIBLE_ALPHA    (GN_ALPHA)
 #define GN_MASKS            (GN_BAKED)
 #define GN_BAKED_LIGHT      (GN_BAKED)
+#define GN_AUTO_BIAS        ((GN_BIASES) % 2)
+#define GN_OTHER_BIASES     ((GN_BIASES) >= 2)
 #define GN_RECEIVER_BIAS    (GN_OTHER_BIASES)
 #define GN_CASTER_BIAS      (GN_OTHER_BIASES)
 #define GN_RECEIVER_PLANE   (GN_OTHER_BIASES)

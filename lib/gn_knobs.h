@@ -60,9 +60,9 @@
       "620 bytes each, 84 with persp_step 1")                                                                          \
     X(max_objects, MAX_OBJECTS, 1, 65535, "objects in a scene", "37 bytes each, 25 without spot and point lights")     \
     X(max_shadow_tiles, MAX_SHADOW_TILES, 1, 16, "tiles of the directional atlas: lights times cascades",              \
-      "232 bytes each, 16 less without incremental, 8 less without auto_bias")                                         \
+      "232 bytes each, 16 less without incremental, 8 less without automatic bias")                                    \
     X(max_other_tiles, MAX_OTHER_TILES, 1, 16, "tiles of the local-light atlas: 1 per spot, 6 per point light",        \
-      "232 bytes each, 16 less without incremental, 8 less without auto_bias")                                         \
+      "232 bytes each, 16 less without incremental, 8 less without automatic bias")                                    \
     X(atlas_texels, ATLAS_TEXELS, 64, 1048576,                                                                         \
       "texels reserved for the tiles of the directional atlas, a multiple of 64; by default the whole atlas; tiles "   \
       "by worth share them",                                                                                           \
@@ -104,11 +104,10 @@
       "one")                                                                                                           \
     X(baked, BAKED, 0, 1, "baked shadow masks and their mixing; baked irradiance per vertex",                          \
       "flash; four values and three per sample")                                                                       \
-    X(other_biases, OTHER_BIASES, 0, 1,                                                                                \
-      "biases in place of auto_bias: of the receiver, in four terms; casters shrunk along their normals; the "         \
-      "receiver's plane per tap",                                                                                      \
+    X(biases, BIASES, 0, 3,                                                                                            \
+      "biases beside constant, slope and normal ones, their sum: 1 automatic; 2 of the receiver, in four terms, "      \
+      "casters shrunk along their normals, the receiver's plane per tap",                                              \
       "flash")                                                                                                         \
-    X(auto_bias, AUTO_BIAS, 0, 1, "automatic bias", "flash")                                                           \
     X(incremental, INCREMENTAL, 0, 2,                                                                                  \
       "1: shadow tiles are kept from frame to frame while nothing in them changes; 2: also static casters apart from " \
       "moving ones; a single picture does not show it",                                                                \

@@ -26,8 +26,7 @@
 #define GN_TEXTURE_FORMATS 0
 #define GN_SPECULAR        0
 #define GN_BAKED           0
-#define GN_OTHER_BIASES    0
-#define GN_AUTO_BIAS       0
+#define GN_BIASES          0
 #define GN_INCREMENTAL     0
 #define GN_VERTEX_NORMALS  0
 #define GN_VERTEX_COLOURS  0

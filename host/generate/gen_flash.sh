@@ -51,7 +51,7 @@ row() { # row NAME COMMENT FLAGS...: more than the typical build
     shift 2
     echo "FLASH($name, $(($(size cortex-m0 "$@") - m0)), $(($(size cortex-m4 "$@") - m4))) /* $comment */"
 }
-levels() { case $1 in MANY_CASCADES) echo 3 ;; INCREMENTAL | TILE_SIZES | CLIPPING) echo 2 ;; *) echo 1 ;; esac; }
+levels() { case $1 in MANY_CASCADES) echo 3 ;; BIASES | INCREMENTAL | TILE_SIZES | CLIPPING) echo 2 ;; *) echo 1 ;; esac; }
 without() { # without FEATURE: of the typical ones
     for name in $typical; do [ "$name" = "$1" ] || echo "$name"; done
 }
@@ -85,11 +85,11 @@ compact() { # compact NAME COMMENT FLAGS...
     name=$1 comment=$2
     shift 2
     for cpu in m0 m4; do
-        eval "$cpu"=$(size cortex-$cpu -DGN_COMPACT=1 -DGN_VALIDATION=0 -DGN_AUTO_BIAS=0)
+        eval "$cpu"=$(size cortex-$cpu -DGN_COMPACT=1 -DGN_VALIDATION=0 -DGN_BIASES=0)
     done
     row "$name" "$comment" -DGN_COMPACT=1 "$@"
 }
-row compact "compact arithmetic" -DGN_COMPACT=1 -DGN_VALIDATION=0 -DGN_AUTO_BIAS=0
-compact compact_validation "with" -DGN_VALIDATION=1 -DGN_AUTO_BIAS=0
-compact compact_auto_bias "with" -DGN_VALIDATION=0 -DGN_AUTO_BIAS=1
-compact compact_linear "srgb 0" -DGN_VALIDATION=0 -DGN_AUTO_BIAS=0 -DGN_SRGB=0
+row compact "compact arithmetic" -DGN_COMPACT=1 -DGN_VALIDATION=0 -DGN_BIASES=0
+compact compact_validation "with" -DGN_VALIDATION=1 -DGN_BIASES=0
+compact compact_auto_bias "with" -DGN_VALIDATION=0 -DGN_BIASES=1
+compact compact_linear "srgb 0" -DGN_VALIDATION=0 -DGN_BIASES=0 -DGN_SRGB=0

@@ -3,6 +3,8 @@
 
 #include <string.h>
 
+enum { LEVELS = 1024, AUTO_BIAS = 1, OTHER_BIASES = 2 }; /* parts of texture_formats and biases */
+
 static void use(const uses_list *to, const char *knob, int value, const char *what, uses_owner owner, uint32_t idx)
 {
     to->use(to->user, knob, value, what, owner, idx);
@@ -10,7 +12,7 @@ static void use(const uses_list *to, const char *knob, int value, const char *wh
 
 int uses_is_sum(const char *knob)
 {
-    return strcmp(knob, "texture_formats") == 0;
+    return strcmp(knob, "texture_formats") == 0 || strcmp(knob, "biases") == 0;
 }
 
 int uses_both(const char *knob, int a, int b)
@@ -40,13 +42,11 @@ void uses_light(const uses_list *to, const gn_light *light, uint32_t idx, int ca
     if (light->kind != GN_LIGHT_DIRECTIONAL) use(to, "punctual_lights", 1, "light", USES_LIGHT, idx);
     if (light->shadow_strength_uq16 && light->mode != GN_LIGHT_BAKED && casts)
         use(to, "shadows", 1, "light", USES_LIGHT, idx);
-    if (r[0] || r[1] || r[2] || r[3]) use(to, "other_biases", 1, "bias_receiver of light", USES_LIGHT, idx);
-    if (light->bias_caster_q16) use(to, "other_biases", 1, "bias_caster of light", USES_LIGHT, idx);
-    if (light->receiver_plane) use(to, "other_biases", 1, "receiver_plane of light", USES_LIGHT, idx);
-    if (light->auto_bias != GN_AUTO_BIAS_OFF) use(to, "auto_bias", 1, "auto_bias of light", USES_LIGHT, idx);
+    if (r[0] || r[1] || r[2] || r[3]) use(to, "biases", OTHER_BIASES, "bias_receiver of light", USES_LIGHT, idx);
+    if (light->bias_caster_q16) use(to, "biases", OTHER_BIASES, "bias_caster of light", USES_LIGHT, idx);
+    if (light->receiver_plane) use(to, "biases", OTHER_BIASES, "receiver_plane of light", USES_LIGHT, idx);
+    if (light->auto_bias != GN_AUTO_BIAS_OFF) use(to, "biases", AUTO_BIAS, "auto_bias of light", USES_LIGHT, idx);
 }
-
-enum { LEVELS = 1024 }; /* of texture_formats */
 
 static void use_texture(const uses_list *to, const gn_texture *t, uint32_t idx)
 {

@@ -15,7 +15,7 @@ most() {
     case $1 in
     SHADOWS) echo 6 ;;
     VERTEX_JOINTS) echo 4 ;;
-    MANY_CASCADES) echo 3 ;;
+    MANY_CASCADES | BIASES) echo 3 ;;
     INCREMENTAL | TILE_SIZES | CLIPPING | OTHER_FORMATS | VALIDATION) echo 2 ;;
     TEXTURE_FORMATS) echo 2047 ;;
     *) echo 1 ;;
@@ -122,8 +122,7 @@ VERTEX_JOINTS gn_skin_.*|mean_matrix|skin_signature|gn_scene_skin_check
 ORTHOGRAPHIC flat_plane|flat_sphere|intersect_flat
 EMISSIVE emitted_light|begin_glow
 BAKED gn_texture_mask
-OTHER_BIASES corner_normals|start_plane|dark_on_plane
-AUTO_BIAS gn_bias_auto_.*|.*_share_q3[02]|auto_.*
+BIASES corner_normals|start_plane|dark_on_plane|gn_bias_auto_.*|.*_share_q3[02]|auto_.*
 INCREMENTAL gn_kept_.*|view_signature|stays|gn_static_layer_.*
 MAIN_LIGHT main_light
 VALIDATION gn_scene_validate|check_.*light|gn_fail_field
@@ -140,6 +139,8 @@ while read -r feature level pattern; do
     ${prefix}nm --defined-only "$tmp/level-$feature.o" | awk '{ print $3 }' | grep -x -E "$pattern" >"$tmp/found" && fail "$feature is $level, and there is $(tr '\n' ' ' <"$tmp/found")" || pass
 done <<'LIST'
 SHADOWS 1 gn_tent_weights|gn_disk_.*|disk.*|gn_blocks_.*
+BIASES 1 corner_normals|start_plane|dark_on_plane
+BIASES 2 gn_bias_auto_.*|.*_share_q3[02]|auto_.*
 SHADOWS 5 gn_disk_.*|gn_blocks_.*
 MANY_CASCADES 2 gn_cull_shown_nearer
 TEXTURE_FORMATS 1 gn_texture_(level_at|level_depth2|use_level)|gn_linear_(31|63)_table|gn_texel_decode_.*

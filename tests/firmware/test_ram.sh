@@ -82,7 +82,7 @@ if [ -n "$target" ]; then
         predicted $preset other_formats=2
         predicted $preset shadows=5
         predicted $preset incremental=0
-        predicted $preset vertex_joints=0 texture_formats=1023 auto_bias=0
+        predicted $preset vertex_joints=0 texture_formats=1023 biases=2
         predicted $preset incremental=2
         predicted $preset incremental=2 shadows=5
         predicted $preset punctual_lights=0
@@ -96,9 +96,9 @@ if [ -n "$target" ]; then
         predicted $preset max_tile_refs=70001 atlas_size=64 tile_width=72 tile_height=5 max_lights=8
         predicted $preset max_tile_refs=70001 atlas_size=16 tile_width=24 tile_height=1 shadows=0
         predicted $preset surface_lights=1 baked=0 punctual_lights=0 many_cascades=1 # casting is larger than shading
-        predicted $preset surface_lights=1 baked=0 punctual_lights=0 many_cascades=1 other_biases=0
+        predicted $preset surface_lights=1 baked=0 punctual_lights=0 many_cascades=1 biases=1
         predicted $preset surface_lights=1 baked=0 punctual_lights=0 many_cascades=1 texture_formats=0 alpha=0
-        predicted $preset surface_lights=1 baked=0 punctual_lights=0 many_cascades=1 texture_formats=0 alpha=0 other_biases=0
+        predicted $preset surface_lights=1 baked=0 punctual_lights=0 many_cascades=1 texture_formats=0 alpha=0 biases=1
         predicted $preset surface_lights=1 max_lights=1 shadows=0 baked=0 punctual_lights=0 texture_formats=0 specular=0 vertex_normals=0 vertex_colours=0
         predicted $preset surface_lights=1 texture_formats=0 specular=0 baked=0 punctual_lights=0 main_light=0 shadows=0 persp_step=1
         predicted $preset triangle_groups=100 max_triangles=333
@@ -110,7 +110,7 @@ if [ -n "$target" ]; then
     compact="compact=1 max_width=256 max_lights=1 max_shadow_tiles=1"
     predicted tiny $compact
     predicted tiny $compact max_triangles=7 atlas_size=16 tile_width=24 tile_height=5
-    predicted accurate $compact max_objects=1 validation=0 auto_bias=0
+    predicted accurate $compact max_objects=1 validation=0 biases=0
 fi
 # the promise of lib/gnomon.h: directional lights alone, which need no other atlas
 if size_is '<= 74752' -DGN_PRESET=GN_PRESET_BALANCED -DGN_MAX_WIDTH=320 -DGN_MAX_HEIGHT=240 -DGN_ATLAS_SIZE=128 -DGN_MAX_TRIANGLES=500 \

@@ -35,12 +35,12 @@ done
 
 # ---- Range: the compilers of the test suite, with sanitizers -----------------------------------------------------------------------
 
-for how in "gcc -O1 -DGN_AUTO_BIAS=0" "clang -O0 -DGN_VALIDATION=2"; do
+for how in "gcc -O1 -DGN_BIASES=0" "clang -O0 -DGN_VALIDATION=2"; do
     if $how -std=c11 -w -fsanitize=address,undefined -fno-sanitize-recover=all $flags -DGN_MAX_TRIANGLES=64 -DGN_MAX_HEIGHT=64 -Ilib -Itests/support \
         -o "$tmp/range" tests/oracle/compact_range.c lib/gnomon.c -lm 2>"$tmp/log"; then counted "$tmp/range" 5000
     else fail "$how: $(grep -m 1 error "$tmp/log")"; fi
 done
-for knobs in -O2 "-fsyntax-only -DGN_PRESET=GN_PRESET_ACCURATE -DGN_VALIDATION=0" "-fsyntax-only -DGN_AUTO_BIAS=0" "-fsyntax-only -DGN_VALIDATION=2"; do
+for knobs in -O2 "-fsyntax-only -DGN_PRESET=GN_PRESET_ACCURATE -DGN_VALIDATION=0" "-fsyntax-only -DGN_BIASES=0" "-fsyntax-only -DGN_VALIDATION=2"; do
     gcc -std=c99 -pedantic $warn -Ilib -DGN_COMPACT=1 $knobs -c -o "$tmp/warnings.o" lib/gnomon.c 2>"$tmp/log" && pass || fail "$knobs: $(grep -m 1 -E 'error|warning' "$tmp/log")"
 done
 for contradiction in TEXTURE_FORMATS=1 MANY_CASCADES=1 SHADOWS=2 PUNCTUAL_LIGHTS=1 OTHER_FORMATS=1 INCREMENTAL=1; do
@@ -66,7 +66,7 @@ refused 'texture_formats 1, ' sundial --set texture_formats=1
 refused 'depth_bits 8, .* 16' sundial --set depth_bits=8
 refused 'triangle_groups 64' sundial --set triangle_groups=64
 refused 'distance_mode is radius, .* depth' sundial --set distance_mode=radius
-refused "light '.*': bias_caster\|'other_biases': 0" sundial --set bias_caster=1
+refused "light '.*': bias_caster\|'biases': 1" sundial --set bias_caster=1
 refused "'compact': '2' is not a whole number from 0 to 1" sundial --set compact=2
 build/gnomon sweep host/scenes/sundial.gltf --size 64x48 --set compact=1 >"$tmp/log" 2>&1 && fail "it is swept, and nothing counts" || pass
 # and is the general arithmetic again

@@ -98,11 +98,11 @@ static void use_lights(int variant)
     sun.mask_channel = use.baked ? 0 : -1;
     sun.bias_constant_q16 = GN_Q16(0.5);
     sun.bias_slope_q16 = GN_Q16(0.5);
-    if (use.other_biases)
+    if (use.biases & 2)
         for (int i = 0; i < 4; i++) sun.bias_receiver_q16[i] = GN_Q16(0.1) * i;
-    if (use.other_biases) sun.bias_caster_q16 = GN_Q16(0.4);
-    sun.receiver_plane = use.other_biases && variant % 2;
-    if (use.auto_bias && variant) sun.auto_bias = variant % 2 ? GN_AUTO_BIAS_NORMAL : GN_AUTO_BIAS_DEPTH;
+    if (use.biases & 2) sun.bias_caster_q16 = GN_Q16(0.4);
+    sun.receiver_plane = (use.biases & 2) && variant % 2;
+    if ((use.biases & 1) && variant) sun.auto_bias = variant % 2 ? GN_AUTO_BIAS_NORMAL : GN_AUTO_BIAS_DEPTH;
     sun.softness = filter_max() >= 3 && variant == 1 ? GN_SOFTNESS_SOFT : GN_SOFTNESS_DEFAULT;
     sun.near_q16 = GN_Q16(0.1);
     lights[0] = lights[1] = lights[2] = lights[3] = sun;

@@ -27,7 +27,7 @@ most() {
     case $1 in
     SHADOWS) echo 6 ;;
     VERTEX_JOINTS) echo 4 ;;
-    MANY_CASCADES) echo 3 ;;
+    MANY_CASCADES | BIASES) echo 3 ;;
     INCREMENTAL | TILE_SIZES | CLIPPING | OTHER_FORMATS) echo 2 ;;
     TEXTURE_FORMATS) echo 2047 ;;
     *) echo 1 ;;
@@ -75,15 +75,15 @@ pairs() {
         more "none SHADOWS=1 TEXTURE_FORMATS=1023 $cut=1"
         more "all TEXTURE_FORMATS=0 ALPHA=0 BAKED=0 $cut=1"
     done
-    for level in TEXTURE_FORMATS=1023 MANY_CASCADES=1 MANY_CASCADES=2 TILE_SIZES=1 INCREMENTAL=1 OTHER_FORMATS=1 SHADOWS=5; do echo "all $level"; done
+    for level in TEXTURE_FORMATS=1023 MANY_CASCADES=1 MANY_CASCADES=2 TILE_SIZES=1 INCREMENTAL=1 OTHER_FORMATS=1 SHADOWS=5 BIASES=1 BIASES=2; do echo "all $level"; done
     echo "none SHADOWS=1"
     more "none SHADOWS=1 PUNCTUAL_LIGHTS=1"
-    more "none SHADOWS=1 PUNCTUAL_LIGHTS=1 MAIN_LIGHT=1 OTHER_BIASES=1"
+    more "none SHADOWS=1 PUNCTUAL_LIGHTS=1 MAIN_LIGHT=1 BIASES=2"
     more "all PUNCTUAL_LIGHTS=0 MANY_CASCADES=1"
     echo "all PUNCTUAL_LIGHTS=0 MAIN_LIGHT=0"
     more "none SHADOWS=1 INCREMENTAL=2"
     for level in 1 2 3 4; do # with what builds upon kernels
-        $([ $level = 2 ] && echo echo || echo more) "all SHADOWS=$level OTHER_BIASES=$(((level + 1) % 2))"
+        $([ $level = 2 ] && echo echo || echo more) "all SHADOWS=$level BIASES=$((level % 2 ? 1 : 3))"
     done
     for bits in "8 32" "16 8" "32 16"; do
         echo "DEPTH_BITS=${bits% *} OTHER_DEPTH_BITS=${bits#* } SHADOWS=$((5 + ${bits% *} / 16 % 2))"
@@ -91,7 +91,7 @@ pairs() {
     more "PUNCTUAL_LIGHTS=0 MAIN_LIGHT=0 DEPTH_BITS=8"
     more "EDGE=4"
     more "tiny all EDGE=8 DEPTH_BITS=32"
-    echo "fast EDGE=1 PUNCTUAL_LIGHTS=0 OTHER_BIASES=0"
+    echo "fast EDGE=1 PUNCTUAL_LIGHTS=0 BIASES=1"
     more "accurate EDGE=3 SHADOWS=1"
     more "PUNCTUAL_LIGHTS=0 MAIN_LIGHT=0 DEPTH_BITS=32 INCREMENTAL=2"
     echo "OTHER_ATLAS_SIZE=32 ATLAS_SIZE=64 TILE_WIDTH=32 TILE_HEIGHT=5"
@@ -216,7 +216,7 @@ refused triangle_groups_have_tiles "-DGN_TRIANGLE_GROUPS=1 -DGN_TILE_WIDTH=8 -DG
 refused triangle_groups_have_up_to_128 "-DGN_TRIANGLE_GROUPS=1 -DGN_TILE_HEIGHT=1"
 for gone in TILE_LIGHTS LINEAR_KERNELS DEPTH_BLOCKS ATTEN_BITS NEWTON_STEPS SHADOW_DEPTH_FRAC SHADOW_SUBPIXEL_BITS WEIGHT_BITS VERTEX_CACHE; do refused "knob that is gone" "-DGN_$gone=0"; done
 for part in CASTER_ALPHA VISIBLE_ALPHA EMISSIVE_TEXTURES MASKS BAKED_LIGHT RECEIVER_BIAS CASTER_BIAS RECEIVER_PLANE BLENDED_CASCADES CASTER_CULLING DISK_FILTER \
-    TEXTURE_LEVELS STATIC_LAYER TILE_IMPORTANCE TIGHT_FIT CASTER_CLIPPING CLIPS PICKING RAW_VIEWS ERROR_FIELDS FILTER_MAX TEXTURES; do
+    TEXTURE_LEVELS STATIC_LAYER TILE_IMPORTANCE TIGHT_FIT CASTER_CLIPPING CLIPS PICKING RAW_VIEWS ERROR_FIELDS FILTER_MAX TEXTURES AUTO_BIAS OTHER_BIASES; do
     refused "part of another one" "-DGN_$part=0"
 done
 refused transparent_layers_need_alpha "-DGN_TRANSPARENT_LAYERS=1 -DGN_ALPHA=0"

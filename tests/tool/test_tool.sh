@@ -536,8 +536,8 @@ for command in info compare; do
     bad 1 "punctual_lights.*spot light" $command "$cube" --size 8x8 --set lights=spot --set punctual_lights=0
     bad 1 "punctual_lights.*point light" $command "$cube" --size 8x8 --set add_light=point --set punctual_lights=0
     bad 1 "shadows.*soft light.*4" $command "$cube" --size 8x8 --set softness=soft --set shadows=3
-    bad 1 "other_biases.*bias_receiver" $command "$cube" --size 8x8 --set bias_receiver=0,0,0,1 --set other_biases=0
-    bad 1 "other_biases.*bias_caster" $command "$cube" --size 8x8 --set bias_caster=1 --set other_biases=0
+    bad 1 "biases.*bias_receiver" $command "$cube" --size 8x8 --set bias_receiver=0,0,0,1 --set biases=1
+    bad 1 "biases.*bias_caster" $command "$cube" --size 8x8 --set bias_caster=1 --set biases=1
     bad 1 "baked.*mixing" $command "$cube" --size 8x8 --set mixing=always --set baked=0
     bad 1 "max_other_tiles is 5" $command "$cube" --size 8x8 --set lights=point --set max_other_tiles=5
     bad 1 "max_width.*8" $command "$cube" --size 8x6 --set max_width=7
@@ -611,7 +611,7 @@ alike 'filter=5x5 kernel=tent' 'filter=5x5'
 unlike 'filter=disk penumbra=64' 'filter=disk penumbra=0.5'
 unlike 'filter=disk penumbra=64 disk_samples=1' 'filter=disk penumbra=64 disk_samples=64'
 alike 'bias_receiver=0,0,1,0' 'bias_receiver@0=0,0,1,0'
-alike 'auto_bias=normal' 'auto_bias=0 bias_normal=4 auto_bias@0=normal'
+alike 'auto_bias=normal' 'auto_bias=off bias_normal=4 auto_bias@0=normal'
 unlike 'filter=7x7 auto_bias=off bias_normal=0 bias_constant=0' 'filter=7x7 auto_bias=normal'
 unlike 'filter=7x7 bias_normal=0 bias_constant=0' 'filter=7x7 bias_normal=0 bias_constant=0 bias_receiver=0,0,8,0'
 unlike 'lights=spot' 'lights=spot range=3'

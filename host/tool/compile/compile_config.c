@@ -130,8 +130,7 @@ static void use_nothing(compiled *c)
     NOTHING(emissive);
     NOTHING(orthographic);
     NOTHING(baked);
-    NOTHING(other_biases);
-    NOTHING(auto_bias);
+    NOTHING(biases);
     NOTHING(vertex_joints);
     NOTHING(vertex_normals);
     NOTHING(vertex_colours);

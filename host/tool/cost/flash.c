@@ -37,9 +37,9 @@ static long of_shadows(const settings *s, flash_core core)
     long bytes = of_filter(s, core);
     if (s->feature.punctual_lights) bytes += punctual_lights_bytes[core];
     if (s->feature.main_light) bytes += main_light_bytes[core];
-    if (s->feature.other_biases) bytes += other_biases_bytes[core];
+    if (s->feature.biases >= 2) bytes += biases_2_bytes[core];
     if (s->quality.edge) bytes += edge_bytes[core];
-    if (s->feature.auto_bias) bytes += auto_bias_bytes[core];
+    if (s->feature.biases % 2) bytes += biases_bytes[core];
     bytes += of_level(s->feature.incremental, (const int *const[]){incremental_bytes, incremental_2_bytes}, core);
     bytes += of_level(s->feature.many_cascades,
                       (const int *const[]){many_cascades_bytes, many_cascades_2_bytes, many_cascades_3_bytes}, core);
@@ -60,7 +60,7 @@ static long of_compact(const settings *s, flash_core core)
 {
     long bytes = typical_bytes[core] + compact_bytes[core];
     if (s->feature.validation) bytes += compact_validation_bytes[core];
-    if (s->feature.auto_bias) bytes += compact_auto_bias_bytes[core];
+    if (s->feature.biases % 2) bytes += compact_auto_bias_bytes[core];
     if (!s->quality.srgb) bytes += compact_linear_bytes[core];
     return bytes;
 }

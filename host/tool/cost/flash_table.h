@@ -16,8 +16,8 @@ FLASH(texture_formats_1025, 6308, 5812)              /* with 1025 */
 FLASH(specular, 1444, 1592)                /* with */
 FLASH(emissive, 172, 148)                  /* with */
 FLASH(baked, 2192, 2008)                   /* with */
-FLASH(other_biases, 1812, 1584)            /* with */
-FLASH(auto_bias, 4256, 3924)               /* with */
+FLASH(biases_2, 1812, 1584)            /* with */
+FLASH(biases, 4256, 3924)               /* with */
 FLASH(incremental, 948, 880)               /* with */
 FLASH(incremental_2, 1104, 1084)           /* with 2 */
 FLASH(vertex_colours, 1684, 1536)          /* with */

@@ -88,41 +88,19 @@ static int note_useless(scene *s, const char *key, size_t light, char *error, si
     return scene_add_note(s, note, error, bytes);
 }
 
-/* auto_bias: a word for lights, built or not as a knob. */
-static const char *as_knob(const char *value)
-{
-    if (strcmp(value, "off") == 0) return "0";
-    return strcmp(value, "depth") == 0 || strcmp(value, "normal") == 0 ? "1" : value;
-}
-
 /* KEY@LIGHT */
-static int apply_to_light(settings *out, scene *s, const char *key, const char *at, const char *value, char *error,
-                          size_t bytes)
+static int apply_to_light(scene *s, const char *key, const char *at, const char *value, char *error, size_t bytes)
 {
     char plain[64];
     size_t light;
     snprintf(plain, sizeof plain, "%.*s", (int)(at - key), key);
-    const bool is_knob = settings_is_knob(plain);
     if (!settings_of_lights(plain)) {
         snprintf(error, bytes, "setting '%s': '%s' is not a setting of lights", key, plain);
         return -1;
     }
     if (find_light(s, key, at + 1, &light, error, bytes)) return -1;
     if (settings_apply_scene(s, plain, light, value, error, bytes) < 0) return -1;
-    if (note_useless(s, plain, light, error, bytes)) return -1;
-    return is_knob && strcmp(as_knob(value), "0") != 0 ? settings_apply_knob(out, plain, as_knob(value), error, bytes)
-                                                       : 0; /* what one light uses must be built */
-}
-
-/* Built or not; without it no light uses it. */
-static bool of_knob_alone(const char *key, const char *value)
-{
-    return strcmp(key, "auto_bias") == 0 && strcmp(value, "1") == 0;
-}
-
-static const char *as_word(const char *key, const char *value)
-{
-    return strcmp(key, "auto_bias") == 0 && strcmp(value, "0") == 0 ? "off" : value;
+    return note_useless(s, plain, light, error, bytes);
 }
 
 /* Settings of earlier versions, and why they are gone. */
@@ -151,8 +129,9 @@ static const char *why_gone(const char *key)
         {"error_fields", "validation=2 has it"},
         {"runtime_knobs", "GN_RUNTIME_KNOBS is for host tools"},
         {"baked_light", "baked has it"},
-        {"receiver_bias", "other_biases has it"},
-        {"caster_bias", "other_biases has it"},
+        {"other_biases", "biases=2 has it"},
+        {"receiver_bias", "biases=2 has it"},
+        {"caster_bias", "biases=2 has it"},
         {"emissive_textures", "emissive has it, with textures"},
         {"caster_clipping", "clipping=2 has it"},
         {"clips", "always there, and linked where gn_pose is called"},
@@ -187,15 +166,13 @@ int settings_apply(settings *out, scene *s, const char *key, const char *value, 
     if (strcmp(key, "kernel") == 0 && strcmp(value, "tent") == 0) return 0; /* of earlier files: what is built */
     if ((taken = apply_own(out, s, key, value, error, error_bytes))) return taken < 0 ? -1 : 0;
     const char *at = strchr(key, '@');
-    if (at) return apply_to_light(out, s, key, at, value, error, error_bytes);
-    /* main_light and auto_bias are built and used, or neither: knobs
-     * and settings of the scene at once */
+    if (at) return apply_to_light(s, key, at, value, error, error_bytes);
+    /* main_light is built and used, or neither: a knob and a setting
+     * of the scene at once */
     const bool is_knob = settings_is_knob(key);
-    const char *word = as_word(key, value);
-    if (!of_knob_alone(key, value) && (taken = settings_apply_scene(s, key, SCENE_NONE, word, error, error_bytes)) < 0)
-        return -1;
+    if ((taken = settings_apply_scene(s, key, SCENE_NONE, value, error, error_bytes)) < 0) return -1;
     if (is_knob) {
-        if (settings_apply_knob(out, key, as_knob(value), error, error_bytes)) return -1;
+        if (settings_apply_knob(out, key, value, error, error_bytes)) return -1;
         if (out->build.compact && strcmp(key, "compact") == 0) settings_compact_scene(s);
         return 0;
     }

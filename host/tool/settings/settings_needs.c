@@ -85,10 +85,10 @@ static void needs_of_light(need_list *list, const scene *s, const scene_light *l
     for (int i = 0; i < 4; i++) biased |= l->bias_receiver[i] > 0;
     if (l->kind == SCENE_LIGHT_SPOT) need(list, "punctual_lights", 1, "spot light '%s'", l->name);
     if (l->kind == SCENE_LIGHT_POINT) need(list, "punctual_lights", 1, "point light '%s'", l->name);
-    if (biased) need(list, "other_biases", 1, "bias_receiver of light '%s'", l->name);
-    if (l->bias_caster > 0) need(list, "other_biases", 1, "bias_caster of light '%s'", l->name);
-    if (l->receiver_plane) need(list, "other_biases", 1, "receiver_plane of light '%s'", l->name);
-    if (l->auto_bias) need(list, "auto_bias", 1, "auto_bias of light '%s'", l->name);
+    if (biased) need(list, "biases", 2, "bias_receiver of light '%s'", l->name);
+    if (l->bias_caster > 0) need(list, "biases", 2, "bias_caster of light '%s'", l->name);
+    if (l->receiver_plane) need(list, "biases", 2, "receiver_plane of light '%s'", l->name);
+    if (l->auto_bias) need(list, "biases", 1, "auto_bias of light '%s'", l->name);
     if (!shadows || !requests_shadow(l)) return;
     need(list, "shadows", 1, "the shadow of light '%s'", l->name);
     needs_of_softness(list, s, l);

@@ -42,7 +42,7 @@ static void put_views(layout *l, const settings *s)
 {
     const long views = n_views(s);
     long view =
-        180 + (s->feature.shadows > 5 ? 4 : 0) + (s->feature.auto_bias ? 8 : 0) + (s->feature.tile_sizes > 1 ? 8 : 0);
+        180 + (s->feature.shadows > 5 ? 4 : 0) + (s->feature.biases % 2 ? 8 : 0) + (s->feature.tile_sizes > 1 ? 8 : 0);
     put(l, views, (view + 7) / 8 * 8, 8);
     if (s->feature.tile_sizes > 1) put(l, views, 56, 8); /* seen */
 }
@@ -124,7 +124,7 @@ static long patch_shared_bytes(const settings *s)
     put(&all, 1, 56, 4); /* of */
     if (s->feature.vertex_normals) put(&all, 32, 8, 4);
     if (s->feature.vertex_normals && s->feature.vertex_joints) put(&all, 16, 20, 4);
-    if (s->feature.shadows && s->feature.auto_bias) put(&all, 1, 72, 4);
+    if (s->feature.shadows && s->feature.biases % 2) put(&all, 1, 72, 4);
     return all.size;
 }
 
@@ -150,7 +150,7 @@ static long lattice_bytes(const settings *s)
     if (s->feature.shadows && s->feature.punctual_lights) put(&all, 8, 68, 4); /* forms */
     put(&all, s->capacity.surface_lights, 12, 4);                              /* light */
     put(&all, 1, 200, 4);                                                      /* face_q30 to bits */
-    if (s->feature.shadows && (s->feature.other_biases || s->quality.edge))
+    if (s->feature.shadows && (s->feature.biases >= 2 || s->quality.edge))
         put(&all, 4, 4, 4); /* slope_view to slope_h_q14 */
     const long corners = 12 * corner_bytes(s), patch = patch_bytes(s);
     put(&all, 1, corners > patch ? corners : patch, 4); /* from */
@@ -184,7 +184,7 @@ static void put_work(layout *out, const settings *s)
     if (has_levels(s)) put(&surface, 1, 28, 8);
     if (has_glow(s)) put(&surface, 1, 4, 4);
     if (has_levels(s) && has_glow(s)) put(&surface, 1, 8, 8); /* glow_depth2_q32 */
-    if (s->feature.other_biases || s->quality.edge || s->feature.auto_bias) put(&surface, 3, 4, 4);
+    if (s->feature.biases || s->quality.edge) put(&surface, 3, 4, 4);
     put(&surface, s->capacity.surface_lights, s->quality.vertex_light ? 44 : 36, 4);
     pad(&surface, surface.align);
     put(&all, 1, 40, 4);  /* frame to rows */

@@ -98,7 +98,7 @@ static const scene_knob scene_knobs[] = {
     LIGHT_("receiver_plane", SWITCH, receiver_plane, 0, 1, "every tap compares with the receiver's plane (B5)"),
     {"auto_bias", OF_LIGHTS, WORD, offsetof(scene_light, auto_bias), 0, 0, auto_names,
      "the least bias that leaves a plane no acne (B6), depth by default; setting bias_normal or bias_receiver ends "
-     "it; also the feature"},
+     "it"},
     {"softness", OF_LIGHTS, WORD, offsetof(scene_light, softness), 0, 0, softness_names,
      "the atlas's filter, 2x2, or at least 5x5 (F5)"},
     {"mode", OF_LIGHTS, WORD, offsetof(scene_light, mode), 0, 0, mode_names,
