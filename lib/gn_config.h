@@ -27,7 +27,7 @@
     defined(GN_TEXTURE_LEVELS) || defined(GN_STATIC_LAYER) || defined(GN_TILE_IMPORTANCE) || defined(GN_TIGHT_FIT) ||  \
     defined(GN_CASTER_CLIPPING) || defined(GN_CLIPS) || defined(GN_PICKING) || defined(GN_RAW_VIEWS) ||                \
     defined(GN_ERROR_FIELDS) || defined(GN_FILTER_MAX) || defined(GN_TEXTURES) || defined(GN_AUTO_BIAS) ||             \
-    defined(GN_OTHER_BIASES)
+    defined(GN_OTHER_BIASES) || defined(GN_SPECULAR) || defined(GN_EMISSIVE)
 #error "the configuration sets a knob that is part of another one now: docs/CHANGELOG.md says of which"
 #endif
 
@@ -166,11 +166,8 @@
 #ifndef GN_TEXTURE_FORMATS
 #define GN_TEXTURE_FORMATS (GN_COMPACT ? 0 : 2047)
 #endif
-#ifndef GN_SPECULAR
-#define GN_SPECULAR (!GN_COMPACT)
-#endif
-#ifndef GN_EMISSIVE
-#define GN_EMISSIVE (!GN_COMPACT)
+#ifndef GN_MATERIALS
+#define GN_MATERIALS (GN_COMPACT ? 0 : 3)
 #endif
 #ifndef GN_BAKED
 #define GN_BAKED (!GN_COMPACT)
@@ -252,6 +249,8 @@
 #define GN_VISIBLE_ALPHA    (GN_ALPHA)
 #define GN_MASKS            (GN_BAKED)
 #define GN_BAKED_LIGHT      (GN_BAKED)
+#define GN_SPECULAR         ((GN_MATERIALS) % 2)
+#define GN_EMISSIVE         ((GN_MATERIALS) >= 2)
 #define GN_AUTO_BIAS        ((GN_BIASES) % 2)
 #define GN_OTHER_BIASES     ((GN_BIASES) >= 2)
 #define GN_RECEIVER_BIAS    (GN_OTHER_BIASES)

@@ -97,11 +97,12 @@
       "8, 4 bits; 1024: also half-size levels (mip chains), chosen per cell by depth: far textures do not glitter",    \
       "flash; a table of 512 bytes; a lookup per pixel; 1024: a third more flash per texture that has levels; a root " \
       "per triangle")                                                                                                  \
-    X(specular, SPECULAR, 0, 1, "specular highlights",                                                                 \
-      "flash; a reciprocal root per light and sample of such objects")                                                 \
-    X(emissive, EMISSIVE, 0, 1, "emissive colours and, with textures, textures of them: objects that glow",            \
-      "flash; three additions per triangle, or per pixel where it has a texture; a second lookup where it emits by "   \
-      "one")                                                                                                           \
+    X(materials, MATERIALS, 0, 3,                                                                                      \
+      "what surfaces have beside a colour, their sum: 1 specular highlights; 2 emissive colours and, with textures, "  \
+      "textures of them: objects that glow",                                                                           \
+      "flash; 1: a reciprocal root per light and sample of such objects; 2: three additions per triangle, or per "     \
+      "pixel "                                                                                                         \
+      "where it has a texture; a second lookup where it emits by one")                                                 \
     X(baked, BAKED, 0, 1, "baked shadow masks and their mixing; baked irradiance per vertex",                          \
       "flash; four values and three per sample")                                                                       \
     X(biases, BIASES, 0, 3,                                                                                            \

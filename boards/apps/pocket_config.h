@@ -24,12 +24,11 @@
 #define GN_MANY_CASCADES   1 /* without blending */
 #define GN_ALPHA           0
 #define GN_TEXTURE_FORMATS 0
-#define GN_SPECULAR        0
+#define GN_MATERIALS       0
 #define GN_BAKED           0
 #define GN_BIASES          0
 #define GN_INCREMENTAL     0
 #define GN_VERTEX_NORMALS  0
 #define GN_VERTEX_COLOURS  0
 #define GN_TILE_DRAWING    0
-#define GN_EMISSIVE        0
 #define GN_ORTHOGRAPHIC    0

@@ -51,7 +51,7 @@ row() { # row NAME COMMENT FLAGS...: more than the typical build
     shift 2
     echo "FLASH($name, $(($(size cortex-m0 "$@") - m0)), $(($(size cortex-m4 "$@") - m4))) /* $comment */"
 }
-levels() { case $1 in MANY_CASCADES) echo 3 ;; BIASES | INCREMENTAL | TILE_SIZES | CLIPPING) echo 2 ;; *) echo 1 ;; esac; }
+levels() { case $1 in MANY_CASCADES) echo 3 ;; BIASES | MATERIALS | INCREMENTAL | TILE_SIZES | CLIPPING) echo 2 ;; *) echo 1 ;; esac; }
 without() { # without FEATURE: of the typical ones
     for name in $typical; do [ "$name" = "$1" ] || echo "$name"; done
 }

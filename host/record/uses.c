@@ -3,7 +3,8 @@
 
 #include <string.h>
 
-enum { LEVELS = 1024, AUTO_BIAS = 1, OTHER_BIASES = 2 }; /* parts of texture_formats and biases */
+/* Parts of texture_formats, biases, materials. */
+enum { LEVELS = 1024, AUTO_BIAS = 1, OTHER_BIASES = 2, SPECULAR = 1, EMISSIVE = 2 };
 
 static void use(const uses_list *to, const char *knob, int value, const char *what, uses_owner owner, uint32_t idx)
 {
@@ -12,7 +13,10 @@ static void use(const uses_list *to, const char *knob, int value, const char *wh
 
 int uses_is_sum(const char *knob)
 {
-    return strcmp(knob, "texture_formats") == 0 || strcmp(knob, "biases") == 0;
+    static const char *const sums[] = {"texture_formats", "biases", "materials"};
+    for (size_t i = 0; i < sizeof sums / sizeof *sums; i++)
+        if (strcmp(knob, sums[i]) == 0) return 1;
+    return 0;
 }
 
 int uses_both(const char *knob, int a, int b)
@@ -62,9 +66,9 @@ void uses_object(const uses_list *to, const gn_object *o, uint32_t idx)
     if (o->caster_alpha != GN_ALPHA_OPAQUE) use(to, "alpha", 1, "object", USES_OBJECT, idx);
     use_texture(to, o->texture, idx);
     use_texture(to, o->emissive_texture, idx);
-    if (o->emissive_texture) use(to, "emissive", 1, "object", USES_OBJECT, idx);
-    if (s[0] || s[1] || s[2]) use(to, "specular", 1, "object", USES_OBJECT, idx);
-    if (e[0] || e[1] || e[2]) use(to, "emissive", 1, "object", USES_OBJECT, idx);
+    if (o->emissive_texture) use(to, "materials", EMISSIVE, "object", USES_OBJECT, idx);
+    if (s[0] || s[1] || s[2]) use(to, "materials", SPECULAR, "object", USES_OBJECT, idx);
+    if (e[0] || e[1] || e[2]) use(to, "materials", EMISSIVE, "object", USES_OBJECT, idx);
     if (o->mask_u8 || o->mask_image) use(to, "baked", 1, "object", USES_OBJECT, idx);
     if (o->baked_uq12) use(to, "baked", 1, "object", USES_OBJECT, idx);
     if (o->skin) use(to, "vertex_joints", o->skin->per_vertex, "object", USES_OBJECT, idx);

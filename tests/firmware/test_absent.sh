@@ -15,7 +15,7 @@ most() {
     case $1 in
     SHADOWS) echo 6 ;;
     VERTEX_JOINTS) echo 4 ;;
-    MANY_CASCADES | BIASES) echo 3 ;;
+    MANY_CASCADES | BIASES | MATERIALS) echo 3 ;;
     INCREMENTAL | TILE_SIZES | CLIPPING | OTHER_FORMATS | VALIDATION) echo 2 ;;
     TEXTURE_FORMATS) echo 2047 ;;
     *) echo 1 ;;
@@ -61,7 +61,7 @@ without() { whole "all-$1" "$1"; }
 # What a feature stands on: alone it has nothing to do.
 under() {
     case $1 in
-    CLIPPING | SHADOWS | PUNCTUAL_LIGHTS | ALPHA | SPECULAR | EMISSIVE | ORTHOGRAPHIC | BAKED | VERTEX* | RAW* | VALID* | *FORMATS | TILE_DRAWING) ;;
+    CLIPPING | SHADOWS | PUNCTUAL_LIGHTS | ALPHA | MATERIALS | ORTHOGRAPHIC | BAKED | VERTEX* | RAW* | VALID* | *FORMATS | TILE_DRAWING) ;;
     *) echo SHADOWS ;;
     esac
 }
@@ -117,10 +117,9 @@ PUNCTUAL_LIGHTS gn_(persp|punctual|object_list)_.*
 MANY_CASCADES gn_cull_shown_nearer
 ALPHA alpha_plane|cut_begin|cut_row
 TEXTURE_FORMATS gn_texture_(level_at|level_depth2|use_level)|gn_texture_colour|gn_alpha_coords|gn_srgb_decode_table|gn_linear_(31|63)_table|gn_texel_decode_.*
-SPECULAR highlight_q30
+MATERIALS highlight_q30|emitted_light|begin_glow
 VERTEX_JOINTS gn_skin_.*|mean_matrix|skin_signature|gn_scene_skin_check
 ORTHOGRAPHIC flat_plane|flat_sphere|intersect_flat
-EMISSIVE emitted_light|begin_glow
 BAKED gn_texture_mask
 BIASES corner_normals|start_plane|dark_on_plane|gn_bias_auto_.*|.*_share_q3[02]|auto_.*
 INCREMENTAL gn_kept_.*|view_signature|stays|gn_static_layer_.*
@@ -139,6 +138,8 @@ while read -r feature level pattern; do
     ${prefix}nm --defined-only "$tmp/level-$feature.o" | awk '{ print $3 }' | grep -x -E "$pattern" >"$tmp/found" && fail "$feature is $level, and there is $(tr '\n' ' ' <"$tmp/found")" || pass
 done <<'LIST'
 SHADOWS 1 gn_tent_weights|gn_disk_.*|disk.*|gn_blocks_.*
+MATERIALS 1 emitted_light|begin_glow
+MATERIALS 2 highlight_q30
 BIASES 1 corner_normals|start_plane|dark_on_plane
 BIASES 2 gn_bias_auto_.*|.*_share_q3[02]|auto_.*
 SHADOWS 5 gn_disk_.*|gn_blocks_.*

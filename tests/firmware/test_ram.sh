@@ -77,7 +77,7 @@ if [ -n "$target" ]; then
         predicted $preset
         predicted $preset punctual_lights=1 main_light=0 incremental=0 max_objects=1
         predicted $preset shadows=0 punctual_lights=0 max_lights=3
-        predicted $preset srgb=0 texture_formats=0 specular=0 baked=0 alpha=0 shadows=1
+        predicted $preset srgb=0 texture_formats=0 materials=2 baked=0 alpha=0 shadows=1
         predicted $preset shadows=0
         predicted $preset other_formats=2
         predicted $preset shadows=5
@@ -99,8 +99,8 @@ if [ -n "$target" ]; then
         predicted $preset surface_lights=1 baked=0 punctual_lights=0 many_cascades=1 biases=1
         predicted $preset surface_lights=1 baked=0 punctual_lights=0 many_cascades=1 texture_formats=0 alpha=0
         predicted $preset surface_lights=1 baked=0 punctual_lights=0 many_cascades=1 texture_formats=0 alpha=0 biases=1
-        predicted $preset surface_lights=1 max_lights=1 shadows=0 baked=0 punctual_lights=0 texture_formats=0 specular=0 vertex_normals=0 vertex_colours=0
-        predicted $preset surface_lights=1 texture_formats=0 specular=0 baked=0 punctual_lights=0 main_light=0 shadows=0 persp_step=1
+        predicted $preset surface_lights=1 max_lights=1 shadows=0 baked=0 punctual_lights=0 texture_formats=0 materials=2 vertex_normals=0 vertex_colours=0
+        predicted $preset surface_lights=1 texture_formats=0 materials=2 baked=0 punctual_lights=0 main_light=0 shadows=0 persp_step=1
         predicted $preset triangle_groups=100 max_triangles=333
         predicted $preset triangle_groups=1 max_triangles=8 tile_width=72 tile_height=5 shadows=0 orthographic=0
         predicted $preset transparent_layers=2 tile_width=72 tile_height=5

@@ -166,15 +166,15 @@ static void use_materials(int variant)
         demo.object[i].alpha_cutoff_uq16 = 30000;
     }
     if (use.texture_formats) box->texture = ground->texture = &texture;
-    if (use.texture_formats && use.emissive) ground->emissive_texture = &texture;
+    if (use.texture_formats && (use.materials & 2)) ground->emissive_texture = &texture;
     if (use.alpha) {
         box->visible_alpha = cut;
         ball->visible_alpha = variant % 3 ? cut : GN_ALPHA_BLEND;
     }
     if (use.alpha) box->caster_alpha = ball->caster_alpha = cut;
-    for (int k = 0; use.specular && k < 3; k++) ball->specular_uq16[k] = 30000;
+    for (int k = 0; (use.materials & 1) && k < 3; k++) ball->specular_uq16[k] = 30000;
     ball->shininess_log2 = 4;
-    for (int i = 0; use.emissive && i < DEMO_OBJECTS; i++)
+    for (int i = 0; (use.materials & 2) && i < DEMO_OBJECTS; i++)
         demo.object[i].emissive_uq16[i % 3] = 9000U * (uint32_t)(i + variant);
     if (use.baked) ball->mask_u8 = mask;
     if (use.baked) ground->mask_image = &mask_image;

@@ -135,8 +135,8 @@ printf "${corners}g A\nf 1 2 3\ng B\nf 1 2 4\n" >"$tmp/parts.obj"
 three parts PARTS_OBJECT_A PARTS_OBJECT_B
 
 # what a configuration lacks is said when it is compiled
-gcc -std=c99 -w -Ilib -I"$tmp" -DGN_SPECULAR=0 -fsyntax-only "$tmp/desk.c" 2>"$tmp/log"
-grep -q "DGN_SPECULAR=1: specular of object" "$tmp/log" && pass || fail "without specular: $(head -n 1 "$tmp/log")"
+gcc -std=c99 -w -Ilib -I"$tmp" -DGN_MATERIALS=0 -fsyntax-only "$tmp/desk.c" 2>"$tmp/log"
+grep -q "DGN_MATERIALS=1: specular of object" "$tmp/log" && pass || fail "without materials: $(head -n 1 "$tmp/log")"
 
 # mistakes
 refused() { # refused STATUS WORD ARGUMENTS...

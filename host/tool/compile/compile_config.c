@@ -126,8 +126,7 @@ static void use_nothing(compiled *c)
     NOTHING(tile_sizes);
     NOTHING(alpha);
     NOTHING(texture_formats);
-    NOTHING(specular);
-    NOTHING(emissive);
+    NOTHING(materials);
     NOTHING(orthographic);
     NOTHING(baked);
     NOTHING(biases);

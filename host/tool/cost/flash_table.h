@@ -13,8 +13,8 @@ FLASH(main_light, 368, 336)                /* with */
 FLASH(alpha, 728, 644)                     /* with */
 FLASH(texture_formats, 4420, 4016)                /* with */
 FLASH(texture_formats_1025, 6308, 5812)              /* with 1025 */
-FLASH(specular, 1444, 1592)                /* with */
-FLASH(emissive, 172, 148)                  /* with */
+FLASH(materials, 1444, 1592)                /* with */
+FLASH(materials_2, 172, 148)                  /* with 2 */
 FLASH(baked, 2192, 2008)                   /* with */
 FLASH(biases_2, 1812, 1584)            /* with */
 FLASH(biases, 4256, 3924)               /* with */

@@ -119,11 +119,11 @@ static void needs_of_object(need_list *list, const scene *s, const scene_object 
             need(list, "texture_formats", 1024, "the texture of object '%s', whose sampler has a mipmap,", o->name);
     }
     if (o->emissive_texture_idx < s->n_textures)
-        need(list, "emissive", 1, "the emissive texture of object '%s'", o->name);
+        need(list, "materials", 2, "the emissive texture of object '%s'", o->name);
     if (o->specular[0] > 0 || o->specular[1] > 0 || o->specular[2] > 0)
-        need(list, "specular", 1, "specular of object '%s'", o->name);
+        need(list, "materials", 1, "specular of object '%s'", o->name);
     if (o->emissive[0] > 0 || o->emissive[1] > 0 || o->emissive[2] > 0)
-        need(list, "emissive", 1, "the emissive colour of object '%s'", o->name);
+        need(list, "materials", 2, "the emissive colour of object '%s'", o->name);
     if (o->baked) need(list, "baked", 1, "baked light of object '%s'", o->name);
     if (o->caster == SCENE_CASTER_CLIP || o->caster == SCENE_CASTER_DITHER)
         need(list, "alpha", 1, "the shadow of object '%s', cut by alpha,", o->name);

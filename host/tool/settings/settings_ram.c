@@ -80,7 +80,7 @@ static long corner_bytes(const settings *s)
     layout light = {0, 4}, all = {0, 4};
     put(&light, s->feature.baked ? 2 : 1, 4, 4);
     if (s->feature.shadows) put(&light, 3, 4, 4);
-    if (s->feature.specular) {
+    if (s->feature.materials % 2) {
         put(&light, 1, 4, 4);
         put(&light, 3, 2, 2);
     }
@@ -130,13 +130,13 @@ static long patch_shared_bytes(const settings *s)
 
 static int has_glow(const settings *s)
 {
-    return s->feature.texture_formats && s->feature.emissive;
+    return s->feature.texture_formats && s->feature.materials >= 2;
 }
 
 /* gn_drawing of lib/shade/gn_lattice_types.h */
 static long drawing_bytes(const settings *s)
 {
-    const int glows = s->feature.emissive && (s->feature.texture_formats || s->feature.vertex_colours);
+    const int glows = s->feature.materials >= 2 && (s->feature.texture_formats || s->feature.vertex_colours);
     return 88 + (glows ? 12 : 0) + (has_glow(s) ? 4 + 92 : 0) + (s->feature.texture_formats ? 76 : 0) +
            (has_levels(s) ? 28 : 0);
 }
@@ -193,7 +193,7 @@ static void put_work(layout *out, const settings *s)
     put(&all, 8, 4, 4); /* tri to radiance_q20 */
     long incident = s->feature.punctual_lights ? s->capacity.surface_lights : 0;
     incident *= s->feature.shadows ? 20 : 8;
-    put(&all, 1, 28 + 4 * values + incident + (s->feature.specular ? 24 : 0), 4); /* sample */
+    put(&all, 1, 28 + 4 * values + incident + (s->feature.materials % 2 ? 24 : 0), 4); /* sample */
     if (s->quality.transparent_layers) put(&all, 4, 4, 4);                        /* mixture */
     if (s->quality.persp_step > 1) {
         put(&all, 1, patch_shared_bytes(s), 4);
