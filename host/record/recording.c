@@ -52,7 +52,7 @@ static const struct {
 };
 
 static uint32_t n_frames;
-static int changed;
+static int changed, shadows; /* some light has asked for one */
 
 static knob *find(const char *name)
 {
@@ -97,8 +97,10 @@ static void write_log(void)
     fprintf(f, "gnomon-log " GN_VERSION_STRING "\npreset %d %d as recorded\n", GN_PRESET, GN_PRESET);
     for (int i = 0; i < N_KNOBS; i++) {
         const knob *k = &knobs[i];
-        fprintf(f, "%s %d %d ", k->name, k->built, k->used > k->least ? k->used : k->least);
-        write_reason(f, k);
+        const int idle = !shadows && strcmp(k->name, "shadows") == 0;
+        fprintf(f, "%s %d %d ", k->name, k->built, idle || k->used < k->least ? k->least : k->used);
+        if (idle) fprintf(f, "nothing uses it");
+        else write_reason(f, k);
         fprintf(f, "\n");
     }
     fprintf(f, "frames %u\n", (unsigned)n_frames);
@@ -147,13 +149,16 @@ static void use_frame(const gn_frame *frame)
 static void use_scene(const gn_scene *s)
 {
     const uses_list to = {use_knob, NULL};
-    for (uint32_t i = 0; i < s->n_lights; i++) uses_light(&to, &s->lights[i], i, 1);
+    for (uint32_t i = 0; i < s->n_lights; i++) {
+        uses_light(&to, &s->lights[i], i, 1);
+        if (!shadows && uses_shadow(&s->lights[i])) shadows = changed = 1;
+    }
     for (uint32_t i = 0; i < s->n_objects; i++) {
         uses_object(&to, &s->objects[i], i);
         uses_mesh(&to, s->objects[i].mesh, i);
     }
     uses_camera(&to, &s->camera);
-    if (find("shadows")->used) uses_shadows(&to, s);
+    uses_shadows(&to, s); /* where another frame has shadows, they are checked in this one, too */
 }
 
 static void begin(void)

@@ -40,12 +40,16 @@ static void use_softness(const uses_list *to, const gn_shadow_settings *shadow, 
         use_filter(to, GN_FILTER_2X2, "hard light", USES_LIGHT, idx);
 }
 
+int uses_shadow(const gn_light *light)
+{
+    return light->shadow_strength_uq16 && light->mode != GN_LIGHT_BAKED;
+}
+
 void uses_light(const uses_list *to, const gn_light *light, uint32_t idx, int casts)
 {
     const int32_t *r = light->bias_receiver_q16;
     if (light->kind != GN_LIGHT_DIRECTIONAL) use(to, "punctual_lights", 1, "light", USES_LIGHT, idx);
-    if (light->shadow_strength_uq16 && light->mode != GN_LIGHT_BAKED && casts)
-        use(to, "shadows", 1, "light", USES_LIGHT, idx);
+    if (casts && uses_shadow(light)) use(to, "shadows", 1, "light", USES_LIGHT, idx);
     if (r[0] || r[1] || r[2] || r[3]) use(to, "biases", OTHER_BIASES, "bias_receiver of light", USES_LIGHT, idx);
     if (light->bias_caster_q16) use(to, "biases", OTHER_BIASES, "bias_caster of light", USES_LIGHT, idx);
     if (light->receiver_plane) use(to, "biases", OTHER_BIASES, "receiver_plane of light", USES_LIGHT, idx);

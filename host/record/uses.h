@@ -13,6 +13,8 @@ typedef struct {
     void *user;
 } uses_list;
 
+/* Whether the light asks for a shadow at run time. */
+int uses_shadow(const gn_light *light);
 void uses_light(const uses_list *to, const gn_light *light, uint32_t idx, int casts);
 void uses_object(const uses_list *to, const gn_object *object, uint32_t idx);
 void uses_mesh(const uses_list *to, const gn_mesh *mesh, uint32_t idx);
