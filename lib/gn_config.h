@@ -27,7 +27,8 @@
     defined(GN_TEXTURE_LEVELS) || defined(GN_STATIC_LAYER) || defined(GN_TILE_IMPORTANCE) || defined(GN_TIGHT_FIT) ||  \
     defined(GN_CASTER_CLIPPING) || defined(GN_CLIPS) || defined(GN_PICKING) || defined(GN_RAW_VIEWS) ||                \
     defined(GN_ERROR_FIELDS) || defined(GN_FILTER_MAX) || defined(GN_TEXTURES) || defined(GN_AUTO_BIAS) ||             \
-    defined(GN_OTHER_BIASES) || defined(GN_SPECULAR) || defined(GN_EMISSIVE)
+    defined(GN_OTHER_BIASES) || defined(GN_SPECULAR) || defined(GN_EMISSIVE) || defined(GN_POSITION_BITS) ||           \
+    defined(GN_NORMAL_BITS)
 #error "the configuration sets a knob that is part of another one now: docs/CHANGELOG.md says of which"
 #endif
 
@@ -59,8 +60,7 @@
 #define GN_PRESETS_TILE_HEIGHT        16, 16, 16, 16
 #define GN_PRESETS_SRGB               1, 1, 1, 1
 #define GN_PRESETS_VERTEX_LIGHT       0, 1, 0, 0
-#define GN_PRESETS_POSITION_BITS      32, 32, 32, 32
-#define GN_PRESETS_NORMAL_BITS        16, 16, 16, 16
+#define GN_PRESETS_SHORT_VERTICES     0, 0, 0, 0
 #define GN_PRESETS_TRIANGLE_GROUPS    0, 0, 0, 0
 #define GN_PRESETS_TRANSPARENT_LAYERS 0, 0, 0, 0
 
@@ -98,11 +98,8 @@
 #ifndef GN_VERTEX_LIGHT
 #define GN_VERTEX_LIGHT GN_PICK(GN_PRESETS_VERTEX_LIGHT)
 #endif
-#ifndef GN_POSITION_BITS
-#define GN_POSITION_BITS GN_PICK(GN_PRESETS_POSITION_BITS)
-#endif
-#ifndef GN_NORMAL_BITS
-#define GN_NORMAL_BITS GN_PICK(GN_PRESETS_NORMAL_BITS)
+#ifndef GN_SHORT_VERTICES
+#define GN_SHORT_VERTICES GN_PICK(GN_PRESETS_SHORT_VERTICES)
 #endif
 #ifndef GN_TRIANGLE_GROUPS
 #define GN_TRIANGLE_GROUPS GN_PICK(GN_PRESETS_TRIANGLE_GROUPS)

@@ -35,9 +35,10 @@
     X(vertex_light, VERTEX_LIGHT, 0, 1,                                                                                \
       "1: Gouraud shading: n . L of directional lights is computed at vertices and interpolated",                      \
       "saves a root per sample; 12 bytes per light of a surface")                                                      \
-    X(position_bits, POSITION_BITS, 16, 32, "bits of a mesh's coordinates (16 or 32)",                                 \
-      "flash: 6 or 12 bytes per vertex")                                                                               \
-    X(normal_bits, NORMAL_BITS, 8, 16, "bits of a mesh's normals (8 or 16)", "flash: 3 or 6 bytes per vertex")         \
+    X(short_vertices, SHORT_VERTICES, 0, 3,                                                                            \
+      "vertices of meshes in fewer bits, the sum: 1 coordinates of 16 bits in place of 32; 2 normals of 8 bits in "    \
+      "place of 16",                                                                                                   \
+      "saves flash: 6 bytes per vertex, and 3")                 \
     X(triangle_groups, TRIANGLE_GROUPS, 0, 4096,                                                                       \
       "groups of neighbouring triangles in their meshes, in place of records of triangles: each screen tile sets up "  \
       "again the groups that it meets; 0: records; the same picture",                                                  \

@@ -216,7 +216,7 @@ refused triangle_groups_have_tiles "-DGN_TRIANGLE_GROUPS=1 -DGN_TILE_WIDTH=8 -DG
 refused triangle_groups_have_up_to_128 "-DGN_TRIANGLE_GROUPS=1 -DGN_TILE_HEIGHT=1"
 for gone in TILE_LIGHTS LINEAR_KERNELS DEPTH_BLOCKS ATTEN_BITS NEWTON_STEPS SHADOW_DEPTH_FRAC SHADOW_SUBPIXEL_BITS WEIGHT_BITS VERTEX_CACHE; do refused "knob that is gone" "-DGN_$gone=0"; done
 for part in CASTER_ALPHA VISIBLE_ALPHA EMISSIVE_TEXTURES MASKS BAKED_LIGHT RECEIVER_BIAS CASTER_BIAS RECEIVER_PLANE BLENDED_CASCADES CASTER_CULLING DISK_FILTER \
-    TEXTURE_LEVELS STATIC_LAYER TILE_IMPORTANCE TIGHT_FIT CASTER_CLIPPING CLIPS PICKING RAW_VIEWS ERROR_FIELDS FILTER_MAX TEXTURES AUTO_BIAS OTHER_BIASES SPECULAR EMISSIVE; do
+    TEXTURE_LEVELS STATIC_LAYER TILE_IMPORTANCE TIGHT_FIT CASTER_CLIPPING CLIPS PICKING RAW_VIEWS ERROR_FIELDS FILTER_MAX TEXTURES AUTO_BIAS OTHER_BIASES SPECULAR EMISSIVE POSITION_BITS NORMAL_BITS; do
     refused "part of another one" "-DGN_$part=0"
 done
 refused transparent_layers_need_alpha "-DGN_TRANSPARENT_LAYERS=1 -DGN_ALPHA=0"
@@ -270,7 +270,7 @@ for words in "" none all "SHADOWS=0 OTHER_FORMATS=2" RUNTIME_KNOBS=1 accurate; d
 done
 
 # what a user need not set, where positions are short, too
-for words in "" "POSITION_BITS=16 NORMAL_BITS=8"; do
+for words in "" SHORT_VERTICES=3; do
     if clang $strict -Itests/support -O0 $(flags $words) -o "$tmp/defaults" lib/gnomon.c tests/unit/test_defaults.c 2>"$tmp/log" && "$tmp/defaults" >"$tmp/log"; then pass
     else fail "tests/unit/test_defaults.c with '$words': $(grep -m 1 -E 'error|failed' "$tmp/log")"; fi
 done

@@ -35,8 +35,7 @@ static void write_checks(FILE *f, const compiled *c)
     for (int i = 0; i < n; i++) write_check(f, needs[i].knob, "<", needs[i].value, needs[i].what);
     write_check(f, "max_objects", "<", (int)c->fixed.scene.n_objects, "objects of the model");
     write_check(f, "max_lights", "<", (int)c->fixed.scene.n_lights, "lights of the model");
-    write_check(f, "position_bits", "!=", c->set.quality.position_bits, "coordinates as they were written");
-    write_check(f, "normal_bits", "!=", c->set.quality.normal_bits, "normals as they were written");
+    write_check(f, "short_vertices", "!=", c->set.quality.short_vertices, "vertices as they were written");
 }
 
 /* Knobs with which the picture is that of gnomon render. */

@@ -210,11 +210,13 @@ static void choose_checks(compiled *c)
 }
 
 /* compile_narrow.c has chosen, or measured. */
-static void explain_bits(compiled *c, compile_narrowed what, const char *knob, int bits, int requested)
+static void explain_vertices(compiled *c)
 {
-    const compile_change *change = &c->narrow_change[what];
-    if (bits < requested) because(c, knob, "no frame shows a difference to %d", requested);
-    else if (change->n_pixels) because(c, knob, "%d would change the picture: see above", bits / 2);
+    const int now = c->set.quality.short_vertices, requested = c->requested.quality.short_vertices;
+    const compile_change *change = c->narrow_change;
+    if (now != requested) because(c, "short_vertices", "no frame shows a difference to %d", requested);
+    else if (change[COMPILE_POSITIONS].n_pixels || change[COMPILE_NORMALS].n_pixels)
+        because(c, "short_vertices", "more would change the picture: see above");
 }
 
 void compile_choose(compiled *c)
@@ -225,9 +227,7 @@ void compile_choose(compiled *c)
     choose_casters(c);
     choose_checks(c);
     shrink_atlases(c);
-    explain_bits(c, COMPILE_POSITIONS, "position_bits", c->set.quality.position_bits,
-                 c->requested.quality.position_bits);
-    explain_bits(c, COMPILE_NORMALS, "normal_bits", c->set.quality.normal_bits, c->requested.quality.normal_bits);
+    explain_vertices(c);
 }
 
 /* ---- gn_scene_config.h ------------------------------------------------------------------------------------------- */
@@ -235,15 +235,13 @@ void compile_choose(compiled *c)
 /* What was not chosen by itself, as it changes the picture. */
 static void write_narrow(FILE *f, const compiled *c)
 {
-    static const char *const setting[2] = {"position_bits=16", "normal_bits=8"};
     for (int what = COMPILE_POSITIONS; what <= COMPILE_NORMALS; what++) {
         const compile_change *change = &c->narrow_change[what];
         compiled narrow = *c;
-        if (what == COMPILE_POSITIONS) narrow.set.quality.position_bits = 16;
-        else narrow.set.quality.normal_bits = 8;
+        narrow.set.quality.short_vertices |= 1 << what;
         long less = compile_flash_bytes(c, true) - compile_flash_bytes(&narrow, true);
         if (less <= 0 || !change->n_pixels) continue;
-        fprintf(f, " * With --set %s %ld less: ", setting[what], less);
+        fprintf(f, " * With --set short_vertices=%d %ld less: ", (int)narrow.set.quality.short_vertices, less);
         if (!change->n_changed) fprintf(f, "none of these pixels changes.\n");
         else
             fprintf(f, "%.2f %% of these pixels change, by up to %d of 255.\n",

@@ -22,8 +22,8 @@ enum { ATLAS, OTHER_ATLAS, DEPTH, OTHER_DEPTH, SUBPIXEL, FILTER, OTHER_FILTER, S
 typedef struct {
     int loss[LOSSES];
     int tile_width, tile_height; /* 0: as it is */
-    int lean;      /* 1: nothing that only saves instructions; 2: and groups of triangles */
-    double change; /* mean square of the picture's, of 255 */
+    int lean;                    /* 1: nothing that only saves instructions; 2: and groups of triangles */
+    double change;               /* mean square of the picture's, of 255 */
 } variant;
 
 typedef struct {
@@ -87,8 +87,7 @@ static compiled apply(const search *s, const variant *v)
     compiled c = *s->c;
     c.set = c.requested;
     gn_knobs *q = &c.set.quality;
-    q->position_bits = s->c->set.quality.position_bits; /* what the meshes hold by now */
-    q->normal_bits = s->c->set.quality.normal_bits;
+    q->short_vertices = s->c->set.quality.short_vertices; /* what the meshes hold by now */
     q->atlas_size = halved(q->atlas_size, v->loss[ATLAS]);
     q->other_atlas_size = halved(q->other_atlas_size, v->loss[OTHER_ATLAS]);
     q->depth_bits = fewer_bits(q->depth_bits, v->loss[DEPTH]);

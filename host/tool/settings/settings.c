@@ -115,6 +115,8 @@ static const char *why_gone(const char *key)
         {"shadow_depth_frac", "4 bits always"},
         {"shadow_subpixel_bits", "follows from persp_step: 12 with 1, else 10"},
         {"weight_bits", "follows from persp_step: 12 with 1, else 8"},
+        {"position_bits", "short_vertices=1 is 16 bits, else 32"},
+        {"normal_bits", "short_vertices=2 is 8 bits, else 16"},
         {"vertex_cache", "follows from the screen tile: 32 from 512 pixels on, else 8"},
         {"blended_cascades", "many_cascades=2 has it"},
         {"disk_filter", "shadows=6 has it"},

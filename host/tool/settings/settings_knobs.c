@@ -182,8 +182,6 @@ static const char *refine(const settings *s, const void *changed, int n)
         return "8, 16 or 32";
     if ((changed == &s->quality.atlas_size || changed == &s->quality.other_atlas_size) && (n & (n - 1)))
         return "a power of two";
-    if (changed == &s->quality.position_bits && n != 16 && n != 32) return "16 or 32";
-    if (changed == &s->quality.normal_bits && n != 8 && n != 16) return "8 or 16";
     if (changed == &s->quality.tile_width && n % 8) return "a multiple of 8";
     if ((changed == &s->capacity.atlas_texels || changed == &s->capacity.other_atlas_texels) && n % 64)
         return "a multiple of 64";
