@@ -209,8 +209,9 @@
 #define GN_CLIPPING (GN_COMPACT ? 0 : 2)
 #endif
 
-/* How the library is built. A program may be compiled with another size_first than the library: no type depends on it.
- */
+/* No knob: less flash rather than fewer instructions, where the compiler is asked for that: one code path where two
+ * give the same bits, calls in place of inline code. No type depends on it: a program may have another than the
+ * library. */
 #ifndef GN_SIZE_FIRST
 #ifdef __OPTIMIZE_SIZE__
 #define GN_SIZE_FIRST 1

@@ -38,7 +38,7 @@
     X(short_vertices, SHORT_VERTICES, 0, 3,                                                                            \
       "vertices of meshes in fewer bits, the sum: 1 coordinates of 16 bits in place of 32; 2 normals of 8 bits in "    \
       "place of 16",                                                                                                   \
-      "saves flash: 6 bytes per vertex, and 3")                 \
+      "saves flash: 6 bytes per vertex, and 3")                                                                        \
     X(triangle_groups, TRIANGLE_GROUPS, 0, 4096,                                                                       \
       "groups of neighbouring triangles in their meshes, in place of records of triangles: each screen tile sets up "  \
       "again the groups that it meets; 0: records; the same picture",                                                  \
@@ -77,11 +77,7 @@
     X(compact, COMPACT, 0, 1,                                                                                          \
       "32-bit arithmetic for one directional light with one hard shadow tile and flat colours, in pictures up to "     \
       "256x256; features are off",                                                                                     \
-      "none: the smallest flash; a scene beyond its range is refused")                                                 \
-    X(size_first, SIZE_FIRST, 0, 1,                                                                                    \
-      "less flash rather than fewer instructions: one code path where two give the same bits, calls in place of "      \
-      "inline code; by default 1 where the compiler optimises for size (-Os)",                                         \
-      "instructions; the same picture")
+      "none: the smallest flash; a scene beyond its range is refused")
 
 #define GN_FEATURE_KNOBS(X)                                                                                            \
     X(shadows, SHADOWS, 0, 6,                                                                                          \

@@ -130,6 +130,7 @@ static const char *why_gone(const char *key)
         {"raw_views", "other_formats=2 has it"},
         {"error_fields", "validation=2 has it"},
         {"runtime_knobs", "GN_RUNTIME_KNOBS is for host tools"},
+        {"size_first", "follows from the compiler: 1 with -Os"},
         {"baked_light", "baked has it"},
         {"other_biases", "biases=2 has it"},
         {"receiver_bias", "biases=2 has it"},
