@@ -28,7 +28,7 @@
     defined(GN_CASTER_CLIPPING) || defined(GN_CLIPS) || defined(GN_PICKING) || defined(GN_RAW_VIEWS) ||                \
     defined(GN_ERROR_FIELDS) || defined(GN_FILTER_MAX) || defined(GN_TEXTURES) || defined(GN_AUTO_BIAS) ||             \
     defined(GN_OTHER_BIASES) || defined(GN_SPECULAR) || defined(GN_EMISSIVE) || defined(GN_POSITION_BITS) ||           \
-    defined(GN_NORMAL_BITS)
+    defined(GN_NORMAL_BITS) || defined(GN_TILE_DRAWING) || defined(GN_OTHER_FORMATS) || defined(GN_ORTHOGRAPHIC)
 #error "the configuration sets a knob that is part of another one now: docs/CHANGELOG.md says of which"
 #endif
 
@@ -184,14 +184,11 @@
 #ifndef GN_VERTEX_JOINTS
 #define GN_VERTEX_JOINTS (GN_COMPACT ? 0 : 4)
 #endif
-#ifndef GN_TILE_DRAWING
-#define GN_TILE_DRAWING (!GN_COMPACT)
-#endif
 #ifndef GN_VALIDATION
 #define GN_VALIDATION 1
 #endif
-#ifndef GN_OTHER_FORMATS
-#define GN_OTHER_FORMATS (!GN_COMPACT)
+#ifndef GN_PICTURES
+#define GN_PICTURES (GN_COMPACT ? 0 : 7)
 #endif
 #ifndef GN_MANY_CASCADES
 #define GN_MANY_CASCADES (GN_COMPACT ? 0 : 2)
@@ -201,9 +198,6 @@
 #endif
 #ifndef GN_OBJECT_BOXES
 #define GN_OBJECT_BOXES (!GN_COMPACT)
-#endif
-#ifndef GN_ORTHOGRAPHIC
-#define GN_ORTHOGRAPHIC (!GN_COMPACT)
 #endif
 #ifndef GN_CLIPPING
 #define GN_CLIPPING (GN_COMPACT ? 0 : 2)
@@ -255,7 +249,10 @@
 #define GN_CASTER_BIAS      (GN_OTHER_BIASES)
 #define GN_RECEIVER_PLANE   (GN_OTHER_BIASES)
 #define GN_CASTER_CLIPPING  ((GN_CLIPPING) >= 2)
-#define GN_RAW_VIEWS        ((GN_OTHER_FORMATS) >= 2)
+#define GN_TILE_DRAWING     ((GN_PICTURES) / 2 % 2)
+#define GN_ORTHOGRAPHIC     ((GN_PICTURES) / 4 % 2)
+#define GN_RAW_VIEWS        ((GN_PICTURES) >= 8)
+#define GN_OTHER_FORMATS    ((GN_PICTURES) % 2 || GN_RAW_VIEWS)
 #define GN_ERROR_FIELDS     ((GN_VALIDATION) >= 2)
 
 /* Whether the boxes of objects are needed. */

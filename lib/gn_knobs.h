@@ -114,16 +114,16 @@
     X(vertex_colours, VERTEX_COLOURS, 0, 1, "interpolated vertex colours", "flash; three multiplications per sample")  \
     X(vertex_joints, VERTEX_JOINTS, 0, 4, "skins: the most joints that move a vertex; 0: no skins",                    \
       "flash; vertices of skinned objects are blended once for their box, and each time they are transformed")         \
-    X(tile_drawing, TILE_DRAWING, 0, 1, "a background gradient; the caller's drawing behind and over a screen tile",   \
-      "flash")                                                                                                         \
     X(validation, VALIDATION, 0, 2,                                                                                    \
       "1: scenes are checked before they are drawn; 2: errors also name the field that is wrong, gn_detail.field; "    \
       "without, an invalid scene has undefined behaviour",                                                             \
       "flash; 2: 0.5 KB, 3 KB more where gn_field_text is called")                                                     \
-    X(other_formats, OTHER_FORMATS, 0, 2,                                                                              \
-      "pixel formats other than RGB565: 1 RGB888, grey, one bit; 2 also views of depth, normals, shadow and triangle " \
-      "identity, for host tools",                                                                                      \
-      "flash")                                                                                                         \
+    X(pictures, PICTURES, 0, 15,                                                                                       \
+      "what pictures may be, the sum: 1 of other formats than RGB565: RGB888, grey, one bit; 2 with a background "     \
+      "gradient, and drawings of the caller behind and over a screen tile; 4 of orthographic cameras; 8 views of "     \
+      "depth, "                                                                                                        \
+      "normals, shadow and triangle identity, for host tools",                                                         \
+      "flash; 4: 48 bytes of RAM")                                                                                     \
     X(many_cascades, MANY_CASCADES, 0, 3,                                                                              \
       "cascades per light: 0 one; 1 up to four; 2 with soft and dithered blending between them; 3 also casters whose " \
       "shadows lie wholly in a smaller cascade are not drawn into larger ones: 0.5 % more instructions in the scenes " \
@@ -135,7 +135,6 @@
       "flash; 2: 64 bytes per tile, 24 per object")                                                                    \
     X(object_boxes, OBJECT_BOXES, 0, 1, "casters whose box lies outside a shadow tile are skipped",                    \
       "flash, 24 bytes per object; the same picture with and without")                                                 \
-    X(orthographic, ORTHOGRAPHIC, 0, 1, "orthographic cameras", "flash; 48 bytes of RAM")                              \
     X(clipping, CLIPPING, 0, 2,                                                                                        \
       "1: visible triangles may cross the near plane, or extend far beyond the picture; 2: also directional casters "  \
       "more than 8192 texels beyond their tile; without, such a frame is refused",                                     \

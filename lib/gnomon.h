@@ -186,7 +186,7 @@ typedef enum {
     GN_FORMAT_GREY4,          /* two pixels per byte, the left one in the high bits; rows begin on a byte */
     GN_FORMAT_MONO1, /* eight pixels per byte, the left one in the highest bit, 1 = light; rows begin on a byte; ordered
                         dither */
-    GN_FORMAT_RAW32  /* with GN_OTHER_FORMATS 2: uint32_t per pixel, see gn_view; all ones where there is no surface */
+    GN_FORMAT_RAW32  /* with GN_PICTURES 8: uint32_t per pixel, see gn_view; all ones where there is no surface */
 } gn_format;
 
 typedef enum {

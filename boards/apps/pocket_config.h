@@ -30,5 +30,4 @@
 #define GN_INCREMENTAL     0
 #define GN_VERTEX_NORMALS  0
 #define GN_VERTEX_COLOURS  0
-#define GN_TILE_DRAWING    0
-#define GN_ORTHOGRAPHIC    0
+#define GN_PICTURES        0

@@ -3,8 +3,8 @@
 
 #include <string.h>
 
-/* Parts of texture_formats, biases, materials. */
-enum { LEVELS = 1024, AUTO_BIAS = 1, OTHER_BIASES = 2, SPECULAR = 1, EMISSIVE = 2 };
+/* Parts of texture_formats, biases, materials, pictures. */
+enum { LEVELS = 1024, AUTO_BIAS = 1, OTHER_BIASES = 2, SPECULAR = 1, EMISSIVE = 2, ORTHOGRAPHIC = 4 };
 
 static void use(const uses_list *to, const char *knob, int value, const char *what, uses_owner owner, uint32_t idx)
 {
@@ -13,7 +13,7 @@ static void use(const uses_list *to, const char *knob, int value, const char *wh
 
 int uses_is_sum(const char *knob)
 {
-    static const char *const sums[] = {"texture_formats", "biases", "materials"};
+    static const char *const sums[] = {"texture_formats", "biases", "materials", "pictures"};
     for (size_t i = 0; i < sizeof sums / sizeof *sums; i++)
         if (strcmp(knob, sums[i]) == 0) return 1;
     return 0;
@@ -86,7 +86,7 @@ void uses_mesh(const uses_list *to, const gn_mesh *mesh, uint32_t idx)
 
 void uses_camera(const uses_list *to, const gn_camera *camera)
 {
-    if (camera->half_height_q16) use(to, "orthographic", 1, "the camera", USES_SETTING, 0);
+    if (camera->half_height_q16) use(to, "pictures", ORTHOGRAPHIC, "the camera", USES_SETTING, 0);
 }
 
 void uses_shadows(const uses_list *to, const gn_scene *scene)

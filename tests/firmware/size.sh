@@ -50,6 +50,7 @@ flags_of() {
             SHADOWS) echo "-DGN_$feature=6" ;;
             VERTEX_JOINTS) echo "-DGN_$feature=4" ;;
             MANY_CASCADES | BIASES | MATERIALS) echo "-DGN_$feature=3" ;;
+            PICTURES) echo "-DGN_$feature=7" ;;
             TEXTURE_FORMATS) echo "-DGN_$feature=1025" ;;
             INCREMENTAL | TILE_SIZES | CLIPPING) echo "-DGN_$feature=2" ;;
             *) echo "-DGN_$feature=1" ;;

@@ -16,8 +16,9 @@ most() {
     SHADOWS) echo 6 ;;
     VERTEX_JOINTS) echo 4 ;;
     MANY_CASCADES | BIASES | MATERIALS) echo 3 ;;
-    INCREMENTAL | TILE_SIZES | CLIPPING | OTHER_FORMATS | VALIDATION) echo 2 ;;
+    INCREMENTAL | TILE_SIZES | CLIPPING | VALIDATION) echo 2 ;;
     TEXTURE_FORMATS) echo 2047 ;;
+    PICTURES) echo 15 ;;
     *) echo 1 ;;
     esac
 }
@@ -61,7 +62,7 @@ without() { whole "all-$1" "$1"; }
 # What a feature stands on: alone it has nothing to do.
 under() {
     case $1 in
-    CLIPPING | SHADOWS | PUNCTUAL_LIGHTS | ALPHA | MATERIALS | ORTHOGRAPHIC | BAKED | VERTEX* | RAW* | VALID* | *FORMATS | TILE_DRAWING) ;;
+    CLIPPING | SHADOWS | PUNCTUAL_LIGHTS | ALPHA | MATERIALS | PICTURES | BAKED | VERTEX* | VALID* | *FORMATS) ;;
     *) echo SHADOWS ;;
     esac
 }
@@ -119,14 +120,12 @@ ALPHA alpha_plane|cut_begin|cut_row
 TEXTURE_FORMATS gn_texture_(level_at|level_depth2|use_level)|gn_texture_colour|gn_alpha_coords|gn_srgb_decode_table|gn_linear_(31|63)_table|gn_texel_decode_.*
 MATERIALS highlight_q30|emitted_light|begin_glow
 VERTEX_JOINTS gn_skin_.*|mean_matrix|skin_signature|gn_scene_skin_check
-ORTHOGRAPHIC flat_plane|flat_sphere|intersect_flat
 BAKED gn_texture_mask
 BIASES corner_normals|start_plane|dark_on_plane|gn_bias_auto_.*|.*_share_q3[02]|auto_.*
 INCREMENTAL gn_kept_.*|view_signature|stays|gn_static_layer_.*
 MAIN_LIGHT main_light
 VALIDATION gn_scene_validate|check_.*light|gn_fail_field
-TILE_DRAWING gradient_row|draw_behind
-OTHER_FORMATS luminance_q20|fill_(grey4|mono)
+PICTURES gradient_row|draw_behind|luminance_q20|fill_(grey4|mono)|flat_plane|flat_sphere|intersect_flat
 TILE_SIZES sizes_by_importance|weight_of|gn_seen_.*|gn_ortho_(fit_tight|covers)|sides_by_worth|sixteenth_octaves|place_by_worth
 OBJECT_BOXES gn_cull_sees|.*_sees
 CLIPPING project_cut|general_triangle|clip_side|clip_to_reach
@@ -138,6 +137,9 @@ while read -r feature level pattern; do
     ${prefix}nm --defined-only "$tmp/level-$feature.o" | awk '{ print $3 }' | grep -x -E "$pattern" >"$tmp/found" && fail "$feature is $level, and there is $(tr '\n' ' ' <"$tmp/found")" || pass
 done <<'LIST'
 SHADOWS 1 gn_tent_weights|gn_disk_.*|disk.*|gn_blocks_.*
+PICTURES 6 luminance_q20|fill_(grey4|mono)
+PICTURES 5 gradient_row|draw_behind
+PICTURES 3 flat_plane|flat_sphere|intersect_flat
 MATERIALS 1 emitted_light|begin_glow
 MATERIALS 2 highlight_q30
 BIASES 1 corner_normals|start_plane|dark_on_plane

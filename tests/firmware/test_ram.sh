@@ -79,7 +79,7 @@ if [ -n "$target" ]; then
         predicted $preset shadows=0 punctual_lights=0 max_lights=3
         predicted $preset srgb=0 texture_formats=0 materials=2 baked=0 alpha=0 shadows=1
         predicted $preset shadows=0
-        predicted $preset other_formats=2
+        predicted $preset pictures=15
         predicted $preset shadows=5
         predicted $preset incremental=0
         predicted $preset vertex_joints=0 texture_formats=1023 biases=2
@@ -102,7 +102,7 @@ if [ -n "$target" ]; then
         predicted $preset surface_lights=1 max_lights=1 shadows=0 baked=0 punctual_lights=0 texture_formats=0 materials=2 vertex_normals=0 vertex_colours=0
         predicted $preset surface_lights=1 texture_formats=0 materials=2 baked=0 punctual_lights=0 main_light=0 shadows=0 persp_step=1
         predicted $preset triangle_groups=100 max_triangles=333
-        predicted $preset triangle_groups=1 max_triangles=8 tile_width=72 tile_height=5 shadows=0 orthographic=0
+        predicted $preset triangle_groups=1 max_triangles=8 tile_width=72 tile_height=5 shadows=0 pictures=3
         predicted $preset transparent_layers=2 tile_width=72 tile_height=5
         predicted $preset transparent_layers=1 triangle_groups=8 shadows=0
         predicted $preset atlas_texels=8192 other_atlas_texels=64 incremental=2

@@ -43,8 +43,8 @@ done
 for knobs in -O2 "-fsyntax-only -DGN_PRESET=GN_PRESET_ACCURATE -DGN_VALIDATION=0" "-fsyntax-only -DGN_BIASES=0" "-fsyntax-only -DGN_VALIDATION=2"; do
     gcc -std=c99 -pedantic $warn -Ilib -DGN_COMPACT=1 $knobs -c -o "$tmp/warnings.o" lib/gnomon.c 2>"$tmp/log" && pass || fail "$knobs: $(grep -m 1 -E 'error|warning' "$tmp/log")"
 done
-for contradiction in TEXTURE_FORMATS=1 MANY_CASCADES=1 SHADOWS=2 PUNCTUAL_LIGHTS=1 OTHER_FORMATS=1 INCREMENTAL=1; do
-    gcc -std=c99 -w -Ilib -DGN_COMPACT=1 -DGN_ -fsyntax-only lib/frame/gn_frame.c 2>"$tmp/log" && fail "compact builds with $contradiction"
+for contradiction in TEXTURE_FORMATS=1 MANY_CASCADES=1 SHADOWS=2 PUNCTUAL_LIGHTS=1 PICTURES=1 INCREMENTAL=1; do
+    gcc -std=c99 -w -Ilib -DGN_COMPACT=1 -DGN_$contradiction -fsyntax-only lib/frame/gn_frame.c 2>"$tmp/log" && fail "compact builds with $contradiction"
     grep -q 'error.*compact_' "$tmp/log" && pass || fail "$contradiction: the message does not name compact: $(grep -m 1 error "$tmp/log")"
 done
 # The tool refuses by name what it has not, in a scene, in what is set afterwards, and in the picture.

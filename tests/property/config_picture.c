@@ -227,10 +227,10 @@ static void invert_some(void *user, int x, int y, int w, int h, void *pixels)
 
 static void use_background(int variant, gn_picture *picture)
 {
-    demo.scene.background_gradient = use.tile_drawing && variant % 2;
+    demo.scene.background_gradient = (use.pictures & 2) && variant % 2;
     demo.scene.background_bottom_uq20[variant % 3] = 800000;
-    if (use.tile_drawing && variant > 1) demo.scene.draw_behind = invert_some;
-    if (use.tile_drawing && variant > 2) demo.scene.draw_over = invert_some;
+    if ((use.pictures & 2) && variant > 1) demo.scene.draw_behind = invert_some;
+    if ((use.pictures & 2) && variant > 2) demo.scene.draw_over = invert_some;
     demo.scene.draw_user = picture;
 }
 
@@ -238,7 +238,7 @@ static void make_scene(int variant, int moved)
 {
     demo_scene_make(&demo, (uint32_t)variant % 3);
     if (moved) demo.object[1].to_world.t_q16[0] -= GN_Q16(0.3);
-    if (use.orthographic && variant > 3) demo.scene.camera.half_height_q16 = GN_Q16(2.5);
+    if ((use.pictures & 4) && variant > 3) demo.scene.camera.half_height_q16 = GN_Q16(2.5);
     use_lights(variant);
     use_materials(variant);
     use_shadow_settings(variant);
@@ -494,11 +494,11 @@ int main(int argc, char **argv)
     use_what_is_built();
     if (argc > 1) {
         use_preset(GN_PRESET_BALANCED);
-        use.other_formats = 1;
+        use.pictures = 7;
     }
     for (int i = 1; i < argc; i++) use_flag(argv[i]);
-    int failed = pictures(use.other_formats ? GN_FORMAT_RGB888 : GN_FORMAT_RGB565_SWAPPED, GN_VIEW_COLOUR, 0);
-    for (uint8_t l = 0; !failed && use.other_formats > 1 && l < (use.punctual_lights ? LIGHTS : 2); l++)
+    int failed = pictures(use.pictures & 9 ? GN_FORMAT_RGB888 : GN_FORMAT_RGB565_SWAPPED, GN_VIEW_COLOUR, 0);
+    for (uint8_t l = 0; !failed && use.pictures >= 8 && l < (use.punctual_lights ? LIGHTS : 2); l++)
         failed = pictures(GN_FORMAT_RAW32, GN_VIEW_SHADOW, l);
     if (!failed && argc == 1 && GN_VALIDATION) refuse();
     return failed;

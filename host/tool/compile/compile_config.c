@@ -107,12 +107,19 @@ static void use(void *user, const char *knob, int needed, const char *what, uses
     int *value = settings_feature_at(&c->set, knob);
     const int both = uses_both(knob, *value, needed);
     if (both == *value) return;
+    char before[80] = "";
+    if (*value && uses_is_sum(knob)) snprintf(before, sizeof before, "%s, ", header_reason(&c->reasons, knob));
     *value = both;
-    if (owner == USES_SETTING) because(c, knob, "%s", what);
+    if (owner == USES_SETTING) because(c, knob, "%s%s", before, what);
     else {
         const char **names = owner == USES_LIGHT ? c->light_name : owner == USES_OBJECT ? c->object_name : c->mesh_name;
-        because(c, knob, "%s '%s'", what, names[idx]);
+        because(c, knob, "%s%s '%s'", before, what, names[idx]);
     }
+}
+
+static void use_setting(compiled *c, const char *knob, int needed, const char *what)
+{
+    use(c, knob, needed, what, USES_SETTING, 0);
 }
 
 /* Everything that a scene can use to 0; the rest makes the same picture with and without. */
@@ -127,7 +134,7 @@ static void use_nothing(compiled *c)
     NOTHING(alpha);
     NOTHING(texture_formats);
     NOTHING(materials);
-    NOTHING(orthographic);
+    NOTHING(pictures);
     NOTHING(baked);
     NOTHING(biases);
     NOTHING(vertex_joints);
@@ -189,7 +196,7 @@ static void choose_casters(compiled *c)
 /* What the tool has done already. */
 static void choose_checks(compiled *c)
 {
-    const bool rgb565 = c->set.output == GN_FORMAT_RGB565, path = compile_simplifies(c) == TOOL_SIMPLIFY_PATH;
+    const bool path = compile_simplifies(c) == TOOL_SIMPLIFY_PATH;
     if (path) c->set.feature.validation = 0;
     if (c->set.build.compact) {
         c->set.feature.shadows = 1; /* always built */
@@ -200,13 +207,12 @@ static void choose_checks(compiled *c)
     because(c, "validation",
             c->set.feature.validation ? "scenes of --simplify none and safe may be moved otherwise"
                                       : "every frame was checked when it was compiled");
-    if (path && !c->fixed.scene.background_gradient) c->set.feature.tile_drawing = 0;
-    because(c, "tile_drawing",
-            c->fixed.scene.background_gradient ? "the background's gradient"
-            : path                             ? "no gradient; for a program that draws: --simplify none or safe"
-                   : "programs may draw behind and over scenes of --simplify none and safe");
-    c->set.feature.other_formats = !rgb565;
-    because(c, "other_formats", rgb565 ? "the panel takes RGB565" : "the panel takes another than RGB565");
+    if (c->fixed.scene.background_gradient) use_setting(c, "pictures", 2, "the background's gradient");
+    else if (!path && c->requested.feature.pictures & 2)
+        use_setting(c, "pictures", 2, "programs may draw behind and over scenes of --simplify none and safe");
+    if (c->set.output != GN_FORMAT_RGB565) use_setting(c, "pictures", 1, "the panel takes another than RGB565");
+    if (!c->set.feature.pictures)
+        because(c, "pictures", "RGB565 and no gradient; for a program that draws: --simplify none or safe");
 }
 
 /* compile_narrow.c has chosen, or measured. */

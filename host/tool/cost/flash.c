@@ -73,7 +73,7 @@ long flash_estimate(const settings *s, flash_core core)
     else bytes += of_no_shadows(s, core);
     if (s->feature.validation) bytes += validation_bytes[core];
     bytes += of_level(s->feature.clipping, (const int *const[]){clipping_bytes, clipping_2_bytes}, core);
-    if (s->feature.other_formats) bytes += other_formats_bytes[core];
+    if (s->feature.pictures % 2) bytes += pictures_bytes[core];
     if (!s->quality.srgb) bytes += linear_bytes[core];
     if (s->quality.persp_step == 1 && s->feature.shadows) bytes += preset_accurate_bytes[core];
     return bytes;

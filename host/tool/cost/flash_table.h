@@ -22,16 +22,16 @@ FLASH(incremental, 948, 880)               /* with */
 FLASH(incremental_2, 1104, 1084)           /* with 2 */
 FLASH(vertex_colours, 1684, 1536)          /* with */
 FLASH(vertex_joints, 1592, 1452)           /* with */
-FLASH(tile_drawing, 260, 252)              /* with */
+FLASH(pictures_2, 260, 252)              /* with 2 */
 FLASH(validation, 1484, 1296)              /* with */
-FLASH(other_formats, 1016, 992)            /* with */
+FLASH(pictures, 1016, 992)            /* with */
 FLASH(many_cascades, 1744, 1520)           /* with */
 FLASH(many_cascades_2, 2908, 2684)         /* with 2 */
 FLASH(many_cascades_3, 4664, 4288)         /* with 3 */
 FLASH(tile_sizes, 308, 400)                /* with */
 FLASH(tile_sizes_2, 9520, 8500)            /* with 2 */
 FLASH(object_boxes, 956, 900)              /* with */
-FLASH(orthographic, 1672, 1672)            /* with */
+FLASH(pictures_4, 1672, 1672)            /* with 4 */
 FLASH(clipping, 744, 804)                  /* with */
 FLASH(clipping_2, 1288, 1292)              /* with 2 */
 FLASH(edge, 2316, 2204)                    /* edge 4 */

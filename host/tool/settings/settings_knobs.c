@@ -111,7 +111,7 @@ void settings_init(settings *out)
     static const settings defaults = {.output = GN_FORMAT_RGB888};
     *out = defaults;
     for (size_t i = 0; i < groups[FEATURE].n; i++) *field(out, &feature_knobs[i]) = feature_knobs[i].hi;
-    out->feature.incremental = out->feature.other_formats = out->feature.validation = 1; /* no picture needs more */
+    out->feature.incremental = out->feature.validation = 1, out->feature.pictures = 7; /* no picture needs more */
     settings_preset(out, SETTINGS_BALANCED);
 }
 

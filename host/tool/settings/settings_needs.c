@@ -135,8 +135,8 @@ static void needs_of_object(need_list *list, const scene *s, const scene_object 
 int settings_needs(const scene *s, bool shadows, settings_need *needs)
 {
     need_list list = {needs, 0};
-    if (s->camera.half_height > 0) need(&list, "orthographic", 1, "the orthographic camera");
-    if (s->gradient) need(&list, "tile_drawing", 1, "the background's gradient");
+    if (s->camera.half_height > 0) need(&list, "pictures", 4, "the orthographic camera");
+    if (s->gradient) need(&list, "pictures", 2, "the background's gradient");
     if (shadows) needs_of_shadows(&list, s);
     for (size_t i = 0; i < s->n_lights; i++) needs_of_light(&list, s, &s->lights[i], shadows);
     for (size_t i = 0; i < s->n_objects; i++) needs_of_object(&list, s, &s->objects[i]);

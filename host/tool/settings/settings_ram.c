@@ -176,7 +176,7 @@ static void put_work(layout *out, const settings *s)
                                                                                                        : 1;
     long values = (s->feature.texture_formats ? 2 : 0) + (s->feature.baked ? 4 : 0) + (s->feature.baked ? 3 : 0) + 5 +
                   (long)per_light * s->capacity.surface_lights;
-    put(&surface, 1, s->feature.orthographic ? 244 : 200, 8); /* object to the colours of attribute_q16 */
+    put(&surface, 1, s->feature.pictures & 4 ? 244 : 200, 8); /* object to the colours of attribute_q16 */
     put(&surface, 15, 4, 4);                                  /* v_q16 to hi_q16 */
     if (s->feature.baked) put(&surface, 12, 4, 4);
     if (s->feature.baked) put(&surface, 9, 4, 4);
@@ -194,7 +194,7 @@ static void put_work(layout *out, const settings *s)
     long incident = s->feature.punctual_lights ? s->capacity.surface_lights : 0;
     incident *= s->feature.shadows ? 20 : 8;
     put(&all, 1, 28 + 4 * values + incident + (s->feature.materials % 2 ? 24 : 0), 4); /* sample */
-    if (s->quality.transparent_layers) put(&all, 4, 4, 4);                        /* mixture */
+    if (s->quality.transparent_layers) put(&all, 4, 4, 4);                             /* mixture */
     if (s->quality.persp_step > 1) {
         put(&all, 1, patch_shared_bytes(s), 4);
         put(&all, 1, lattice_bytes(s), 8);
@@ -246,7 +246,7 @@ settings_ram_parts settings_ram(const settings *s)
     int punctual = s->feature.punctual_lights;
     const long groups = s->quality.triangle_groups;
     const int fits = s->feature.shadows && s->feature.tile_sizes > 1;
-    put(&frame, 1, (s->feature.orthographic ? 260 : 252) + (groups ? 4 : 0) + (fits ? 4 : 0), 8); /* scene to detail */
+    put(&frame, 1, (s->feature.pictures & 4 ? 260 : 252) + (groups ? 4 : 0) + (fits ? 4 : 0), 8); /* scene to detail */
     if (s->feature.shadows) {
         put(&frame, 1, 8, 4);  /* n_cascades to frame_count */
         put(&frame, 4, 40, 8); /* cascade */
@@ -268,7 +268,7 @@ settings_ram_parts settings_ram(const settings *s)
     pad(&frame, frame.align);
     all = frame;
     r.cells = put(&all, 1 + tile_w * tile_h, 4, 4);
-    r.pixels = put(&all, tile_w * tile_h, s->feature.other_formats > 1 ? 4 : 3, 4);
+    r.pixels = put(&all, tile_w * tile_h, s->feature.pictures >= 8 ? 4 : 3, 4);
     put(&all, tile_w * tile_h >= 512 ? 32 : 8, 16, 4);                               /* GN_VERTEX_CACHE */
     put(&all, 64, tile_w * tile_h > 65535 ? 4 : 2, tile_w * tile_h > 65535 ? 4 : 2); /* run_list */
     if (groups) r.triangles += put(&all, 1 + s->capacity.max_triangles, 4, 2);       /* drawn */
