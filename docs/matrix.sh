@@ -19,13 +19,13 @@ trap 'exit 1' HUP INT TERM
 # ---- Configurations -----------------------------------------------------------------------------------------------------------
 
 features=$(sed -n '/GN_FEATURE_KNOBS/,$s/^    X([a-z_0-9]*, \([A-Z_0-9]*\), .*/\1/p' lib/gn_knobs.h)
-most() { case $1 in SHADOWS) echo 6 ;; VERTEX_JOINTS) echo 4 ;; TEXTURE_FORMATS) echo 2047 ;; MANY_CASCADES | BIASES | MATERIALS) echo 3 ;; PICTURES) echo 7 ;; INCREMENTAL | TILE_SIZES | CLIPPING) echo 2 ;; *) echo 1 ;; esac; }
+most() { case $1 in SHADOWS) echo 6 ;; VERTEX_JOINTS) echo 4 ;; TEXTURE_FORMATS) echo 2047 ;; MANY_CASCADES | BIASES | MATERIALS | OTHER_LIGHTS) echo 3 ;; PICTURES) echo 7 ;; INCREMENTAL | TILE_SIZES | CLIPPING) echo 2 ;; *) echo 1 ;; esac; }
 # Formats of textures, in the order of gn_scene_types.h
 FORMATS="RGBA8888 RGB565 RGB565A1 PALETTE8 PALETTE4 PALETTE1 GREY8 GREY4 ALPHA8 ALPHA4"
 # base FEATURE: what must be built for it to have something to do
 base() {
     case $1 in
-    SHADOWS | PUNCTUAL_LIGHTS | TEXTURE_FORMATS | MATERIALS | VERTEX_* | BAKED | VALIDATION | PICTURES | ALPHA | \
+    SHADOWS | OTHER_LIGHTS | TEXTURE_FORMATS | MATERIALS | VERTEX_* | BAKED | VALIDATION | PICTURES | ALPHA | \
         CLIPPING) echo none ;;
     *) echo shadows ;;
     esac
@@ -39,10 +39,10 @@ without() { for feature in $features; do if [ "$feature" = "$1" ]; then echo "-D
 configurations() {
     echo "none $(with SHADOWS=0)"
     echo "shadows $(with SHADOWS=1)"
-    echo "lights $(with PUNCTUAL_LIGHTS=1)"
+    echo "lights $(with OTHER_LIGHTS=1)"
     echo "filters $(with SHADOWS=5)"
     echo "textures $(with TEXTURE_FORMATS=1)"
-    echo "shadows+lights $(with SHADOWS=1 PUNCTUAL_LIGHTS=1)"
+    echo "shadows+lights $(with SHADOWS=1 OTHER_LIGHTS=1)"
     echo "all $(without nothing)"
     bit=1
     for format in $FORMATS; do
@@ -53,7 +53,7 @@ configurations() {
         value=$(most "$feature")
         case $(base "$feature") in
         none) echo "none+$feature $(with "$feature=$value")" ;;
-        lights) echo "lights+$feature $(with PUNCTUAL_LIGHTS=1 "$feature=$value")" ;;
+        lights) echo "lights+$feature $(with OTHER_LIGHTS=1 "$feature=$value")" ;;
         filters) echo "filters+$feature $(with SHADOWS=5 "$feature=$value")" ;;
         shadows) echo "shadows+$feature $(with SHADOWS=1 "$feature=$value")" ;;
         esac
@@ -143,13 +143,13 @@ tables() {
             print head
             row("none", "none")
             row("shadows", "`shadows` alone, hard")
-            row("lights", "`punctual_lights` alone")
+            row("lights", "`other_lights` 1 alone")
             row("shadows+lights", "both")
             row("all", "all")
             n = split(scenes, scene, " ")
             for (i = 1; i <= n; i++) row("own-" scene[i], scene[i] ", its own")
             print "\n## What each feature costs\n"
-            print "Bytes; *alone*: more than what it stands on (none of the features; `shadows`; `punctual_lights`; `shadows` 5); *of all*: what all of them take more than all but this.\n"
+            print "Bytes; *alone*: more than what it stands on (none of the features; `shadows`; `other_lights` 1; `shadows` 5); *of all*: what all of them take more than all but this.\n"
             print "| feature | alone, over | flash, M0 | flash, M4 | RAM | stack, M4 | of all: flash, M0 | flash, M4 | RAM | stack, M4 |"
             print "| --- | --- | --- | --- | --- | --- | --- | --- | --- | --- |"
             n_features = split(features, feature, " ")

@@ -28,7 +28,8 @@
     defined(GN_CASTER_CLIPPING) || defined(GN_CLIPS) || defined(GN_PICKING) || defined(GN_RAW_VIEWS) ||                \
     defined(GN_ERROR_FIELDS) || defined(GN_FILTER_MAX) || defined(GN_TEXTURES) || defined(GN_AUTO_BIAS) ||             \
     defined(GN_OTHER_BIASES) || defined(GN_SPECULAR) || defined(GN_EMISSIVE) || defined(GN_POSITION_BITS) ||           \
-    defined(GN_NORMAL_BITS) || defined(GN_TILE_DRAWING) || defined(GN_OTHER_FORMATS) || defined(GN_ORTHOGRAPHIC)
+    defined(GN_NORMAL_BITS) || defined(GN_TILE_DRAWING) || defined(GN_OTHER_FORMATS) || defined(GN_ORTHOGRAPHIC) ||    \
+    defined(GN_PUNCTUAL_LIGHTS) || defined(GN_MAIN_LIGHT)
 #error "the configuration sets a knob that is part of another one now: docs/CHANGELOG.md says of which"
 #endif
 
@@ -151,11 +152,8 @@
 #define GN_SHADOWS 6
 #endif
 #endif
-#ifndef GN_PUNCTUAL_LIGHTS
-#define GN_PUNCTUAL_LIGHTS (!GN_COMPACT)
-#endif
-#ifndef GN_MAIN_LIGHT
-#define GN_MAIN_LIGHT (!GN_COMPACT)
+#ifndef GN_OTHER_LIGHTS
+#define GN_OTHER_LIGHTS (GN_COMPACT ? 0 : 3)
 #endif
 #ifndef GN_ALPHA
 #define GN_ALPHA (!GN_COMPACT)
@@ -227,6 +225,8 @@
 #endif
 
 /* What the features above stand for, by parts of the library. */
+#define GN_PUNCTUAL_LIGHTS  ((GN_OTHER_LIGHTS) % 2)
+#define GN_MAIN_LIGHT       ((GN_OTHER_LIGHTS) >= 2)
 #define GN_FILTER_MAX       ((GN_SHADOWS) - ((GN_SHADOWS) > 0))
 #define GN_DISK_FILTER      ((GN_FILTER_MAX) >= 5)
 #define GN_BLENDED_CASCADES ((GN_MANY_CASCADES) >= 2)

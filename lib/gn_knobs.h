@@ -84,8 +84,10 @@
       "shadow maps, and the largest filter built: 0 no shadows, 1 hard, 2 2x2, 3 3x3, 4 5x5, 5 7x7, 6 the rotated "    \
       "disk, too",                                                                                                     \
       "atlas, rasteriser and filters; 6: a table of 256 bytes; 4 bytes of RAM per 64 texels")                          \
-    X(punctual_lights, PUNCTUAL_LIGHTS, 0, 1, "spot and point lights", "flash; the local-light atlas")                 \
-    X(main_light, MAIN_LIGHT, 0, 1, "a main light with cascades; other directional lights take one tile each",         \
+    X(other_lights, OTHER_LIGHTS, 0, 3,                                                                                \
+      "lights of the local-light atlas, the sum: 1 spot and point lights; 2 directional lights beside a main one, "    \
+      "which "                                                                                                         \
+      "alone has cascades: they take one tile each",                                                                   \
       "flash; the local-light atlas")                                                                                  \
     X(alpha, ALPHA, 0, 1, "alpha of surfaces and of casters: clip and dither", "flash")                                \
     X(texture_formats, TEXTURE_FORMATS, 0, 2047,                                                                       \

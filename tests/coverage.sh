@@ -26,7 +26,7 @@ shipped tiny tests/property/test_random.c -DGN_PRESET=GN_PRESET_TINY
 shipped accurate tests/property/test_random.c -DGN_PRESET=GN_PRESET_ACCURATE -DGN_ATLAS_SIZE=128 -DGN_OTHER_ATLAS_SIZE=64 -DGN_INCREMENTAL=2 -DGN_MANY_CASCADES=3
 shipped accurate-defaults tests/unit/test_defaults.c -DGN_PRESET=GN_PRESET_ACCURATE -DGN_ATLAS_SIZE=128 -DGN_OTHER_ATLAS_SIZE=128
 shipped fast tests/property/test_random.c -DGN_CORE_DIVIDES=1 -DGN_PRESET=GN_PRESET_FAST -DGN_ATLAS_SIZE=32 -DGN_OTHER_ATLAS_SIZE=128
-shipped least tests/property/test_random.c -DGN_PRESET=GN_PRESET_TINY -DGN_PUNCTUAL_LIGHTS=0 -DGN_ALPHA=0 -DGN_BIASES=1 \
+shipped least tests/property/test_random.c -DGN_PRESET=GN_PRESET_TINY -DGN_OTHER_LIGHTS=2 -DGN_ALPHA=0 -DGN_BIASES=1 \
     -DGN_SHADOWS=1 -DGN_TEXTURE_FORMATS=1 -DGN_INCREMENTAL=0 -DGN_PICTURES=2 -DGN_BAKED=0
 shipped size-first tests/property/test_random.c -DGN_SIZE_FIRST=1 -DGN_PRESET=GN_PRESET_TINY -DGN_SHORT_VERTICES=3
 shipped capacities tests/property/test_random.c -DGN_PRESET=GN_PRESET_FAST -DGN_MAX_TRIANGLES=12 -DGN_MAX_TILE_REFS=24 -DGN_MAX_OBJECTS=3 -DGN_MAX_LIGHTS=3 \

@@ -19,8 +19,7 @@
 #define GN_SHADOWS          3 /* filters hard, 2x2, 3x3 */
 
 /* What the scene does not use, and what only saves instructions, is not built. */
-#define GN_PUNCTUAL_LIGHTS 0
-#define GN_MAIN_LIGHT      0
+#define GN_OTHER_LIGHTS    0
 #define GN_MANY_CASCADES   1 /* without blending */
 #define GN_ALPHA           0
 #define GN_TEXTURE_FORMATS 0

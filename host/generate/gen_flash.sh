@@ -51,7 +51,7 @@ row() { # row NAME COMMENT FLAGS...: more than the typical build
     shift 2
     echo "FLASH($name, $(($(size cortex-m0 "$@") - m0)), $(($(size cortex-m4 "$@") - m4))) /* $comment */"
 }
-levels() { case $1 in MANY_CASCADES) echo 3 ;; BIASES | MATERIALS | INCREMENTAL | TILE_SIZES | CLIPPING) echo 2 ;; *) echo 1 ;; esac; }
+levels() { case $1 in MANY_CASCADES) echo 3 ;; OTHER_LIGHTS | BIASES | MATERIALS | INCREMENTAL | TILE_SIZES | CLIPPING) echo 2 ;; *) echo 1 ;; esac; }
 without() { # without FEATURE: of the typical ones
     for name in $typical; do [ "$name" = "$1" ] || echo "$name"; done
 }
@@ -64,7 +64,7 @@ for feature in VERTEX_NORMALS; do
     row no_$(echo $feature | tr A-Z a-z) "without" $(flags $(without $feature))
 done
 for level in 1 2 4 5 6; do row shadows_$level "other shadows" $(flags $typical SHADOWS=$level); done
-row punctual_unshadowed "spot and point lights, no shadows: above no_shadows too" $(flags VERTEX_NORMALS PUNCTUAL_LIGHTS)
+row punctual_unshadowed "spot and point lights, no shadows: above no_shadows too" $(flags VERTEX_NORMALS OTHER_LIGHTS)
 for feature in $features; do
     case " SHADOWS $typical " in *" $feature "*) continue ;; esac
     row $(echo $feature | tr A-Z a-z) "with" $(flags $typical $feature)

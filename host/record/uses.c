@@ -3,8 +3,17 @@
 
 #include <string.h>
 
-/* Parts of texture_formats, biases, materials, pictures. */
-enum { LEVELS = 1024, AUTO_BIAS = 1, OTHER_BIASES = 2, SPECULAR = 1, EMISSIVE = 2, ORTHOGRAPHIC = 4 };
+/* Parts of texture_formats, biases, materials, pictures, other_lights. */
+enum {
+    LEVELS = 1024,
+    AUTO_BIAS = 1,
+    OTHER_BIASES = 2,
+    SPECULAR = 1,
+    EMISSIVE = 2,
+    ORTHOGRAPHIC = 4,
+    PUNCTUAL = 1,
+    MAIN_LIGHT = 2
+};
 
 static void use(const uses_list *to, const char *knob, int value, const char *what, uses_owner owner, uint32_t idx)
 {
@@ -13,7 +22,7 @@ static void use(const uses_list *to, const char *knob, int value, const char *wh
 
 int uses_is_sum(const char *knob)
 {
-    static const char *const sums[] = {"texture_formats", "biases", "materials", "pictures"};
+    static const char *const sums[] = {"texture_formats", "biases", "materials", "pictures", "other_lights"};
     for (size_t i = 0; i < sizeof sums / sizeof *sums; i++)
         if (strcmp(knob, sums[i]) == 0) return 1;
     return 0;
@@ -48,7 +57,7 @@ int uses_shadow(const gn_light *light)
 void uses_light(const uses_list *to, const gn_light *light, uint32_t idx, int casts)
 {
     const int32_t *r = light->bias_receiver_q16;
-    if (light->kind != GN_LIGHT_DIRECTIONAL) use(to, "punctual_lights", 1, "light", USES_LIGHT, idx);
+    if (light->kind != GN_LIGHT_DIRECTIONAL) use(to, "other_lights", PUNCTUAL, "light", USES_LIGHT, idx);
     if (casts && uses_shadow(light)) use(to, "shadows", 1, "light", USES_LIGHT, idx);
     if (r[0] || r[1] || r[2] || r[3]) use(to, "biases", OTHER_BIASES, "bias_receiver of light", USES_LIGHT, idx);
     if (light->bias_caster_q16) use(to, "biases", OTHER_BIASES, "bias_caster of light", USES_LIGHT, idx);
@@ -96,7 +105,7 @@ void uses_shadows(const uses_list *to, const gn_scene *scene)
     use_filter(to, s->filter, "the filter of directional lights", USES_SETTING, 0);
     use_filter(to, s->other_filter, "the filter of spot and point lights", USES_SETTING, 0);
     if (s->blend != GN_BLEND_HARD) use(to, "many_cascades", 2, "the setting cascade_blend", USES_SETTING, 0);
-    if (s->main_light) use(to, "main_light", 1, "the setting main_light", USES_SETTING, 0);
+    if (s->main_light) use(to, "other_lights", MAIN_LIGHT, "the setting main_light", USES_SETTING, 0);
     if (s->n_cascades > 1) use(to, "many_cascades", 1, "the setting cascades", USES_SETTING, 0);
     if (s->tile_sizes == GN_TILES_IMPORTANCE) use(to, "tile_sizes", 1, "the setting tiles", USES_SETTING, 0);
     if (s->tile_sizes == GN_TILES_WORTH) use(to, "tile_sizes", 2, "the setting tiles", USES_SETTING, 0);

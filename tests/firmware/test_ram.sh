@@ -75,8 +75,8 @@ predicted() {
 if [ -n "$target" ]; then
     for preset in tiny fast balanced accurate; do
         predicted $preset
-        predicted $preset punctual_lights=1 main_light=0 incremental=0 max_objects=1
-        predicted $preset shadows=0 punctual_lights=0 max_lights=3
+        predicted $preset other_lights=1 incremental=0 max_objects=1
+        predicted $preset shadows=0 other_lights=2 max_lights=3
         predicted $preset srgb=0 texture_formats=0 materials=2 baked=0 alpha=0 shadows=1
         predicted $preset shadows=0
         predicted $preset pictures=15
@@ -85,22 +85,22 @@ if [ -n "$target" ]; then
         predicted $preset vertex_joints=0 texture_formats=1023 biases=2
         predicted $preset incremental=2
         predicted $preset incremental=2 shadows=5
-        predicted $preset punctual_lights=0
-        predicted $preset main_light=0
-        predicted $preset punctual_lights=0 main_light=0
-        predicted $preset punctual_lights=0 main_light=0 shadows=0 max_objects=3 max_lights=1
+        predicted $preset other_lights=2
+        predicted $preset other_lights=1
+        predicted $preset other_lights=0
+        predicted $preset other_lights=0 shadows=0 max_objects=3 max_lights=1
         predicted $preset depth_bits=8 other_depth_bits=32 atlas_size=16 other_atlas_size=512
         predicted $preset depth_bits=32 other_depth_bits=8 atlas_size=32 other_atlas_size=16 incremental=2
         predicted $preset max_width=333 max_height=17 max_triangles=7 max_tile_refs=9 max_lights=3 max_shadow_tiles=16
         predicted $preset max_objects=777 max_other_tiles=13 surface_lights=3 max_shadow_tiles=1 max_lights=5
         predicted $preset max_tile_refs=70001 atlas_size=64 tile_width=72 tile_height=5 max_lights=8
         predicted $preset max_tile_refs=70001 atlas_size=16 tile_width=24 tile_height=1 shadows=0
-        predicted $preset surface_lights=1 baked=0 punctual_lights=0 many_cascades=1 # casting is larger than shading
-        predicted $preset surface_lights=1 baked=0 punctual_lights=0 many_cascades=1 biases=1
-        predicted $preset surface_lights=1 baked=0 punctual_lights=0 many_cascades=1 texture_formats=0 alpha=0
-        predicted $preset surface_lights=1 baked=0 punctual_lights=0 many_cascades=1 texture_formats=0 alpha=0 biases=1
-        predicted $preset surface_lights=1 max_lights=1 shadows=0 baked=0 punctual_lights=0 texture_formats=0 materials=2 vertex_normals=0 vertex_colours=0
-        predicted $preset surface_lights=1 texture_formats=0 materials=2 baked=0 punctual_lights=0 main_light=0 shadows=0 persp_step=1
+        predicted $preset surface_lights=1 baked=0 other_lights=2 many_cascades=1 # casting is larger than shading
+        predicted $preset surface_lights=1 baked=0 other_lights=2 many_cascades=1 biases=1
+        predicted $preset surface_lights=1 baked=0 other_lights=2 many_cascades=1 texture_formats=0 alpha=0
+        predicted $preset surface_lights=1 baked=0 other_lights=2 many_cascades=1 texture_formats=0 alpha=0 biases=1
+        predicted $preset surface_lights=1 max_lights=1 shadows=0 baked=0 other_lights=2 texture_formats=0 materials=2 vertex_normals=0 vertex_colours=0
+        predicted $preset surface_lights=1 texture_formats=0 materials=2 baked=0 other_lights=0 shadows=0 persp_step=1
         predicted $preset triangle_groups=100 max_triangles=333
         predicted $preset triangle_groups=1 max_triangles=8 tile_width=72 tile_height=5 shadows=0 pictures=3
         predicted $preset transparent_layers=2 tile_width=72 tile_height=5
@@ -114,7 +114,7 @@ if [ -n "$target" ]; then
 fi
 # the promise of lib/gnomon.h: directional lights alone, which need no other atlas
 if size_is '<= 74752' -DGN_PRESET=GN_PRESET_BALANCED -DGN_MAX_WIDTH=320 -DGN_MAX_HEIGHT=240 -DGN_ATLAS_SIZE=128 -DGN_MAX_TRIANGLES=500 \
-    -DGN_PUNCTUAL_LIGHTS=0 -DGN_MAIN_LIGHT=0; then pass
+    -DGN_OTHER_LIGHTS=0; then pass
 else fail "preset balanced, 320x240, 500 triangles, directional lights: more than 73 KiB of RAM"; fi
 # what it says of the default configuration, in KB rounded up
 said=$(sed -n 's/.*about \([0-9]*\) KB as configured by default.*/\1/p' lib/gnomon.h)

@@ -43,7 +43,7 @@ done
 for knobs in -O2 "-fsyntax-only -DGN_PRESET=GN_PRESET_ACCURATE -DGN_VALIDATION=0" "-fsyntax-only -DGN_BIASES=0" "-fsyntax-only -DGN_VALIDATION=2"; do
     gcc -std=c99 -pedantic $warn -Ilib -DGN_COMPACT=1 $knobs -c -o "$tmp/warnings.o" lib/gnomon.c 2>"$tmp/log" && pass || fail "$knobs: $(grep -m 1 -E 'error|warning' "$tmp/log")"
 done
-for contradiction in TEXTURE_FORMATS=1 MANY_CASCADES=1 SHADOWS=2 PUNCTUAL_LIGHTS=1 PICTURES=1 INCREMENTAL=1; do
+for contradiction in TEXTURE_FORMATS=1 MANY_CASCADES=1 SHADOWS=2 OTHER_LIGHTS=1 PICTURES=1 INCREMENTAL=1; do
     gcc -std=c99 -w -Ilib -DGN_COMPACT=1 -DGN_$contradiction -fsyntax-only lib/frame/gn_frame.c 2>"$tmp/log" && fail "compact builds with $contradiction"
     grep -q 'error.*compact_' "$tmp/log" && pass || fail "$contradiction: the message does not name compact: $(grep -m 1 error "$tmp/log")"
 done
@@ -55,7 +55,7 @@ refused() { # refused MESSAGE SCENE OPTIONS...
     grep -q "$message" "$tmp/log" && pass || fail "$scene, compact=1 $*: $(cat "$tmp/log")"
 }
 refused "'texture_formats': 0, and the texture of object 'cube'" cube
-refused "'punctual_lights': 0, and spot light 'lamp'" desk
+refused "'other_lights': 0, and spot light 'lamp'" desk
 refused 'lights: 5, and compact arithmetic has one' mixed
 refused 'atlas_size 512, and .* up to 256' fence
 refused 'picture has 320x240, .* up to 256x256' sundial --size 320x240

@@ -122,7 +122,7 @@ static void use_lights(int variant)
     lights[3].position_q16[2] = GN_Q16(1.5);
     lights[3].range_q16 = variant % 2 ? GN_UQ16(9) : 0;
     demo.scene.lights = lights;
-    demo.scene.n_lights = use.punctual_lights ? LIGHTS : 2;
+    demo.scene.n_lights = use.other_lights & 1 ? LIGHTS : 2;
     for (uint32_t i = 1; i < demo.scene.n_lights; i++)
         for (int k = 0; k < 3; k++) lights[i].colour_uq16[k] *= i < 2 ? 1U : 3U;
 }
@@ -201,7 +201,7 @@ static void use_shadow_settings(int variant)
     s->disk_samples = 12;
     s->mixing = use.baked ? (gn_mixing)(variant % 3) : GN_MIXING_NONE;
     s->tile_sizes = use.tile_sizes && variant % 2 ? GN_TILES_IMPORTANCE : GN_TILES_EQUAL;
-    s->main_light = use.main_light && variant > 1;
+    s->main_light = (use.other_lights & 2) && variant > 1;
     s->caster_culling = 1;
     s->object_lights = (uint32_t)variant % 3;
     s->n_cascades =
@@ -498,7 +498,7 @@ int main(int argc, char **argv)
     }
     for (int i = 1; i < argc; i++) use_flag(argv[i]);
     int failed = pictures(use.pictures & 9 ? GN_FORMAT_RGB888 : GN_FORMAT_RGB565_SWAPPED, GN_VIEW_COLOUR, 0);
-    for (uint8_t l = 0; !failed && use.pictures >= 8 && l < (use.punctual_lights ? LIGHTS : 2); l++)
+    for (uint8_t l = 0; !failed && use.pictures >= 8 && l < (use.other_lights & 1 ? LIGHTS : 2); l++)
         failed = pictures(GN_FORMAT_RAW32, GN_VIEW_SHADOW, l);
     if (!failed && argc == 1 && GN_VALIDATION) refuse();
     return failed;

@@ -27,7 +27,7 @@ most() {
     case $1 in
     SHADOWS) echo 6 ;;
     VERTEX_JOINTS) echo 4 ;;
-    MANY_CASCADES | BIASES | MATERIALS) echo 3 ;;
+    MANY_CASCADES | BIASES | MATERIALS | OTHER_LIGHTS) echo 3 ;;
     INCREMENTAL | TILE_SIZES | CLIPPING) echo 2 ;;
     TEXTURE_FORMATS) echo 2047 ;;
     PICTURES) echo 15 ;;
@@ -62,7 +62,7 @@ pairs() {
     for feature in $features; do
         value=$(most "$feature")
         case $feature in
-        *CASC* | *BIAS* | MAIN* | INCREM* | TILE_S* | OBJECT_B*)
+        *CASC* | *BIAS* | INCREM* | TILE_S* | OBJECT_B*)
             idle="$idle $feature=$value"
             more "none SHADOWS=1 $feature=$value" ;;
         *) more "none $feature=$value" ;;
@@ -76,12 +76,12 @@ pairs() {
         more "none SHADOWS=1 TEXTURE_FORMATS=1023 $cut=1"
         more "all TEXTURE_FORMATS=0 ALPHA=0 BAKED=0 $cut=1"
     done
-    for level in TEXTURE_FORMATS=1023 MANY_CASCADES=1 MANY_CASCADES=2 TILE_SIZES=1 INCREMENTAL=1 PICTURES=1 PICTURES=6 SHADOWS=5 BIASES=1 BIASES=2 MATERIALS=1 MATERIALS=2; do echo "all $level"; done
+    for level in TEXTURE_FORMATS=1023 MANY_CASCADES=1 MANY_CASCADES=2 TILE_SIZES=1 INCREMENTAL=1 PICTURES=1 PICTURES=6 SHADOWS=5 OTHER_LIGHTS=1 OTHER_LIGHTS=2 BIASES=1 BIASES=2 MATERIALS=1 MATERIALS=2; do echo "all $level"; done
     echo "none SHADOWS=1"
-    more "none SHADOWS=1 PUNCTUAL_LIGHTS=1"
-    more "none SHADOWS=1 PUNCTUAL_LIGHTS=1 MAIN_LIGHT=1 BIASES=2"
-    more "all PUNCTUAL_LIGHTS=0 MANY_CASCADES=1"
-    echo "all PUNCTUAL_LIGHTS=0 MAIN_LIGHT=0"
+    more "none SHADOWS=1 OTHER_LIGHTS=1"
+    more "none SHADOWS=1 OTHER_LIGHTS=3 BIASES=2"
+    more "all OTHER_LIGHTS=2 MANY_CASCADES=1"
+    echo "all OTHER_LIGHTS=0"
     more "none SHADOWS=1 INCREMENTAL=2"
     for level in 1 2 3 4; do # with what builds upon kernels
         $([ $level = 2 ] && echo echo || echo more) "all SHADOWS=$level BIASES=$((level % 2 ? 1 : 3))"
@@ -89,12 +89,12 @@ pairs() {
     for bits in "8 32" "16 8" "32 16"; do
         echo "DEPTH_BITS=${bits% *} OTHER_DEPTH_BITS=${bits#* } SHADOWS=$((5 + ${bits% *} / 16 % 2))"
     done
-    more "PUNCTUAL_LIGHTS=0 MAIN_LIGHT=0 DEPTH_BITS=8"
+    more "OTHER_LIGHTS=0 DEPTH_BITS=8"
     more "EDGE=4"
     more "tiny all EDGE=8 DEPTH_BITS=32"
-    echo "fast EDGE=1 PUNCTUAL_LIGHTS=0 BIASES=1"
+    echo "fast EDGE=1 OTHER_LIGHTS=2 BIASES=1"
     more "accurate EDGE=3 SHADOWS=1"
-    more "PUNCTUAL_LIGHTS=0 MAIN_LIGHT=0 DEPTH_BITS=32 INCREMENTAL=2"
+    more "OTHER_LIGHTS=0 DEPTH_BITS=32 INCREMENTAL=2"
     echo "OTHER_ATLAS_SIZE=32 ATLAS_SIZE=64 TILE_WIDTH=32 TILE_HEIGHT=5"
     echo "TRIANGLE_GROUPS=64 MAX_TRIANGLES=400 MAX_TILE_REFS=1"
     echo "TRANSPARENT_LAYERS=1 TEXTURE_FORMATS=0 SIZE_FIRST=1"
@@ -114,7 +114,7 @@ pairs() {
     more "-m32 none"
     echo "-m32 all"
     more "-m32 all SHADOWS=0"
-    more "-m32 all PUNCTUAL_LIGHTS=0 DEPTH_BITS=32"
+    more "-m32 all OTHER_LIGHTS=2 DEPTH_BITS=32"
     echo "RUNTIME_KNOBS=1"
     more "RUNTIME_KNOBS=1 SHADOWS=0"
     more "RUNTIME_KNOBS=1 SHADOWS=1"
@@ -218,7 +218,7 @@ refused triangle_groups_have_up_to_128 "-DGN_TRIANGLE_GROUPS=1 -DGN_TILE_HEIGHT=
 for gone in TILE_LIGHTS LINEAR_KERNELS DEPTH_BLOCKS ATTEN_BITS NEWTON_STEPS SHADOW_DEPTH_FRAC SHADOW_SUBPIXEL_BITS WEIGHT_BITS VERTEX_CACHE; do refused "knob that is gone" "-DGN_$gone=0"; done
 for part in CASTER_ALPHA VISIBLE_ALPHA EMISSIVE_TEXTURES MASKS BAKED_LIGHT RECEIVER_BIAS CASTER_BIAS RECEIVER_PLANE BLENDED_CASCADES CASTER_CULLING DISK_FILTER \
     TEXTURE_LEVELS STATIC_LAYER TILE_IMPORTANCE TIGHT_FIT CASTER_CLIPPING CLIPS PICKING RAW_VIEWS ERROR_FIELDS FILTER_MAX TEXTURES AUTO_BIAS OTHER_BIASES SPECULAR EMISSIVE POSITION_BITS NORMAL_BITS TILE_DRAWING \
-    OTHER_FORMATS ORTHOGRAPHIC; do
+    OTHER_FORMATS ORTHOGRAPHIC PUNCTUAL_LIGHTS MAIN_LIGHT; do
     refused "part of another one" "-DGN_$part=0"
 done
 refused transparent_layers_need_alpha "-DGN_TRANSPARENT_LAYERS=1 -DGN_ALPHA=0"
@@ -403,7 +403,7 @@ full GN_ERR_TRIANGLES_FULL GN_MAX_TRIANGLES 3
 full GN_ERR_TRIANGLES_FULL GN_MAX_TRIANGLES 1 TRIANGLE_GROUPS=8
 full GN_ERR_TILE_REFS_FULL GN_MAX_TILE_REFS 3
 full GN_ERR_TOO_MANY_OBJECTS GN_MAX_OBJECTS 1
-full GN_ERR_TOO_MANY_LIGHTS GN_MAX_LIGHTS 1 PUNCTUAL_LIGHTS=0
+full GN_ERR_TOO_MANY_LIGHTS GN_MAX_LIGHTS 1 OTHER_LIGHTS=2
 full GN_ERR_SURFACE_LIGHTS GN_SURFACE_LIGHTS 1
 # texels come in blocks of 64: as many as are needed, and a block less
 for macro in GN_ATLAS_TEXELS GN_OTHER_ATLAS_TEXELS; do

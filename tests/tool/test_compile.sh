@@ -263,7 +263,7 @@ has far CLIPPING 2
 # a lamp that reaches nothing, a sun whose shadow is nowhere: neither its kind nor its atlas is in the image
 same lamp docs/scenes/near.gltf 0 "" --size 96x64 --set add_light=point --set range@1=0.01
 leaves lamp "lights that reach nothing: '"
-grep -q '^#define GN_PUNCTUAL_LIGHTS *0 ' "$tmp/lamp/gn_scene_config.h" && pass || fail "lamp: punctual lights are built"
+grep -q '^#define GN_OTHER_LIGHTS *0 ' "$tmp/lamp/gn_scene_config.h" && pass || fail "lamp: punctual lights are built"
 same suns docs/scenes/near.gltf 0 "" --size 96x64 --set max_distance=0.5
 leaves suns "shadows of lights that no frame shows"
 grep -q '^#define GN_SHADOWS *0 ' "$tmp/suns/gn_scene_config.h" && pass || fail "suns: shadows are built"

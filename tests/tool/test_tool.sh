@@ -533,8 +533,8 @@ for command in info compare; do
     bad 1 "many_cascades.*soft" $command "$cube" --size 8x8 --set cascades=2 --set cascade_blend=soft --set many_cascades=1
     bad 1 "shadows.*other_filter" $command "$cube" --size 8x8 --set other_filter=disk --set shadows=5
     bad 1 "setting 'kernel' is gone: .*tents" $command "$cube" --size 8x8 --set kernel=linear
-    bad 1 "punctual_lights.*spot light" $command "$cube" --size 8x8 --set lights=spot --set punctual_lights=0
-    bad 1 "punctual_lights.*point light" $command "$cube" --size 8x8 --set add_light=point --set punctual_lights=0
+    bad 1 "other_lights.*spot light" $command "$cube" --size 8x8 --set lights=spot --set other_lights=0
+    bad 1 "other_lights.*point light" $command "$cube" --size 8x8 --set add_light=point --set other_lights=0
     bad 1 "shadows.*soft light.*4" $command "$cube" --size 8x8 --set softness=soft --set shadows=3
     bad 1 "biases.*bias_receiver" $command "$cube" --size 8x8 --set bias_receiver=0,0,0,1 --set biases=1
     bad 1 "biases.*bias_caster" $command "$cube" --size 8x8 --set bias_caster=1 --set biases=1
@@ -700,7 +700,7 @@ light 'a directional light' '"kind": "directional", "mode": "realtime", "shadow"
 light 'a spot light' '"kind": "spot", "mode": "realtime", "shadow": "realtime", "tiles": 1, "tile_texels": 16}'
 light 'a point light' '"kind": "point", "mode": "realtime", "shadow": "realtime", "tiles": 6, "tile_texels": 16}'
 light 'a light without a shadow' '"kind": "spot", "mode": "realtime", "shadow": "not_wanted", "tiles": 0, "tile_texels": 0}'
-light 'what it needs' '"needs": {[^}]*"punctual_lights": 1'
+light 'what it needs' '"needs": {[^}]*"other_lights": 1'
 light 'the tiles of each atlas' '"shadow_tiles": 2, "other_tiles": 7'
 good info "$cube" --size 16x12 --json --set lights=point,point,point,spot,spot --set mode@3=baked --set other_atlas_size=64 --set tiles=equal
 light 'a spot light after it' '"kind": "spot", "mode": "realtime", "shadow": "realtime", "tiles": 1, "tile_texels": 16}'
@@ -709,7 +709,7 @@ light 'a baked light' '"kind": "spot", "mode": "baked", "shadow": "not_wanted", 
 light 'lights without room' '"other_tiles": 13.*"lights_without_room": 1'
 good info "$cube" --size 16x12 --set lights=spot,point,point,point --set other_atlas_size=64 --set tiles=equal --set fit=stable
 grep -q "3 'point': point, no room for its shadow" "$tmp/out" && grep -q "0 'spot': spot, 1 shadow tile of 16x16" "$tmp/out" && pass || fail "info does not say which light got a tile"
-grep -q 'needs:.* punctual_lights' "$tmp/out" && pass || fail "info does not name punctual_lights"
+grep -q 'needs:.* other_lights' "$tmp/out" && pass || fail "info does not name other_lights"
 good info host/scenes/mixed.gltf --set preset=balanced
 grep -q "'moon': directional, mixed, shadow tiles of [0-9]*x[0-9]* (worth [0-9]* pixels; turned by [1-7]/32 about the light)" "$tmp/out" && pass || fail "info does not say why a tile is as large and turned"
 good info host/scenes/mixed.gltf --size 64x48 --orbit 0,0,4 --set cascade_ratios=1 --set range@1=0.01
@@ -727,7 +727,7 @@ bad 1 'shadow tiles take more texels than .*: 384 needed, 320 available' info ho
 good info host/scenes/mixed.gltf --set preset=balanced --set tiles=equal --json
 light 'a fitted tile' '"tile_list": \[{"texels": [0-9]*, "rows": [0-9]*, "worth_px": [0-9]*, "turn": [1-7]}'
 good info "$cube" --size 16x12
-grep -q 'needs:.* punctual_lights' "$tmp/out" && fail "info names punctual_lights without a need" || pass
+grep -q 'needs:.* other_lights' "$tmp/out" && fail "info names other_lights without a need" || pass
 
 # Settings that a light of its kind has no use for.
 useless() { # useless LIGHTS SETTING PATTERN: render and compare say so, info lists it

@@ -82,7 +82,7 @@ static void choose_capacities(compiled *c)
 static void shrink_atlases(compiled *c)
 {
     settings *s = &c->set;
-    bool other = s->feature.punctual_lights || s->feature.main_light;
+    bool other = s->feature.other_lights;
     if (!s->feature.shadows || !other) return;
     const settings_demand d = demand_of(c);
     if (!d.shadow_tiles) {
@@ -127,8 +127,7 @@ static void use_nothing(compiled *c)
 {
 #define NOTHING(name) (c->set.feature.name = 0, because(c, #name, "nothing uses it"))
     NOTHING(shadows);
-    NOTHING(punctual_lights);
-    NOTHING(main_light);
+    NOTHING(other_lights);
     NOTHING(many_cascades);
     NOTHING(tile_sizes);
     NOTHING(alpha);

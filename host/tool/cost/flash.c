@@ -35,8 +35,8 @@ static long of_filter(const settings *s, flash_core core)
 static long of_shadows(const settings *s, flash_core core)
 {
     long bytes = of_filter(s, core);
-    if (s->feature.punctual_lights) bytes += punctual_lights_bytes[core];
-    if (s->feature.main_light) bytes += main_light_bytes[core];
+    if (s->feature.other_lights % 2) bytes += other_lights_bytes[core];
+    if (s->feature.other_lights >= 2) bytes += other_lights_2_bytes[core];
     if (s->feature.biases >= 2) bytes += biases_2_bytes[core];
     if (s->quality.edge) bytes += edge_bytes[core];
     if (s->feature.biases % 2) bytes += biases_bytes[core];
@@ -52,7 +52,7 @@ static long of_shadows(const settings *s, flash_core core)
 static long of_no_shadows(const settings *s, flash_core core)
 {
     long bytes = s->quality.persp_step == 1 ? accurate_unshadowed_bytes[core] : no_shadows_bytes[core];
-    if (s->feature.punctual_lights) bytes += punctual_unshadowed_bytes[core] - no_shadows_bytes[core];
+    if (s->feature.other_lights % 2) bytes += punctual_unshadowed_bytes[core] - no_shadows_bytes[core];
     return bytes;
 }
 

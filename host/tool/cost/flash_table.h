@@ -8,8 +8,8 @@ FLASH(shadows_4, 0, 0) /* other shadows */
 FLASH(shadows_5, 0, 8) /* other shadows */
 FLASH(shadows_6, 2376, 2160) /* other shadows */
 FLASH(punctual_unshadowed, -18280, -17560) /* spot and point lights, no shadows: above no_shadows too */
-FLASH(punctual_lights, 18360, 16908)       /* with */
-FLASH(main_light, 368, 336)                /* with */
+FLASH(other_lights, 18360, 16908)       /* with */
+FLASH(other_lights_2, 368, 336)                /* with 2 */
 FLASH(alpha, 728, 644)                     /* with */
 FLASH(texture_formats, 4420, 4016)                /* with */
 FLASH(texture_formats_1025, 6308, 5812)              /* with 1025 */

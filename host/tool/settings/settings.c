@@ -136,6 +136,7 @@ static const char *why_gone(const char *key)
         {"size_first", "follows from the compiler: 1 with -Os"},
         {"baked_light", "baked has it"},
         {"other_biases", "biases=2 has it"},
+        {"punctual_lights", "other_lights=1 has it"},
         {"receiver_bias", "biases=2 has it"},
         {"caster_bias", "biases=2 has it"},
         {"specular", "materials=1 has it"},
@@ -175,16 +176,12 @@ int settings_apply(settings *out, scene *s, const char *key, const char *value, 
     if ((taken = apply_own(out, s, key, value, error, error_bytes))) return taken < 0 ? -1 : 0;
     const char *at = strchr(key, '@');
     if (at) return apply_to_light(s, key, at, value, error, error_bytes);
-    /* main_light is built and used, or neither: a knob and a setting
-     * of the scene at once */
-    const bool is_knob = settings_is_knob(key);
-    if ((taken = settings_apply_scene(s, key, SCENE_NONE, value, error, error_bytes)) < 0) return -1;
-    if (is_knob) {
+    if ((taken = settings_apply_scene(s, key, SCENE_NONE, value, error, error_bytes))) return taken < 0 ? -1 : 0;
+    if (settings_is_knob(key)) {
         if (settings_apply_knob(out, key, value, error, error_bytes)) return -1;
         if (out->build.compact && strcmp(key, "compact") == 0) settings_compact_scene(s);
         return 0;
     }
-    if (taken) return 0;
     return unknown(key, error, error_bytes);
 }
 

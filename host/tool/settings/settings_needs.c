@@ -61,7 +61,7 @@ static void needs_of_shadows(need_list *list, const scene *s)
     needs_of_filter(list, "other_filter", s->shadow.other_filter);
     if (s->shadow.blend != SCENE_BLEND_HARD)
         need(list, "many_cascades", 2, "cascade_blend %s", settings_blend_names[s->shadow.blend]);
-    if (s->shadow.main_light) need(list, "main_light", 1, "main_light 1");
+    if (s->shadow.main_light) need(list, "other_lights", 2, "main_light 1");
     if (s->shadow.n_cascades > 1) need(list, "many_cascades", 1, "cascades %d", s->shadow.n_cascades);
     if (s->shadow.caster_culling) need(list, "many_cascades", 3, "caster_culling 1");
     if (s->shadow.tiles == SCENE_TILES_IMPORTANCE) need(list, "tile_sizes", 1, "tiles importance");
@@ -83,8 +83,8 @@ static void needs_of_light(need_list *list, const scene *s, const scene_light *l
 {
     bool biased = false;
     for (int i = 0; i < 4; i++) biased |= l->bias_receiver[i] > 0;
-    if (l->kind == SCENE_LIGHT_SPOT) need(list, "punctual_lights", 1, "spot light '%s'", l->name);
-    if (l->kind == SCENE_LIGHT_POINT) need(list, "punctual_lights", 1, "point light '%s'", l->name);
+    if (l->kind == SCENE_LIGHT_SPOT) need(list, "other_lights", 1, "spot light '%s'", l->name);
+    if (l->kind == SCENE_LIGHT_POINT) need(list, "other_lights", 1, "point light '%s'", l->name);
     if (biased) need(list, "biases", 2, "bias_receiver of light '%s'", l->name);
     if (l->bias_caster > 0) need(list, "biases", 2, "bias_caster of light '%s'", l->name);
     if (l->receiver_plane) need(list, "biases", 2, "receiver_plane of light '%s'", l->name);
@@ -153,15 +153,13 @@ bool settings_casts(const scene *s)
 void settings_trim(settings *set, const scene *s)
 {
     settings_need needs[SETTINGS_NEEDS_MAX];
-    bool shadows = settings_shadow_lights(s) > 0 && settings_casts(s), punctual = false, main_light = false;
+    const bool shadows = settings_shadow_lights(s) > 0 && settings_casts(s);
+    int other = 0;
     int n = settings_needs(s, shadows, needs);
-    for (int i = 0; i < n; i++) {
-        punctual |= strcmp(needs[i].knob, "punctual_lights") == 0;
-        main_light |= strcmp(needs[i].knob, "main_light") == 0;
-    }
+    for (int i = 0; i < n; i++)
+        if (strcmp(needs[i].knob, "other_lights") == 0) other = needs[i].value;
     if (!shadows) set->feature.shadows = 0;
-    if (!punctual) set->feature.punctual_lights = 0;
-    if (!main_light) set->feature.main_light = 0;
+    set->feature.other_lights &= other;
     if (s->shadow.fit == SCENE_FIT_STABLE && s->shadow.tiles != SCENE_TILES_WORTH)
         set->feature.tile_sizes = s->shadow.tiles == SCENE_TILES_IMPORTANCE;
 }

@@ -33,7 +33,7 @@ static long put_atlas(layout *l, const settings *s, long side, long texels, long
 /* GN_VIEWS_MAX */
 static long n_views(const settings *s)
 {
-    int other = s->feature.punctual_lights || s->feature.main_light;
+    int other = s->feature.other_lights > 0;
     return s->capacity.max_shadow_tiles + (other ? s->capacity.max_other_tiles : 0);
 }
 
@@ -50,7 +50,7 @@ static void put_views(layout *l, const settings *s)
 /* gn_frame from its memory of tiles on */
 static void put_shadows(layout *l, const settings *s, settings_ram_parts *r)
 {
-    const int other = s->feature.punctual_lights || s->feature.main_light;
+    const int other = s->feature.other_lights > 0;
     const long views = n_views(s);
     if (s->feature.incremental) put(l, 2 * views + 1, 8, 8); /* memory, layout */
     r->atlas = put_atlas(l, s, s->quality.atlas_size, s->capacity.atlas_texels, s->quality.depth_bits);
@@ -91,7 +91,7 @@ static long corner_bytes(const settings *s)
     if (s->feature.texture_formats) put(&all, 2, 4, 4);
     if (s->feature.baked) put(&all, 2, 4, 4);
     if (s->feature.vertex_normals) put(&all, 3, 4, 4);
-    if (s->feature.punctual_lights) put(&all, 3, 4, 4);
+    if (s->feature.other_lights % 2) put(&all, 3, 4, 4);
     put(&all, s->capacity.surface_lights, light.size, 4);
     return all.size;
 }
@@ -145,11 +145,11 @@ static long drawing_bytes(const settings *s)
 static long lattice_bytes(const settings *s)
 {
     layout all = {0, 4};
-    put(&all, 1, 256, 4);                                                      /* span to plane */
-    if (s->feature.shadows) put(&all, 22, 4, 4);                               /* matrix */
-    if (s->feature.shadows && s->feature.punctual_lights) put(&all, 8, 68, 4); /* forms */
-    put(&all, s->capacity.surface_lights, 12, 4);                              /* light */
-    put(&all, 1, 200, 4);                                                      /* face_q30 to bits */
+    put(&all, 1, 256, 4);                                                       /* span to plane */
+    if (s->feature.shadows) put(&all, 22, 4, 4);                                /* matrix */
+    if (s->feature.shadows && s->feature.other_lights % 2) put(&all, 8, 68, 4); /* forms */
+    put(&all, s->capacity.surface_lights, 12, 4);                               /* light */
+    put(&all, 1, 200, 4);                                                       /* face_q30 to bits */
     if (s->feature.shadows && (s->feature.biases >= 2 || s->quality.edge))
         put(&all, 4, 4, 4); /* slope_view to slope_h_q14 */
     const long corners = 12 * corner_bytes(s), patch = patch_bytes(s);
@@ -171,9 +171,9 @@ static long lattice_bytes(const settings *s)
 static void put_work(layout *out, const settings *s)
 {
     layout surface = {0, 8}, all = {0, 8};
-    int per_light = (s->feature.shadows && s->feature.many_cascades > 1) || s->feature.punctual_lights ? 7
-                    : s->feature.shadows                                                               ? 4
-                                                                                                       : 1;
+    int per_light = (s->feature.shadows && s->feature.many_cascades > 1) || s->feature.other_lights % 2 ? 7
+                    : s->feature.shadows                                                                ? 4
+                                                                                                        : 1;
     long values = (s->feature.texture_formats ? 2 : 0) + (s->feature.baked ? 4 : 0) + (s->feature.baked ? 3 : 0) + 5 +
                   (long)per_light * s->capacity.surface_lights;
     put(&surface, 1, s->feature.pictures & 4 ? 244 : 200, 8); /* object to the colours of attribute_q16 */
@@ -191,7 +191,7 @@ static void put_work(layout *out, const settings *s)
     put(&all, 1, 128, 4); /* cache */
     put(&all, 1, surface.size, 8);
     put(&all, 8, 4, 4); /* tri to radiance_q20 */
-    long incident = s->feature.punctual_lights ? s->capacity.surface_lights : 0;
+    long incident = s->feature.other_lights % 2 ? s->capacity.surface_lights : 0;
     incident *= s->feature.shadows ? 20 : 8;
     put(&all, 1, 28 + 4 * values + incident + (s->feature.materials % 2 ? 24 : 0), 4); /* sample */
     if (s->quality.transparent_layers) put(&all, 4, 4, 4);                             /* mixture */
@@ -200,7 +200,7 @@ static void put_work(layout *out, const settings *s)
         put(&all, 1, lattice_bytes(s), 8);
     }
     pad(&all, all.align);
-    const long casting = casting_bytes(s), clipping = 264, seen = s->feature.punctual_lights ? 1008 : 988;
+    const long casting = casting_bytes(s), clipping = 264, seen = s->feature.other_lights % 2 ? 1008 : 988;
     long largest = casting > clipping ? casting : clipping;
     if (s->feature.shadows && s->feature.tile_sizes > 1 && seen > largest) largest = seen;
     put(out, 1, all.size > largest ? all.size : largest, 8);
@@ -243,7 +243,7 @@ settings_ram_parts settings_ram(const settings *s)
     long tile_w = s->quality.tile_width, tile_h = s->quality.tile_height;
     long tiles = ((s->capacity.max_width + tile_w - 1) / tile_w) * ((s->capacity.max_height + tile_h - 1) / tile_h);
     long offset = s->capacity.max_tile_refs > 65535 ? 4 : 2;
-    int punctual = s->feature.punctual_lights;
+    int punctual = s->feature.other_lights % 2;
     const long groups = s->quality.triangle_groups;
     const int fits = s->feature.shadows && s->feature.tile_sizes > 1;
     put(&frame, 1, (s->feature.pictures & 4 ? 260 : 252) + (groups ? 4 : 0) + (fits ? 4 : 0), 8); /* scene to detail */

@@ -91,7 +91,7 @@ static const scene_knob scene_knobs[] = {
      "tiles of directional lights cover their cascade's sphere (D2), or what is visible where something casts (D12); "
      "compiled: in boxes for the whole animation"},
     SHADOW_("main_light", SWITCH, main_light, 0, 1,
-            "only the brightest directional light has cascades, others one tile each (D10); also the feature"),
+            "only the brightest directional light has cascades, others one tile each (D10)"),
     SHADOW_("caster_culling", SWITCH, caster_culling, 0, 1,
             "casters whose shadows lie wholly in a smaller cascade are not drawn into larger ones (D8)"),
     LIGHT_("shadow", SWITCH, shadow, 0, 1, "the light requests a shadow"),
