@@ -29,7 +29,7 @@
     defined(GN_ERROR_FIELDS) || defined(GN_FILTER_MAX) || defined(GN_TEXTURES) || defined(GN_AUTO_BIAS) ||             \
     defined(GN_OTHER_BIASES) || defined(GN_SPECULAR) || defined(GN_EMISSIVE) || defined(GN_POSITION_BITS) ||           \
     defined(GN_NORMAL_BITS) || defined(GN_TILE_DRAWING) || defined(GN_OTHER_FORMATS) || defined(GN_ORTHOGRAPHIC) ||    \
-    defined(GN_PUNCTUAL_LIGHTS) || defined(GN_MAIN_LIGHT)
+    defined(GN_PUNCTUAL_LIGHTS) || defined(GN_MAIN_LIGHT) || defined(GN_VERTEX_NORMALS) || defined(GN_VERTEX_COLOURS)
 #error "the configuration sets a knob that is part of another one now: docs/CHANGELOG.md says of which"
 #endif
 
@@ -173,11 +173,8 @@
 #ifndef GN_INCREMENTAL
 #define GN_INCREMENTAL (!GN_COMPACT)
 #endif
-#ifndef GN_VERTEX_NORMALS
-#define GN_VERTEX_NORMALS (!GN_COMPACT)
-#endif
-#ifndef GN_VERTEX_COLOURS
-#define GN_VERTEX_COLOURS (!GN_COMPACT)
+#ifndef GN_VERTEX_VALUES
+#define GN_VERTEX_VALUES (GN_COMPACT ? 0 : 3)
 #endif
 #ifndef GN_VERTEX_JOINTS
 #define GN_VERTEX_JOINTS (GN_COMPACT ? 0 : 4)
@@ -249,6 +246,8 @@
 #define GN_CASTER_BIAS      (GN_OTHER_BIASES)
 #define GN_RECEIVER_PLANE   (GN_OTHER_BIASES)
 #define GN_CASTER_CLIPPING  ((GN_CLIPPING) >= 2)
+#define GN_VERTEX_NORMALS   ((GN_VERTEX_VALUES) % 2)
+#define GN_VERTEX_COLOURS   ((GN_VERTEX_VALUES) >= 2)
 #define GN_TILE_DRAWING     ((GN_PICTURES) / 2 % 2)
 #define GN_ORTHOGRAPHIC     ((GN_PICTURES) / 4 % 2)
 #define GN_RAW_VIEWS        ((GN_PICTURES) >= 8)

@@ -112,8 +112,8 @@
       "1: shadow tiles are kept from frame to frame while nothing in them changes; 2: also static casters apart from " \
       "moving ones; a single picture does not show it",                                                                \
       "16 bytes per tile; 2: the RAM of the atlases twice; the same picture with and without")                         \
-    X(vertex_normals, VERTEX_NORMALS, 0, 1, "interpolated vertex normals", "flash; a reciprocal root per sample")      \
-    X(vertex_colours, VERTEX_COLOURS, 0, 1, "interpolated vertex colours", "flash; three multiplications per sample")  \
+    X(vertex_values, VERTEX_VALUES, 0, 3, "values of vertices that are interpolated, the sum: 1 normals; 2 colours",   \
+      "flash; 1: a reciprocal root per sample; 2: three multiplications per sample")                                   \
     X(vertex_joints, VERTEX_JOINTS, 0, 4, "skins: the most joints that move a vertex; 0: no skins",                    \
       "flash; vertices of skinned objects are blended once for their box, and each time they are transformed")         \
     X(validation, VALIDATION, 0, 2,                                                                                    \

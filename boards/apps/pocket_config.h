@@ -27,6 +27,5 @@
 #define GN_BAKED           0
 #define GN_BIASES          0
 #define GN_INCREMENTAL     0
-#define GN_VERTEX_NORMALS  0
-#define GN_VERTEX_COLOURS  0
+#define GN_VERTEX_VALUES   0
 #define GN_PICTURES        0

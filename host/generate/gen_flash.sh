@@ -32,7 +32,7 @@ fi
 
 features=$(sed -n '/GN_FEATURE_KNOBS/,$s/^    X([a-z_0-9]*, \([A-Z_0-9]*\), .*/\1/p' lib/gn_knobs.h)
 # One directional light with a filtered shadow on smooth meshes
-typical="SHADOWS=3 VERTEX_NORMALS"
+typical="SHADOWS=3 VERTEX_VALUES"
 # flags NAME...: these features
 flags() {
     for feature in $features; do
@@ -52,19 +52,14 @@ row() { # row NAME COMMENT FLAGS...: more than the typical build
     echo "FLASH($name, $(($(size cortex-m0 "$@") - m0)), $(($(size cortex-m4 "$@") - m4))) /* $comment */"
 }
 levels() { case $1 in MANY_CASCADES) echo 3 ;; OTHER_LIGHTS | BIASES | MATERIALS | INCREMENTAL | TILE_SIZES | CLIPPING) echo 2 ;; *) echo 1 ;; esac; }
-without() { # without FEATURE: of the typical ones
-    for name in $typical; do [ "$name" = "$1" ] || echo "$name"; done
-}
 
 m0=$(size cortex-m0 $(flags $typical)) m4=$(size cortex-m4 $(flags $typical))
 echo "/* Made by host/generate/gen_flash.sh with $(arm-none-eabi-gcc -dumpversion). Bytes of flash: on Cortex-M0, on Cortex-M4. */"
-echo "FLASH(typical, $m0, $m4) /* shadows 3, vertex_normals, preset balanced */"
-row no_shadows "without shadows, and what is of shadows" $(flags VERTEX_NORMALS)
-for feature in VERTEX_NORMALS; do
-    row no_$(echo $feature | tr A-Z a-z) "without" $(flags $(without $feature))
-done
+echo "FLASH(typical, $m0, $m4) /* shadows 3, vertex_values 1, preset balanced */"
+row no_shadows "without shadows, and what is of shadows" $(flags VERTEX_VALUES)
+for level in 0 3; do row vertex_values_$level "with $level" $(flags $typical VERTEX_VALUES=$level); done
 for level in 1 2 4 5 6; do row shadows_$level "other shadows" $(flags $typical SHADOWS=$level); done
-row punctual_unshadowed "spot and point lights, no shadows: above no_shadows too" $(flags VERTEX_NORMALS OTHER_LIGHTS)
+row punctual_unshadowed "spot and point lights, no shadows: above no_shadows too" $(flags VERTEX_VALUES OTHER_LIGHTS)
 for feature in $features; do
     case " SHADOWS $typical " in *" $feature "*) continue ;; esac
     row $(echo $feature | tr A-Z a-z) "with" $(flags $typical $feature)
@@ -78,7 +73,7 @@ for part in 2 4; do row pictures_$part "with $part" $(flags $typical PICTURES=$p
 row texture_formats_1025 "with 1025" $(flags $typical TEXTURE_FORMATS=1025)
 row edge "edge 4" $(flags $typical) -DGN_EDGE=4
 row preset_accurate "quality of preset accurate" $(flags $typical) -DGN_PRESET=GN_PRESET_ACCURATE
-row accurate_unshadowed "the same without shadows" $(flags VERTEX_NORMALS) -DGN_PRESET=GN_PRESET_ACCURATE
+row accurate_unshadowed "the same without shadows" $(flags VERTEX_VALUES) -DGN_PRESET=GN_PRESET_ACCURATE
 row linear "srgb 0" $(flags $typical) -DGN_SRGB=0
 
 # Compact arithmetic, and what more than that

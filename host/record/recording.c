@@ -130,11 +130,11 @@ static void use_frame(const gn_frame *frame)
 {
     const gn_scene *s = frame->scene;
     const gn_format format = frame->picture.format;
-    if (s->background_gradient) use_at_least("pictures", 2, "the background's gradient");
-    if (s->draw_behind || s->draw_over) use_at_least("pictures", 2, "draw_behind or draw_over");
-    if (format == GN_FORMAT_RAW32) use_at_least("pictures", 8, "the picture's format");
+    if (s->background_gradient) use_at_least("pictures", USES_TILE_DRAWING, "the background's gradient");
+    if (s->draw_behind || s->draw_over) use_at_least("pictures", USES_TILE_DRAWING, "draw_behind or draw_over");
+    if (format == GN_FORMAT_RAW32) use_at_least("pictures", USES_RAW_VIEWS, "the picture's format");
     else if (format != GN_FORMAT_RGB565 && format != GN_FORMAT_RGB565_SWAPPED)
-        use_at_least("pictures", 1, "the picture's format");
+        use_at_least("pictures", USES_OTHER_FORMATS, "the picture's format");
 #if GN_SHADOWS
     uint32_t n_tiles = 0;
     for (uint32_t i = 0; i < frame->n_views; i++) n_tiles += !frame->view[i].empty;

@@ -3,18 +3,6 @@
 
 #include <string.h>
 
-/* Parts of texture_formats, biases, materials, pictures, other_lights. */
-enum {
-    LEVELS = 1024,
-    AUTO_BIAS = 1,
-    OTHER_BIASES = 2,
-    SPECULAR = 1,
-    EMISSIVE = 2,
-    ORTHOGRAPHIC = 4,
-    PUNCTUAL = 1,
-    MAIN_LIGHT = 2
-};
-
 static void use(const uses_list *to, const char *knob, int value, const char *what, uses_owner owner, uint32_t idx)
 {
     to->use(to->user, knob, value, what, owner, idx);
@@ -22,7 +10,8 @@ static void use(const uses_list *to, const char *knob, int value, const char *wh
 
 int uses_is_sum(const char *knob)
 {
-    static const char *const sums[] = {"texture_formats", "biases", "materials", "pictures", "other_lights"};
+    static const char *const sums[] = {"texture_formats", "biases",       "materials",
+                                       "pictures",        "other_lights", "vertex_values"};
     for (size_t i = 0; i < sizeof sums / sizeof *sums; i++)
         if (strcmp(knob, sums[i]) == 0) return 1;
     return 0;
@@ -57,19 +46,20 @@ int uses_shadow(const gn_light *light)
 void uses_light(const uses_list *to, const gn_light *light, uint32_t idx, int casts)
 {
     const int32_t *r = light->bias_receiver_q16;
-    if (light->kind != GN_LIGHT_DIRECTIONAL) use(to, "other_lights", PUNCTUAL, "light", USES_LIGHT, idx);
+    if (light->kind != GN_LIGHT_DIRECTIONAL) use(to, "other_lights", USES_PUNCTUAL, "light", USES_LIGHT, idx);
     if (casts && uses_shadow(light)) use(to, "shadows", 1, "light", USES_LIGHT, idx);
-    if (r[0] || r[1] || r[2] || r[3]) use(to, "biases", OTHER_BIASES, "bias_receiver of light", USES_LIGHT, idx);
-    if (light->bias_caster_q16) use(to, "biases", OTHER_BIASES, "bias_caster of light", USES_LIGHT, idx);
-    if (light->receiver_plane) use(to, "biases", OTHER_BIASES, "receiver_plane of light", USES_LIGHT, idx);
-    if (light->auto_bias != GN_AUTO_BIAS_OFF) use(to, "biases", AUTO_BIAS, "auto_bias of light", USES_LIGHT, idx);
+    if (r[0] || r[1] || r[2] || r[3]) use(to, "biases", USES_OTHER_BIASES, "bias_receiver of light", USES_LIGHT, idx);
+    if (light->bias_caster_q16) use(to, "biases", USES_OTHER_BIASES, "bias_caster of light", USES_LIGHT, idx);
+    if (light->receiver_plane) use(to, "biases", USES_OTHER_BIASES, "receiver_plane of light", USES_LIGHT, idx);
+    if (light->auto_bias != GN_AUTO_BIAS_OFF) use(to, "biases", USES_AUTO_BIAS, "auto_bias of light", USES_LIGHT, idx);
 }
 
 static void use_texture(const uses_list *to, const gn_texture *t, uint32_t idx)
 {
     if (!t) return;
     use(to, "texture_formats", 1 << t->format, "object", USES_OBJECT, idx);
-    if (t->flags & GN_TEXTURE_MIPMAPPED) use(to, "texture_formats", LEVELS, "the texture of object", USES_OBJECT, idx);
+    if (t->flags & GN_TEXTURE_MIPMAPPED)
+        use(to, "texture_formats", USES_TEXTURE_LEVELS, "the texture of object", USES_OBJECT, idx);
 }
 
 void uses_object(const uses_list *to, const gn_object *o, uint32_t idx)
@@ -79,9 +69,9 @@ void uses_object(const uses_list *to, const gn_object *o, uint32_t idx)
     if (o->caster_alpha != GN_ALPHA_OPAQUE) use(to, "alpha", 1, "object", USES_OBJECT, idx);
     use_texture(to, o->texture, idx);
     use_texture(to, o->emissive_texture, idx);
-    if (o->emissive_texture) use(to, "materials", EMISSIVE, "object", USES_OBJECT, idx);
-    if (s[0] || s[1] || s[2]) use(to, "materials", SPECULAR, "object", USES_OBJECT, idx);
-    if (e[0] || e[1] || e[2]) use(to, "materials", EMISSIVE, "object", USES_OBJECT, idx);
+    if (o->emissive_texture) use(to, "materials", USES_EMISSIVE, "object", USES_OBJECT, idx);
+    if (s[0] || s[1] || s[2]) use(to, "materials", USES_SPECULAR, "object", USES_OBJECT, idx);
+    if (e[0] || e[1] || e[2]) use(to, "materials", USES_EMISSIVE, "object", USES_OBJECT, idx);
     if (o->mask_u8 || o->mask_image) use(to, "baked", 1, "object", USES_OBJECT, idx);
     if (o->baked_uq12) use(to, "baked", 1, "object", USES_OBJECT, idx);
     if (o->skin) use(to, "vertex_joints", o->skin->per_vertex, "object", USES_OBJECT, idx);
@@ -89,13 +79,13 @@ void uses_object(const uses_list *to, const gn_object *o, uint32_t idx)
 
 void uses_mesh(const uses_list *to, const gn_mesh *mesh, uint32_t idx)
 {
-    if (mesh->nrm_q15) use(to, "vertex_normals", 1, "mesh", USES_MESH, idx);
-    if (mesh->rgb_uq16) use(to, "vertex_colours", 1, "mesh", USES_MESH, idx);
+    if (mesh->nrm_q15) use(to, "vertex_values", USES_NORMALS, "mesh", USES_MESH, idx);
+    if (mesh->rgb_uq16) use(to, "vertex_values", USES_COLOURS, "mesh", USES_MESH, idx);
 }
 
 void uses_camera(const uses_list *to, const gn_camera *camera)
 {
-    if (camera->half_height_q16) use(to, "pictures", ORTHOGRAPHIC, "the camera", USES_SETTING, 0);
+    if (camera->half_height_q16) use(to, "pictures", USES_ORTHOGRAPHIC, "the camera", USES_SETTING, 0);
 }
 
 void uses_shadows(const uses_list *to, const gn_scene *scene)
@@ -105,7 +95,7 @@ void uses_shadows(const uses_list *to, const gn_scene *scene)
     use_filter(to, s->filter, "the filter of directional lights", USES_SETTING, 0);
     use_filter(to, s->other_filter, "the filter of spot and point lights", USES_SETTING, 0);
     if (s->blend != GN_BLEND_HARD) use(to, "many_cascades", 2, "the setting cascade_blend", USES_SETTING, 0);
-    if (s->main_light) use(to, "other_lights", MAIN_LIGHT, "the setting main_light", USES_SETTING, 0);
+    if (s->main_light) use(to, "other_lights", USES_MAIN_LIGHT, "the setting main_light", USES_SETTING, 0);
     if (s->n_cascades > 1) use(to, "many_cascades", 1, "the setting cascades", USES_SETTING, 0);
     if (s->tile_sizes == GN_TILES_IMPORTANCE) use(to, "tile_sizes", 1, "the setting tiles", USES_SETTING, 0);
     if (s->tile_sizes == GN_TILES_WORTH) use(to, "tile_sizes", 2, "the setting tiles", USES_SETTING, 0);

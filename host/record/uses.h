@@ -22,6 +22,23 @@ void uses_camera(const uses_list *to, const gn_camera *camera);
 /* Only where shadows are drawn. */
 void uses_shadows(const uses_list *to, const gn_scene *scene);
 
+/* Parts of the knobs that are sums: texture_formats, biases, materials, pictures, other_lights, vertex_values. */
+enum {
+    USES_TEXTURE_LEVELS = 1024,
+    USES_AUTO_BIAS = 1,
+    USES_OTHER_BIASES = 2,
+    USES_SPECULAR = 1,
+    USES_EMISSIVE = 2,
+    USES_OTHER_FORMATS = 1,
+    USES_TILE_DRAWING = 2,
+    USES_ORTHOGRAPHIC = 4,
+    USES_RAW_VIEWS = 8,
+    USES_PUNCTUAL = 1,
+    USES_MAIN_LIGHT = 2,
+    USES_NORMALS = 1,
+    USES_COLOURS = 2
+};
+
 /* Whether a knob is a sum of parts, not a level. */
 int uses_is_sum(const char *knob);
 

@@ -15,7 +15,7 @@ most() {
     case $1 in
     SHADOWS) echo 6 ;;
     VERTEX_JOINTS) echo 4 ;;
-    MANY_CASCADES | BIASES | MATERIALS | OTHER_LIGHTS) echo 3 ;;
+    MANY_CASCADES | BIASES | MATERIALS | OTHER_LIGHTS | VERTEX_VALUES) echo 3 ;;
     INCREMENTAL | TILE_SIZES | CLIPPING | VALIDATION) echo 2 ;;
     TEXTURE_FORMATS) echo 2047 ;;
     PICTURES) echo 15 ;;

@@ -99,7 +99,7 @@ if [ -n "$target" ]; then
         predicted $preset surface_lights=1 baked=0 other_lights=2 many_cascades=1 biases=1
         predicted $preset surface_lights=1 baked=0 other_lights=2 many_cascades=1 texture_formats=0 alpha=0
         predicted $preset surface_lights=1 baked=0 other_lights=2 many_cascades=1 texture_formats=0 alpha=0 biases=1
-        predicted $preset surface_lights=1 max_lights=1 shadows=0 baked=0 other_lights=2 texture_formats=0 materials=2 vertex_normals=0 vertex_colours=0
+        predicted $preset surface_lights=1 max_lights=1 shadows=0 baked=0 other_lights=2 texture_formats=0 materials=2 vertex_values=0
         predicted $preset surface_lights=1 texture_formats=0 materials=2 baked=0 other_lights=0 shadows=0 persp_step=1
         predicted $preset triangle_groups=100 max_triangles=333
         predicted $preset triangle_groups=1 max_triangles=8 tile_width=72 tile_height=5 shadows=0 pictures=3

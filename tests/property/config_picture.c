@@ -181,8 +181,8 @@ static void use_materials(int variant)
     if (use.baked) ball->baked_uq12 = baked;
     ball->flags |= GN_OBJECT_MOVING;
     /* a build without them does not look at these; this one would */
-    if (GN_VERTEX_NORMALS && !use.vertex_normals) demo.ball.nrm_q15 = NULL;
-    if (GN_VERTEX_COLOURS && !use.vertex_colours) demo.ball.rgb_uq16 = demo.box.rgb_uq16 = NULL;
+    if (GN_VERTEX_NORMALS && !(use.vertex_values & 1)) demo.ball.nrm_q15 = NULL;
+    if (GN_VERTEX_COLOURS && !(use.vertex_values & 2)) demo.ball.rgb_uq16 = demo.box.rgb_uq16 = NULL;
     for (int i = 0; GN_SHADOWS && !use.shadows && i < DEMO_OBJECTS; i++)
         demo.object[i].flags &= ~(uint32_t)GN_OBJECT_CASTS;
 }

@@ -71,7 +71,7 @@ refused plain objects 'more objects than GN_MAX_OBJECTS'
 refused plain wide 'above GN_MAX_WIDTH'
 
 # what is set to less than was used is left out
-build normals --set vertex_normals=0 && "$tmp/normals/run" normals >"$tmp/out" && cmp -s "$tmp/out" "$tmp/plain.full" && pass || fail "normals left out: $(cat "$tmp/out" "$tmp/normals/log")"
+build normals --set vertex_values=0 && "$tmp/normals/run" normals >"$tmp/out" && cmp -s "$tmp/out" "$tmp/plain.full" && pass || fail "normals left out: $(cat "$tmp/out" "$tmp/normals/log")"
 build objects --set max_objects=1 && refused objects objects 'more objects than GN_MAX_OBJECTS'
 
 # ---- Errors -------------------------------------------------------------------------------------------------------------------

@@ -518,15 +518,15 @@ for engine in fixed reference; do # no shadows is what lights without a shadow d
     cmp -s "$tmp/a.png" "$tmp/b.png" && pass || fail "$engine: shadows=0 is not strength=0"
 done
 bad 1 shadow render "$cube" -o "$tmp/a.png" --size 8x8 --view atlas --set shadows=0
-differ "$tmp/bright.obj" vertex_colours=0 vertex_colours=1
-good compare "$tmp/bright.obj" --size 64x48 --set vertex_colours=0 --json
-case $(value within1) in 1 | 0.99*) pass ;; *) fail "vertex_colours=0: within1 is $(value within1)" ;; esac
+differ "$tmp/bright.obj" vertex_values=1 vertex_values=2
+good compare "$tmp/bright.obj" --size 64x48 --set vertex_values=1 --json
+case $(value within1) in 1 | 0.99*) pass ;; *) fail "vertex_values=1: within1 is $(value within1)" ;; esac
 for engine in fixed reference; do # smooth normals that are not built are face normals
-    good render "$cube" -o "$tmp/a.png" --size 64x48 --engine $engine --set normals=smooth --set vertex_normals=0
+    good render "$cube" -o "$tmp/a.png" --size 64x48 --engine $engine --set normals=smooth --set vertex_values=2
     good render "$cube" -o "$tmp/b.png" --size 64x48 --engine $engine --set normals=face
-    cmp -s "$tmp/a.png" "$tmp/b.png" && pass || fail "$engine: vertex_normals=0 does not draw face normals"
+    cmp -s "$tmp/a.png" "$tmp/b.png" && pass || fail "$engine: vertex_values=2 does not draw face normals"
     good render "$cube" -o "$tmp/b.png" --size 64x48 --engine $engine --set normals=smooth
-    cmp -s "$tmp/a.png" "$tmp/b.png" && fail "$engine: vertex_normals=0 changes nothing" || pass
+    cmp -s "$tmp/a.png" "$tmp/b.png" && fail "$engine: vertex_values=2 changes nothing" || pass
 done
 for command in info compare; do
     bad 1 "shadows.*3x3" $command "$cube" --size 8x8 --set filter=3x3 --set shadows=2

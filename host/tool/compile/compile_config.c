@@ -137,8 +137,7 @@ static void use_nothing(compiled *c)
     NOTHING(baked);
     NOTHING(biases);
     NOTHING(vertex_joints);
-    NOTHING(vertex_normals);
-    NOTHING(vertex_colours);
+    NOTHING(vertex_values);
 }
 
 static void choose_features(compiled *c)
@@ -206,10 +205,12 @@ static void choose_checks(compiled *c)
     because(c, "validation",
             c->set.feature.validation ? "scenes of --simplify none and safe may be moved otherwise"
                                       : "every frame was checked when it was compiled");
-    if (c->fixed.scene.background_gradient) use_setting(c, "pictures", 2, "the background's gradient");
-    else if (!path && c->requested.feature.pictures & 2)
-        use_setting(c, "pictures", 2, "programs may draw behind and over scenes of --simplify none and safe");
-    if (c->set.output != GN_FORMAT_RGB565) use_setting(c, "pictures", 1, "the panel takes another than RGB565");
+    if (c->fixed.scene.background_gradient) use_setting(c, "pictures", USES_TILE_DRAWING, "the background's gradient");
+    else if (!path && c->requested.feature.pictures & USES_TILE_DRAWING)
+        use_setting(c, "pictures", USES_TILE_DRAWING,
+                    "programs may draw behind and over scenes of --simplify none and safe");
+    if (c->set.output != GN_FORMAT_RGB565)
+        use_setting(c, "pictures", USES_OTHER_FORMATS, "the panel takes another than RGB565");
     if (!c->set.feature.pictures)
         because(c, "pictures", "RGB565 and no gradient; for a program that draws: --simplify none or safe");
 }

@@ -14,8 +14,8 @@ static long of_level(int level, const int *const *bytes, flash_core core)
 static long of_surfaces(const settings *s, flash_core core)
 {
     long bytes = 0;
-    if (!s->feature.vertex_normals) bytes += no_vertex_normals_bytes[core];
-    if (s->feature.vertex_colours) bytes += vertex_colours_bytes[core];
+    if (s->feature.vertex_values % 2 == 0) bytes += vertex_values_0_bytes[core];
+    if (s->feature.vertex_values >= 2) bytes += vertex_values_3_bytes[core];
     bytes += of_level((s->feature.texture_formats > 0) + (s->feature.texture_formats >= 1024),
                       (const int *const[]){texture_formats_bytes, texture_formats_1025_bytes}, core);
     if (s->feature.materials % 2) bytes += materials_bytes[core];

@@ -1,7 +1,7 @@
 /* Made by host/generate/gen_flash.sh with 12.2.1. Bytes of flash: on Cortex-M0, on Cortex-M4. */
-FLASH(typical, 58972, 53888)               /* shadows 3, vertex_normals, preset balanced */
+FLASH(typical, 58972, 53888)               /* shadows 3, vertex_values 1, preset balanced */
 FLASH(no_shadows, -27472, -25904)          /* without shadows, and what is of shadows */
-FLASH(no_vertex_normals, -3572, -3244)     /* without */
+FLASH(vertex_values_0, -3572, -3244)     /* with 0 */
 FLASH(shadows_1, -2328, -2340) /* other shadows */
 FLASH(shadows_2, -2228, -2240) /* other shadows */
 FLASH(shadows_4, 0, 0) /* other shadows */
@@ -20,7 +20,7 @@ FLASH(biases_2, 1812, 1584)            /* with */
 FLASH(biases, 4256, 3924)               /* with */
 FLASH(incremental, 948, 880)               /* with */
 FLASH(incremental_2, 1104, 1084)           /* with 2 */
-FLASH(vertex_colours, 1684, 1536)          /* with */
+FLASH(vertex_values_3, 1684, 1536)          /* with 3 */
 FLASH(vertex_joints, 1592, 1452)           /* with */
 FLASH(pictures_2, 260, 252)              /* with 2 */
 FLASH(validation, 1484, 1296)              /* with */

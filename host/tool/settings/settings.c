@@ -132,6 +132,8 @@ static const char *why_gone(const char *key)
         {"orthographic", "pictures=4 has it"},
         {"raw_views", "pictures=8 has it"},
         {"error_fields", "validation=2 has it"},
+        {"vertex_normals", "vertex_values=1 has it"},
+        {"vertex_colours", "vertex_values=2 has it"},
         {"runtime_knobs", "GN_RUNTIME_KNOBS is for host tools"},
         {"size_first", "follows from the compiler: 1 with -Os"},
         {"baked_light", "baked has it"},

@@ -61,7 +61,7 @@ static void needs_of_shadows(need_list *list, const scene *s)
     needs_of_filter(list, "other_filter", s->shadow.other_filter);
     if (s->shadow.blend != SCENE_BLEND_HARD)
         need(list, "many_cascades", 2, "cascade_blend %s", settings_blend_names[s->shadow.blend]);
-    if (s->shadow.main_light) need(list, "other_lights", 2, "main_light 1");
+    if (s->shadow.main_light) need(list, "other_lights", USES_MAIN_LIGHT, "main_light 1");
     if (s->shadow.n_cascades > 1) need(list, "many_cascades", 1, "cascades %d", s->shadow.n_cascades);
     if (s->shadow.caster_culling) need(list, "many_cascades", 3, "caster_culling 1");
     if (s->shadow.tiles == SCENE_TILES_IMPORTANCE) need(list, "tile_sizes", 1, "tiles importance");
@@ -83,12 +83,12 @@ static void needs_of_light(need_list *list, const scene *s, const scene_light *l
 {
     bool biased = false;
     for (int i = 0; i < 4; i++) biased |= l->bias_receiver[i] > 0;
-    if (l->kind == SCENE_LIGHT_SPOT) need(list, "other_lights", 1, "spot light '%s'", l->name);
-    if (l->kind == SCENE_LIGHT_POINT) need(list, "other_lights", 1, "point light '%s'", l->name);
-    if (biased) need(list, "biases", 2, "bias_receiver of light '%s'", l->name);
-    if (l->bias_caster > 0) need(list, "biases", 2, "bias_caster of light '%s'", l->name);
-    if (l->receiver_plane) need(list, "biases", 2, "receiver_plane of light '%s'", l->name);
-    if (l->auto_bias) need(list, "biases", 1, "auto_bias of light '%s'", l->name);
+    if (l->kind == SCENE_LIGHT_SPOT) need(list, "other_lights", USES_PUNCTUAL, "spot light '%s'", l->name);
+    if (l->kind == SCENE_LIGHT_POINT) need(list, "other_lights", USES_PUNCTUAL, "point light '%s'", l->name);
+    if (biased) need(list, "biases", USES_OTHER_BIASES, "bias_receiver of light '%s'", l->name);
+    if (l->bias_caster > 0) need(list, "biases", USES_OTHER_BIASES, "bias_caster of light '%s'", l->name);
+    if (l->receiver_plane) need(list, "biases", USES_OTHER_BIASES, "receiver_plane of light '%s'", l->name);
+    if (l->auto_bias) need(list, "biases", USES_AUTO_BIAS, "auto_bias of light '%s'", l->name);
     if (!shadows || !requests_shadow(l)) return;
     need(list, "shadows", 1, "the shadow of light '%s'", l->name);
     needs_of_softness(list, s, l);
@@ -116,14 +116,15 @@ static void needs_of_object(need_list *list, const scene *s, const scene_object 
         if (shown[i] >= s->n_textures) continue;
         need(list, "texture_formats", 1 << s->textures[shown[i]].format, "the texture of object '%s'", o->name);
         if (s->textures[shown[i]].mipmapped)
-            need(list, "texture_formats", 1024, "the texture of object '%s', whose sampler has a mipmap,", o->name);
+            need(list, "texture_formats", USES_TEXTURE_LEVELS,
+                 "the texture of object '%s', whose sampler has a mipmap,", o->name);
     }
     if (o->emissive_texture_idx < s->n_textures)
-        need(list, "materials", 2, "the emissive texture of object '%s'", o->name);
+        need(list, "materials", USES_EMISSIVE, "the emissive texture of object '%s'", o->name);
     if (o->specular[0] > 0 || o->specular[1] > 0 || o->specular[2] > 0)
-        need(list, "materials", 1, "specular of object '%s'", o->name);
+        need(list, "materials", USES_SPECULAR, "specular of object '%s'", o->name);
     if (o->emissive[0] > 0 || o->emissive[1] > 0 || o->emissive[2] > 0)
-        need(list, "materials", 2, "the emissive colour of object '%s'", o->name);
+        need(list, "materials", USES_EMISSIVE, "the emissive colour of object '%s'", o->name);
     if (o->baked) need(list, "baked", 1, "baked light of object '%s'", o->name);
     if (o->caster == SCENE_CASTER_CLIP || o->caster == SCENE_CASTER_DITHER)
         need(list, "alpha", 1, "the shadow of object '%s', cut by alpha,", o->name);
@@ -135,8 +136,8 @@ static void needs_of_object(need_list *list, const scene *s, const scene_object 
 int settings_needs(const scene *s, bool shadows, settings_need *needs)
 {
     need_list list = {needs, 0};
-    if (s->camera.half_height > 0) need(&list, "pictures", 4, "the orthographic camera");
-    if (s->gradient) need(&list, "pictures", 2, "the background's gradient");
+    if (s->camera.half_height > 0) need(&list, "pictures", USES_ORTHOGRAPHIC, "the orthographic camera");
+    if (s->gradient) need(&list, "pictures", USES_TILE_DRAWING, "the background's gradient");
     if (shadows) needs_of_shadows(&list, s);
     for (size_t i = 0; i < s->n_lights; i++) needs_of_light(&list, s, &s->lights[i], shadows);
     for (size_t i = 0; i < s->n_objects; i++) needs_of_object(&list, s, &s->objects[i]);
@@ -182,8 +183,8 @@ int settings_enforce(const settings *set, scene *s, int width, int height, char 
     settings_need needs[SETTINGS_NEEDS_MAX];
     if (set->build.compact && settings_compact_check(set, s, width, height, error, error_bytes)) return -1;
     for (size_t i = 0; i < s->n_meshes; i++) {
-        if (!set->feature.vertex_normals) drop(&s->meshes[i].nrm);
-        if (!set->feature.vertex_colours) drop(&s->meshes[i].rgb);
+        if (set->feature.vertex_values % 2 == 0) drop(&s->meshes[i].nrm);
+        if (set->feature.vertex_values < 2) drop(&s->meshes[i].rgb);
     }
     for (size_t i = 0; i < s->n_lights && !set->feature.shadows; i++) s->lights[i].shadow = false;
     if (set->feature.tile_sizes < 2 || !set->feature.shadows) {

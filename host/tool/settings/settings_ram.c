@@ -87,10 +87,10 @@ static long corner_bytes(const settings *s)
     put(&light, s->feature.shadows ? 4 : 1, 1, 1);
     pad(&light, 4);
     put(&all, 8, 4, 4); /* state to base_q24 */
-    if (s->feature.vertex_colours) put(&all, 3, 4, 4);
+    if (s->feature.vertex_values >= 2) put(&all, 3, 4, 4);
     if (s->feature.texture_formats) put(&all, 2, 4, 4);
     if (s->feature.baked) put(&all, 2, 4, 4);
-    if (s->feature.vertex_normals) put(&all, 3, 4, 4);
+    if (s->feature.vertex_values % 2) put(&all, 3, 4, 4);
     if (s->feature.other_lights % 2) put(&all, 3, 4, 4);
     put(&all, s->capacity.surface_lights, light.size, 4);
     return all.size;
@@ -122,8 +122,8 @@ static long patch_shared_bytes(const settings *s)
 {
     layout all = {0, 4};
     put(&all, 1, 56, 4); /* of */
-    if (s->feature.vertex_normals) put(&all, 32, 8, 4);
-    if (s->feature.vertex_normals && s->feature.vertex_joints) put(&all, 16, 20, 4);
+    if (s->feature.vertex_values % 2) put(&all, 32, 8, 4);
+    if (s->feature.vertex_values % 2 && s->feature.vertex_joints) put(&all, 16, 20, 4);
     if (s->feature.shadows && s->feature.biases % 2) put(&all, 1, 72, 4);
     return all.size;
 }
@@ -136,7 +136,7 @@ static int has_glow(const settings *s)
 /* gn_drawing of lib/shade/gn_lattice_types.h */
 static long drawing_bytes(const settings *s)
 {
-    const int glows = s->feature.materials >= 2 && (s->feature.texture_formats || s->feature.vertex_colours);
+    const int glows = s->feature.materials >= 2 && (s->feature.texture_formats || s->feature.vertex_values >= 2);
     return 88 + (glows ? 12 : 0) + (has_glow(s) ? 4 + 92 : 0) + (s->feature.texture_formats ? 76 : 0) +
            (has_levels(s) ? 28 : 0);
 }
