@@ -29,7 +29,8 @@
     defined(GN_ERROR_FIELDS) || defined(GN_FILTER_MAX) || defined(GN_TEXTURES) || defined(GN_AUTO_BIAS) ||             \
     defined(GN_OTHER_BIASES) || defined(GN_SPECULAR) || defined(GN_EMISSIVE) || defined(GN_POSITION_BITS) ||           \
     defined(GN_NORMAL_BITS) || defined(GN_TILE_DRAWING) || defined(GN_OTHER_FORMATS) || defined(GN_ORTHOGRAPHIC) ||    \
-    defined(GN_PUNCTUAL_LIGHTS) || defined(GN_MAIN_LIGHT) || defined(GN_VERTEX_NORMALS) || defined(GN_VERTEX_COLOURS)
+    defined(GN_PUNCTUAL_LIGHTS) || defined(GN_MAIN_LIGHT) || defined(GN_VERTEX_NORMALS) ||                             \
+    defined(GN_VERTEX_COLOURS) || defined(GN_ALPHA) || defined(GN_BAKED)
 #error "the configuration sets a knob that is part of another one now: docs/CHANGELOG.md says of which"
 #endif
 
@@ -155,17 +156,11 @@
 #ifndef GN_OTHER_LIGHTS
 #define GN_OTHER_LIGHTS (GN_COMPACT ? 0 : 3)
 #endif
-#ifndef GN_ALPHA
-#define GN_ALPHA (!GN_COMPACT)
-#endif
 #ifndef GN_TEXTURE_FORMATS
 #define GN_TEXTURE_FORMATS (GN_COMPACT ? 0 : 2047)
 #endif
 #ifndef GN_MATERIALS
-#define GN_MATERIALS (GN_COMPACT ? 0 : 3)
-#endif
-#ifndef GN_BAKED
-#define GN_BAKED (!GN_COMPACT)
+#define GN_MATERIALS (GN_COMPACT ? 0 : 15)
 #endif
 #ifndef GN_BIASES
 #define GN_BIASES (GN_COMPACT ? 1 : 3)
@@ -239,7 +234,9 @@
 #define GN_MASKS            (GN_BAKED)
 #define GN_BAKED_LIGHT      (GN_BAKED)
 #define GN_SPECULAR         ((GN_MATERIALS) % 2)
-#define GN_EMISSIVE         ((GN_MATERIALS) >= 2)
+#define GN_EMISSIVE         ((GN_MATERIALS) / 2 % 2)
+#define GN_ALPHA            ((GN_MATERIALS) / 4 % 2)
+#define GN_BAKED            ((GN_MATERIALS) >= 8)
 #define GN_AUTO_BIAS        ((GN_BIASES) % 2)
 #define GN_OTHER_BIASES     ((GN_BIASES) >= 2)
 #define GN_RECEIVER_BIAS    (GN_OTHER_BIASES)

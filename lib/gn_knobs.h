@@ -89,21 +89,20 @@
       "which "                                                                                                         \
       "alone has cascades: they take one tile each",                                                                   \
       "flash; the local-light atlas")                                                                                  \
-    X(alpha, ALPHA, 0, 1, "alpha of surfaces and of casters: clip and dither", "flash")                                \
     X(texture_formats, TEXTURE_FORMATS, 0, 2047,                                                                       \
       "textures, colour and alpha: the formats that are built, their sum; 0: no textures; 1 RGBA8888, 2 RGB565, 4 "    \
       "RGB565 with 1 bit of alpha, 8, 16, 32 palettes of 8, 4, 1 bits, 64, 128 grey of 8, 4 bits, 256, 512 alpha of "  \
       "8, 4 bits; 1024: also half-size levels (mip chains), chosen per cell by depth: far textures do not glitter",    \
       "flash; a table of 512 bytes; a lookup per pixel; 1024: a third more flash per texture that has levels; a root " \
       "per triangle")                                                                                                  \
-    X(materials, MATERIALS, 0, 3,                                                                                      \
-      "what surfaces have beside a colour, their sum: 1 specular highlights; 2 emissive colours and, with textures, "  \
-      "textures of them: objects that glow",                                                                           \
+    X(materials, MATERIALS, 0, 15,                                                                                     \
+      "what surfaces have beside a colour, the sum: 1 specular highlights; 2 emissive colours and, with textures, "    \
+      "textures of them: objects that glow; 4 alpha, also of casters: clip and dither; 8 baked shadow masks and "      \
+      "their "                                                                                                         \
+      "mixing, baked irradiance per vertex",                                                                           \
       "flash; 1: a reciprocal root per light and sample of such objects; 2: three additions per triangle, or per "     \
       "pixel "                                                                                                         \
-      "where it has a texture; a second lookup where it emits by one")                                                 \
-    X(baked, BAKED, 0, 1, "baked shadow masks and their mixing; baked irradiance per vertex",                          \
-      "flash; four values and three per sample")                                                                       \
+      "where it has a texture; a second lookup where it emits by one; 8: four values and three per sample")            \
     X(biases, BIASES, 0, 3,                                                                                            \
       "biases beside constant, slope and normal ones, their sum: 1 automatic; 2 of the receiver, in four terms, "      \
       "casters shrunk along their normals, the receiver's plane per tap",                                              \

@@ -21,10 +21,8 @@
 /* What the scene does not use, and what only saves instructions, is not built. */
 #define GN_OTHER_LIGHTS    0
 #define GN_MANY_CASCADES   1 /* without blending */
-#define GN_ALPHA           0
 #define GN_TEXTURE_FORMATS 0
 #define GN_MATERIALS       0
-#define GN_BAKED           0
 #define GN_BIASES          0
 #define GN_INCREMENTAL     0
 #define GN_VERTEX_VALUES   0

@@ -70,6 +70,7 @@ for feature in $features; do
     done
 done
 for part in 2 4; do row pictures_$part "with $part" $(flags $typical PICTURES=$part); done
+for part in 4 8; do row materials_$part "with $part" $(flags $typical MATERIALS=$part); done
 row texture_formats_1025 "with 1025" $(flags $typical TEXTURE_FORMATS=1025)
 row edge "edge 4" $(flags $typical) -DGN_EDGE=4
 row preset_accurate "quality of preset accurate" $(flags $typical) -DGN_PRESET=GN_PRESET_ACCURATE

@@ -65,15 +65,15 @@ static void use_texture(const uses_list *to, const gn_texture *t, uint32_t idx)
 void uses_object(const uses_list *to, const gn_object *o, uint32_t idx)
 {
     const uint32_t *s = o->specular_uq16, *e = o->emissive_uq16;
-    if (o->visible_alpha != GN_ALPHA_OPAQUE) use(to, "alpha", 1, "object", USES_OBJECT, idx);
-    if (o->caster_alpha != GN_ALPHA_OPAQUE) use(to, "alpha", 1, "object", USES_OBJECT, idx);
+    if (o->visible_alpha != GN_ALPHA_OPAQUE) use(to, "materials", USES_ALPHA, "object", USES_OBJECT, idx);
+    if (o->caster_alpha != GN_ALPHA_OPAQUE) use(to, "materials", USES_ALPHA, "object", USES_OBJECT, idx);
     use_texture(to, o->texture, idx);
     use_texture(to, o->emissive_texture, idx);
     if (o->emissive_texture) use(to, "materials", USES_EMISSIVE, "object", USES_OBJECT, idx);
     if (s[0] || s[1] || s[2]) use(to, "materials", USES_SPECULAR, "object", USES_OBJECT, idx);
     if (e[0] || e[1] || e[2]) use(to, "materials", USES_EMISSIVE, "object", USES_OBJECT, idx);
-    if (o->mask_u8 || o->mask_image) use(to, "baked", 1, "object", USES_OBJECT, idx);
-    if (o->baked_uq12) use(to, "baked", 1, "object", USES_OBJECT, idx);
+    if (o->mask_u8 || o->mask_image) use(to, "materials", USES_BAKED, "object", USES_OBJECT, idx);
+    if (o->baked_uq12) use(to, "materials", USES_BAKED, "object", USES_OBJECT, idx);
     if (o->skin) use(to, "vertex_joints", o->skin->per_vertex, "object", USES_OBJECT, idx);
 }
 
@@ -100,7 +100,7 @@ void uses_shadows(const uses_list *to, const gn_scene *scene)
     if (s->tile_sizes == GN_TILES_IMPORTANCE) use(to, "tile_sizes", 1, "the setting tiles", USES_SETTING, 0);
     if (s->tile_sizes == GN_TILES_WORTH) use(to, "tile_sizes", 2, "the setting tiles", USES_SETTING, 0);
     if (s->fit == GN_FIT_TIGHT) use(to, "tile_sizes", 2, "the setting fit", USES_SETTING, 0);
-    if (s->mixing != GN_MIXING_NONE) use(to, "baked", 1, "the setting mixing", USES_SETTING, 0);
+    if (s->mixing != GN_MIXING_NONE) use(to, "materials", USES_BAKED, "the setting mixing", USES_SETTING, 0);
 }
 
 uint32_t uses_surface_lights(const gn_frame *frame)

@@ -49,8 +49,9 @@ flags_of() {
             OBJECT_BOXES) echo "-DGN_$feature=0" ;;
             SHADOWS) echo "-DGN_$feature=6" ;;
             VERTEX_JOINTS) echo "-DGN_$feature=4" ;;
-            MANY_CASCADES | BIASES | MATERIALS | OTHER_LIGHTS | VERTEX_VALUES) echo "-DGN_$feature=3" ;;
+            MANY_CASCADES | BIASES | OTHER_LIGHTS | VERTEX_VALUES) echo "-DGN_$feature=3" ;;
             PICTURES) echo "-DGN_$feature=7" ;;
+            MATERIALS) echo "-DGN_$feature=15" ;;
             TEXTURE_FORMATS) echo "-DGN_$feature=1025" ;;
             INCREMENTAL | TILE_SIZES | CLIPPING) echo "-DGN_$feature=2" ;;
             *) echo "-DGN_$feature=1" ;;

@@ -15,10 +15,10 @@ most() {
     case $1 in
     SHADOWS) echo 6 ;;
     VERTEX_JOINTS) echo 4 ;;
-    MANY_CASCADES | BIASES | MATERIALS | OTHER_LIGHTS | VERTEX_VALUES) echo 3 ;;
+    MANY_CASCADES | BIASES | OTHER_LIGHTS | VERTEX_VALUES) echo 3 ;;
     INCREMENTAL | TILE_SIZES | CLIPPING | VALIDATION) echo 2 ;;
     TEXTURE_FORMATS) echo 2047 ;;
-    PICTURES) echo 15 ;;
+    PICTURES | MATERIALS) echo 15 ;;
     *) echo 1 ;;
     esac
 }
@@ -62,7 +62,7 @@ without() { whole "all-$1" "$1"; }
 # What a feature stands on: alone it has nothing to do.
 under() {
     case $1 in
-    CLIPPING | SHADOWS | OTHER_LIGHTS | ALPHA | MATERIALS | PICTURES | BAKED | VERTEX* | VALID* | *FORMATS) ;;
+    CLIPPING | SHADOWS | OTHER_LIGHTS | MATERIALS | PICTURES | VERTEX* | VALID* | *FORMATS) ;;
     *) echo SHADOWS ;;
     esac
 }
@@ -116,11 +116,9 @@ done <<'LIST'
 SHADOWS gn_(atlas|caster|cascade|ortho|persp|filter|blocks|cull|tiles|bias)_.*|gn_tent.*|gn_disk_.*
 OTHER_LIGHTS gn_(persp|punctual|object_list)_.*|main_light
 MANY_CASCADES gn_cull_shown_nearer
-ALPHA alpha_plane|cut_begin|cut_row
 TEXTURE_FORMATS gn_texture_(level_at|level_depth2|use_level)|gn_texture_colour|gn_alpha_coords|gn_srgb_decode_table|gn_linear_(31|63)_table|gn_texel_decode_.*
-MATERIALS highlight_q30|emitted_light|begin_glow
+MATERIALS highlight_q30|emitted_light|begin_glow|alpha_plane|cut_begin|cut_row|gn_texture_mask
 VERTEX_JOINTS gn_skin_.*|mean_matrix|skin_signature|gn_scene_skin_check
-BAKED gn_texture_mask
 BIASES corner_normals|start_plane|dark_on_plane|gn_bias_auto_.*|.*_share_q3[02]|auto_.*
 INCREMENTAL gn_kept_.*|view_signature|stays|gn_static_layer_.*
 VALIDATION gn_scene_validate|check_.*light|gn_fail_field
@@ -139,8 +137,10 @@ SHADOWS 1 gn_tent_weights|gn_disk_.*|disk.*|gn_blocks_.*
 PICTURES 6 luminance_q20|fill_(grey4|mono)
 PICTURES 5 gradient_row|draw_behind
 PICTURES 3 flat_plane|flat_sphere|intersect_flat
-MATERIALS 1 emitted_light|begin_glow
-MATERIALS 2 highlight_q30
+MATERIALS 13 emitted_light|begin_glow
+MATERIALS 14 highlight_q30
+MATERIALS 11 alpha_plane|cut_begin|cut_row
+MATERIALS 7 gn_texture_mask
 OTHER_LIGHTS 1 main_light
 OTHER_LIGHTS 2 gn_(persp|punctual|object_list)_.*
 BIASES 1 corner_normals|start_plane|dark_on_plane

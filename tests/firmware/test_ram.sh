@@ -77,7 +77,7 @@ if [ -n "$target" ]; then
         predicted $preset
         predicted $preset other_lights=1 incremental=0 max_objects=1
         predicted $preset shadows=0 other_lights=2 max_lights=3
-        predicted $preset srgb=0 texture_formats=0 materials=2 baked=0 alpha=0 shadows=1
+        predicted $preset srgb=0 texture_formats=0 materials=2 shadows=1
         predicted $preset shadows=0
         predicted $preset pictures=15
         predicted $preset shadows=5
@@ -95,12 +95,12 @@ if [ -n "$target" ]; then
         predicted $preset max_objects=777 max_other_tiles=13 surface_lights=3 max_shadow_tiles=1 max_lights=5
         predicted $preset max_tile_refs=70001 atlas_size=64 tile_width=72 tile_height=5 max_lights=8
         predicted $preset max_tile_refs=70001 atlas_size=16 tile_width=24 tile_height=1 shadows=0
-        predicted $preset surface_lights=1 baked=0 other_lights=2 many_cascades=1 # casting is larger than shading
-        predicted $preset surface_lights=1 baked=0 other_lights=2 many_cascades=1 biases=1
-        predicted $preset surface_lights=1 baked=0 other_lights=2 many_cascades=1 texture_formats=0 alpha=0
-        predicted $preset surface_lights=1 baked=0 other_lights=2 many_cascades=1 texture_formats=0 alpha=0 biases=1
-        predicted $preset surface_lights=1 max_lights=1 shadows=0 baked=0 other_lights=2 texture_formats=0 materials=2 vertex_values=0
-        predicted $preset surface_lights=1 texture_formats=0 materials=2 baked=0 other_lights=0 shadows=0 persp_step=1
+        predicted $preset surface_lights=1 materials=7 other_lights=2 many_cascades=1 # casting is larger than shading
+        predicted $preset surface_lights=1 materials=7 other_lights=2 many_cascades=1 biases=1
+        predicted $preset surface_lights=1 materials=3 other_lights=2 many_cascades=1 texture_formats=0
+        predicted $preset surface_lights=1 materials=3 other_lights=2 many_cascades=1 texture_formats=0 biases=1
+        predicted $preset surface_lights=1 max_lights=1 shadows=0 other_lights=2 texture_formats=0 materials=6 vertex_values=0
+        predicted $preset surface_lights=1 texture_formats=0 materials=6 other_lights=0 shadows=0 persp_step=1
         predicted $preset triangle_groups=100 max_triangles=333
         predicted $preset triangle_groups=1 max_triangles=8 tile_width=72 tile_height=5 shadows=0 pictures=3
         predicted $preset transparent_layers=2 tile_width=72 tile_height=5

@@ -94,8 +94,8 @@ static void make_arrays(void)
 static void use_lights(int variant)
 {
     gn_light sun = demo.light[0];
-    sun.mode = use.baked ? GN_LIGHT_MIXED : GN_LIGHT_REALTIME;
-    sun.mask_channel = use.baked ? 0 : -1;
+    sun.mode = use.materials & 8 ? GN_LIGHT_MIXED : GN_LIGHT_REALTIME;
+    sun.mask_channel = use.materials & 8 ? 0 : -1;
     sun.bias_constant_q16 = GN_Q16(0.5);
     sun.bias_slope_q16 = GN_Q16(0.5);
     if (use.biases & 2)
@@ -167,18 +167,18 @@ static void use_materials(int variant)
     }
     if (use.texture_formats) box->texture = ground->texture = &texture;
     if (use.texture_formats && (use.materials & 2)) ground->emissive_texture = &texture;
-    if (use.alpha) {
+    if (use.materials & 4) {
         box->visible_alpha = cut;
         ball->visible_alpha = variant % 3 ? cut : GN_ALPHA_BLEND;
     }
-    if (use.alpha) box->caster_alpha = ball->caster_alpha = cut;
+    if (use.materials & 4) box->caster_alpha = ball->caster_alpha = cut;
     for (int k = 0; (use.materials & 1) && k < 3; k++) ball->specular_uq16[k] = 30000;
     ball->shininess_log2 = 4;
     for (int i = 0; (use.materials & 2) && i < DEMO_OBJECTS; i++)
         demo.object[i].emissive_uq16[i % 3] = 9000U * (uint32_t)(i + variant);
-    if (use.baked) ball->mask_u8 = mask;
-    if (use.baked) ground->mask_image = &mask_image;
-    if (use.baked) ball->baked_uq12 = baked;
+    if (use.materials & 8) ball->mask_u8 = mask;
+    if (use.materials & 8) ground->mask_image = &mask_image;
+    if (use.materials & 8) ball->baked_uq12 = baked;
     ball->flags |= GN_OBJECT_MOVING;
     /* a build without them does not look at these; this one would */
     if (GN_VERTEX_NORMALS && !(use.vertex_values & 1)) demo.ball.nrm_q15 = NULL;
@@ -199,7 +199,7 @@ static void use_shadow_settings(int variant)
     s->other_filter = filter_of(variant + 3);
     s->penumbra_uq16 = GN_UQ16(6);
     s->disk_samples = 12;
-    s->mixing = use.baked ? (gn_mixing)(variant % 3) : GN_MIXING_NONE;
+    s->mixing = use.materials & 8 ? (gn_mixing)(variant % 3) : GN_MIXING_NONE;
     s->tile_sizes = use.tile_sizes && variant % 2 ? GN_TILES_IMPORTANCE : GN_TILES_EQUAL;
     s->main_light = (use.other_lights & 2) && variant > 1;
     s->caster_culling = 1;

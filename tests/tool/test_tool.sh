@@ -538,7 +538,7 @@ for command in info compare; do
     bad 1 "shadows.*soft light.*4" $command "$cube" --size 8x8 --set softness=soft --set shadows=3
     bad 1 "biases.*bias_receiver" $command "$cube" --size 8x8 --set bias_receiver=0,0,0,1 --set biases=1
     bad 1 "biases.*bias_caster" $command "$cube" --size 8x8 --set bias_caster=1 --set biases=1
-    bad 1 "baked.*mixing" $command "$cube" --size 8x8 --set mixing=always --set baked=0
+    bad 1 "materials.*mixing" $command "$cube" --size 8x8 --set mixing=always --set materials=7
     bad 1 "max_other_tiles is 5" $command "$cube" --size 8x8 --set lights=point --set max_other_tiles=5
     bad 1 "max_width.*8" $command "$cube" --size 8x6 --set max_width=7
     bad 1 "max_height.*6" $command "$cube" --size 8x6 --set max_height=5

@@ -141,7 +141,7 @@ static int read_log(program_log *log, const tool_options *o, char *error, size_t
         failed = -1;
     }
     if (!failed) failed = take_settings(log, o, error, bytes);
-    if (!failed && log->set.quality.transparent_layers && !log->set.feature.alpha) {
+    if (!failed && log->set.quality.transparent_layers && !(log->set.feature.materials & USES_ALPHA)) {
         log->set.quality.transparent_layers = 0;
         header_because(&log->reasons, "transparent_layers", "nothing has alpha");
     }

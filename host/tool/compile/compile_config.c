@@ -130,11 +130,9 @@ static void use_nothing(compiled *c)
     NOTHING(other_lights);
     NOTHING(many_cascades);
     NOTHING(tile_sizes);
-    NOTHING(alpha);
     NOTHING(texture_formats);
     NOTHING(materials);
     NOTHING(pictures);
-    NOTHING(baked);
     NOTHING(biases);
     NOTHING(vertex_joints);
     NOTHING(vertex_values);

@@ -19,8 +19,8 @@ static long of_surfaces(const settings *s, flash_core core)
     bytes += of_level((s->feature.texture_formats > 0) + (s->feature.texture_formats >= 1024),
                       (const int *const[]){texture_formats_bytes, texture_formats_1025_bytes}, core);
     if (s->feature.materials % 2) bytes += materials_bytes[core];
-    if (s->feature.baked) bytes += baked_bytes[core];
-    if (s->feature.alpha) bytes += alpha_bytes[core];
+    if (s->feature.materials & 8) bytes += materials_8_bytes[core];
+    if (s->feature.materials & 4) bytes += materials_4_bytes[core];
     return bytes;
 }
 

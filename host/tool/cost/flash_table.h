@@ -10,12 +10,12 @@ FLASH(shadows_6, 2376, 2160) /* other shadows */
 FLASH(punctual_unshadowed, -18280, -17560) /* spot and point lights, no shadows: above no_shadows too */
 FLASH(other_lights, 18360, 16908)       /* with */
 FLASH(other_lights_2, 368, 336)                /* with 2 */
-FLASH(alpha, 728, 644)                     /* with */
+FLASH(materials_4, 728, 644)                     /* with 4 */
 FLASH(texture_formats, 4420, 4016)                /* with */
 FLASH(texture_formats_1025, 6308, 5812)              /* with 1025 */
 FLASH(materials, 1444, 1592)                /* with */
 FLASH(materials_2, 172, 148)                  /* with 2 */
-FLASH(baked, 2192, 2008)                   /* with */
+FLASH(materials_8, 2192, 2008)                   /* with 8 */
 FLASH(biases_2, 1812, 1584)            /* with */
 FLASH(biases, 4256, 3924)               /* with */
 FLASH(incremental, 948, 880)               /* with */

@@ -65,7 +65,7 @@ static void needs_of_shadows(need_list *list, const scene *s)
     if (s->shadow.n_cascades > 1) need(list, "many_cascades", 1, "cascades %d", s->shadow.n_cascades);
     if (s->shadow.caster_culling) need(list, "many_cascades", 3, "caster_culling 1");
     if (s->shadow.tiles == SCENE_TILES_IMPORTANCE) need(list, "tile_sizes", 1, "tiles importance");
-    if (s->shadow.mixing != SCENE_MIX_NONE) need(list, "baked", 1, "mixing");
+    if (s->shadow.mixing != SCENE_MIX_NONE) need(list, "materials", USES_BAKED, "mixing");
 }
 
 /* F5: soft is at least 5x5, hard is 2x2 where the atlas's filter is not hard itself. */
@@ -111,7 +111,7 @@ static void needs_of_object(need_list *list, const scene *s, const scene_object 
     const size_t shown[] = {o->texture_idx, o->emissive_texture_idx};
     if (o->n_joints)
         need(list, "vertex_joints", joints_of(&s->meshes[o->mesh_idx]), "the skin of object '%s'", o->name);
-    if (o->visible_alpha != SCENE_ALPHA_OPAQUE) need(list, "alpha", 1, "alpha of object '%s'", o->name);
+    if (o->visible_alpha != SCENE_ALPHA_OPAQUE) need(list, "materials", USES_ALPHA, "alpha of object '%s'", o->name);
     for (int i = 0; i < 2; i++) {
         if (shown[i] >= s->n_textures) continue;
         need(list, "texture_formats", 1 << s->textures[shown[i]].format, "the texture of object '%s'", o->name);
@@ -125,10 +125,11 @@ static void needs_of_object(need_list *list, const scene *s, const scene_object 
         need(list, "materials", USES_SPECULAR, "specular of object '%s'", o->name);
     if (o->emissive[0] > 0 || o->emissive[1] > 0 || o->emissive[2] > 0)
         need(list, "materials", USES_EMISSIVE, "the emissive colour of object '%s'", o->name);
-    if (o->baked) need(list, "baked", 1, "baked light of object '%s'", o->name);
+    if (o->baked) need(list, "materials", USES_BAKED, "baked light of object '%s'", o->name);
     if (o->caster == SCENE_CASTER_CLIP || o->caster == SCENE_CASTER_DITHER)
-        need(list, "alpha", 1, "the shadow of object '%s', cut by alpha,", o->name);
-    if (o->mask || o->mask_texture_idx != SCENE_NONE) need(list, "baked", 1, "the shadow mask of object '%s'", o->name);
+        need(list, "materials", USES_ALPHA, "the shadow of object '%s', cut by alpha,", o->name);
+    if (o->mask || o->mask_texture_idx != SCENE_NONE)
+        need(list, "materials", USES_BAKED, "the shadow mask of object '%s'", o->name);
 }
 
 /* A build refuses what it lacks even where nothing comes of it; only what shadows alone are made with it does not look

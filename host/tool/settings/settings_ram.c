@@ -62,7 +62,7 @@ static void put_shadows(layout *l, const settings *s, settings_ram_parts *r)
 /* gn_alpha_cut of lib/geometry/gn_geometry_types.h */
 static long cut_bytes(const settings *s)
 {
-    if (!s->feature.alpha) return 0;
+    if (!(s->feature.materials & 4)) return 0;
     if (!s->feature.texture_formats) return 24;
     return 216;
 }
@@ -78,7 +78,7 @@ static long casting_bytes(const settings *s)
 static long corner_bytes(const settings *s)
 {
     layout light = {0, 4}, all = {0, 4};
-    put(&light, s->feature.baked ? 2 : 1, 4, 4);
+    put(&light, s->feature.materials & 8 ? 2 : 1, 4, 4);
     if (s->feature.shadows) put(&light, 3, 4, 4);
     if (s->feature.materials % 2) {
         put(&light, 1, 4, 4);
@@ -89,7 +89,7 @@ static long corner_bytes(const settings *s)
     put(&all, 8, 4, 4); /* state to base_q24 */
     if (s->feature.vertex_values >= 2) put(&all, 3, 4, 4);
     if (s->feature.texture_formats) put(&all, 2, 4, 4);
-    if (s->feature.baked) put(&all, 2, 4, 4);
+    if (s->feature.materials & 8) put(&all, 2, 4, 4);
     if (s->feature.vertex_values % 2) put(&all, 3, 4, 4);
     if (s->feature.other_lights % 2) put(&all, 3, 4, 4);
     put(&all, s->capacity.surface_lights, light.size, 4);
@@ -130,13 +130,13 @@ static long patch_shared_bytes(const settings *s)
 
 static int has_glow(const settings *s)
 {
-    return s->feature.texture_formats && s->feature.materials >= 2;
+    return s->feature.texture_formats && s->feature.materials & 2;
 }
 
 /* gn_drawing of lib/shade/gn_lattice_types.h */
 static long drawing_bytes(const settings *s)
 {
-    const int glows = s->feature.materials >= 2 && (s->feature.texture_formats || s->feature.vertex_values >= 2);
+    const int glows = s->feature.materials & 2 && (s->feature.texture_formats || s->feature.vertex_values >= 2);
     return 88 + (glows ? 12 : 0) + (has_glow(s) ? 4 + 92 : 0) + (s->feature.texture_formats ? 76 : 0) +
            (has_levels(s) ? 28 : 0);
 }
@@ -174,12 +174,12 @@ static void put_work(layout *out, const settings *s)
     int per_light = (s->feature.shadows && s->feature.many_cascades > 1) || s->feature.other_lights % 2 ? 7
                     : s->feature.shadows                                                                ? 4
                                                                                                         : 1;
-    long values = (s->feature.texture_formats ? 2 : 0) + (s->feature.baked ? 4 : 0) + (s->feature.baked ? 3 : 0) + 5 +
-                  (long)per_light * s->capacity.surface_lights;
+    long values = (s->feature.texture_formats ? 2 : 0) + (s->feature.materials & 8 ? 4 : 0) +
+                  (s->feature.materials & 8 ? 3 : 0) + 5 + (long)per_light * s->capacity.surface_lights;
     put(&surface, 1, s->feature.pictures & 4 ? 244 : 200, 8); /* object to the colours of attribute_q16 */
     put(&surface, 15, 4, 4);                                  /* v_q16 to hi_q16 */
-    if (s->feature.baked) put(&surface, 12, 4, 4);
-    if (s->feature.baked) put(&surface, 9, 4, 4);
+    if (s->feature.materials & 8) put(&surface, 12, 4, 4);
+    if (s->feature.materials & 8) put(&surface, 9, 4, 4);
     if (s->feature.texture_formats) put(&surface, 6, 8, 8);
     if (has_levels(s)) put(&surface, 1, 28, 8);
     if (has_glow(s)) put(&surface, 1, 4, 4);
