@@ -19,14 +19,24 @@ trap 'exit 1' HUP INT TERM
 # ---- Configurations -----------------------------------------------------------------------------------------------------------
 
 features=$(sed -n '/GN_FEATURE_KNOBS/,$s/^    X([a-z_0-9]*, \([A-Z_0-9]*\), .*/\1/p' lib/gn_knobs.h)
-most() { case $1 in SHADOWS) echo 6 ;; VERTEX_JOINTS) echo 4 ;; TEXTURE_FORMATS) echo 2047 ;; MANY_CASCADES | BIASES | OTHER_LIGHTS | VERTEX_VALUES) echo 3 ;; PICTURES) echo 7 ;; MATERIALS) echo 15 ;; INCREMENTAL | TILE_SIZES | CLIPPING) echo 2 ;; *) echo 1 ;; esac; }
+most() {
+    case $1 in
+    SHADOWS) echo 6 ;;
+    VERTEX_JOINTS) echo 4 ;;
+    TEXTURE_FORMATS) echo 2047 ;;
+    MANY_CASCADES | BIASES | OTHER_LIGHTS | VERTEX_VALUES) echo 3 ;;
+    PICTURES) echo 7 ;;
+    MATERIALS) echo 15 ;;
+    INCREMENTAL | TILE_SIZES | CLIPPING) echo 2 ;;
+    *) echo 1 ;;
+    esac
+}
 # Formats of textures, in the order of gn_scene_types.h
 FORMATS="RGBA8888 RGB565 RGB565A1 PALETTE8 PALETTE4 PALETTE1 GREY8 GREY4 ALPHA8 ALPHA4"
 # base FEATURE: what must be built for it to have something to do
 base() {
     case $1 in
-    SHADOWS | OTHER_LIGHTS | TEXTURE_FORMATS | MATERIALS | VERTEX_* | VALIDATION | PICTURES | \
-        CLIPPING) echo none ;;
+    SHADOWS | OTHER_LIGHTS | TEXTURE_FORMATS | MATERIALS | VERTEX_* | VALIDATION | PICTURES | CLIPPING) echo none ;;
     *) echo shadows ;;
     esac
 }
