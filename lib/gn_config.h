@@ -266,7 +266,7 @@
 #if GN_RUNTIME_KNOBS
 #define GN_VERTEX_CACHE 1024
 #else
-#define GN_VERTEX_CACHE ((GN_TILE_WIDTH) * (GN_TILE_HEIGHT) >= 512 ? 32 : 8)
+#define GN_VERTEX_CACHE ((GN_TILE_WIDTH) * (GN_TILE_HEIGHT) >= 512 ? 32 : 4)
 #endif
 
 /* Layers of transparent surfaces that there is memory for. */

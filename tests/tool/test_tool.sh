@@ -507,8 +507,8 @@ f 1 4 2
 f 2 4 3
 f 3 4 1
 OBJ
-differ "$cube" shadows=0 shadows=2
-differ "$cube" shadows=2 strength=0
+differ "$cube" shadows=0 shadows=3
+differ "$cube" shadows=3 strength=0
 good compare "$cube" --size 64x48 --set shadows=0 --json
 is shadow_mismatch 0 'shadows=0'
 is atten_max 0 'shadows=0'
@@ -554,7 +554,7 @@ good compare "$cube" --size 8x8 --set lights=directional,directional --set surfa
 good info "$cube" --size 8x8 --set receiver_plane=0 --set receiver_plane@0=1 # what one light uses is built
 for knob in object_boxes incremental; do
     for on in 0 1; do
-        good render "$cube" -o "$tmp/b.png" --size 64x48 --set $knob=$on --set shadows=2
+        good render "$cube" -o "$tmp/b.png" --size 64x48 --set $knob=$on --set shadows=3
         [ $on = 0 ] && mv "$tmp/b.png" "$tmp/a.png"
     done
     cmp -s "$tmp/a.png" "$tmp/b.png" && pass || fail "$knob changes the picture"
@@ -835,7 +835,7 @@ while read -r name low high; do
         1) # a capacity that is too small for the scene, or a feature that it needs: said in one line
             if [ "$(wc -l <"$tmp/err")" = 1 ] && grep -q '^gnomon: ' "$tmp/err"; then pass
             else fail "$name=$value is refused without a clear line: $(head -n 1 "$tmp/err")"; fi
-            case $name in max_* | atlas_texels | shadows | vertex_* | persp_step | tile_* | compact) ;;
+            case $name in max_* | atlas_texels | shadows | biases | vertex_* | persp_step | tile_* | compact) ;;
             *) fail "$name=$value, an end of its range, is refused: $(head -n 1 "$tmp/err")" ;; esac ;;
         *) fail "$name=$value exits with $status" ;;
         esac

@@ -117,7 +117,7 @@ static const char *why_gone(const char *key)
         {"weight_bits", "follows from persp_step: 12 with 1, else 8"},
         {"position_bits", "short_vertices=1 is 16 bits, else 32"},
         {"normal_bits", "short_vertices=2 is 8 bits, else 16"},
-        {"vertex_cache", "follows from the screen tile: 32 from 512 pixels on, else 8"},
+        {"vertex_cache", "follows from the screen tile: 32 from 512 pixels on, else 4"},
         {"blended_cascades", "many_cascades=2 has it"},
         {"disk_filter", "shadows=6 has it"},
         {"filter_max", "shadows has it: 1 hard, 2 2x2, 3 3x3, 4 5x5, 5 7x7, 6 disk"},

@@ -269,7 +269,7 @@ settings_ram_parts settings_ram(const settings *s)
     all = frame;
     r.cells = put(&all, 1 + tile_w * tile_h, 4, 4);
     r.pixels = put(&all, tile_w * tile_h, s->feature.pictures >= 8 ? 4 : 3, 4);
-    put(&all, tile_w * tile_h >= 512 ? 32 : 8, 16, 4);                               /* GN_VERTEX_CACHE */
+    put(&all, tile_w * tile_h >= 512 ? 32 : 4, 16, 4);                               /* GN_VERTEX_CACHE */
     put(&all, 64, tile_w * tile_h > 65535 ? 4 : 2, tile_w * tile_h > 65535 ? 4 : 2); /* run_list */
     if (groups) r.triangles += put(&all, 1 + s->capacity.max_triangles, 4, 2);       /* drawn */
     if (s->quality.transparent_layers) {
