@@ -57,35 +57,35 @@ void uses_light(const uses_list *to, const gn_light *light, uint32_t idx, int ca
 static void use_texture(const uses_list *to, const gn_texture *t, uint32_t idx)
 {
     if (!t) return;
-    use(to, "texture_formats", 1 << t->format, "object", USES_OBJECT, idx);
+    use(to, "texture_formats", 1 << t->format, "the texture of object", USES_OBJECT, idx);
     if (t->flags & GN_TEXTURE_MIPMAPPED)
-        use(to, "texture_formats", USES_TEXTURE_LEVELS, "the texture of object", USES_OBJECT, idx);
+        use(to, "texture_formats", USES_TEXTURE_LEVELS, "levels of the texture of object", USES_OBJECT, idx);
 }
 
 void uses_object(const uses_list *to, const gn_object *o, uint32_t idx)
 {
     const uint32_t *s = o->specular_uq16, *e = o->emissive_uq16;
-    if (o->visible_alpha != GN_ALPHA_OPAQUE) use(to, "materials", USES_ALPHA, "object", USES_OBJECT, idx);
-    if (o->caster_alpha != GN_ALPHA_OPAQUE) use(to, "materials", USES_ALPHA, "object", USES_OBJECT, idx);
+    if (o->visible_alpha != GN_ALPHA_OPAQUE) use(to, "materials", USES_ALPHA, "alpha of object", USES_OBJECT, idx);
+    if (o->caster_alpha != GN_ALPHA_OPAQUE) use(to, "materials", USES_ALPHA, "alpha of object", USES_OBJECT, idx);
     use_texture(to, o->texture, idx);
     use_texture(to, o->emissive_texture, idx);
-    if (o->emissive_texture) use(to, "materials", USES_EMISSIVE, "object", USES_OBJECT, idx);
-    if (s[0] || s[1] || s[2]) use(to, "materials", USES_SPECULAR, "object", USES_OBJECT, idx);
-    if (e[0] || e[1] || e[2]) use(to, "materials", USES_EMISSIVE, "object", USES_OBJECT, idx);
-    if (o->mask_u8 || o->mask_image) use(to, "materials", USES_BAKED, "object", USES_OBJECT, idx);
-    if (o->baked_uq12) use(to, "materials", USES_BAKED, "object", USES_OBJECT, idx);
+    if (o->emissive_texture) use(to, "materials", USES_EMISSIVE, "emissive texture of object", USES_OBJECT, idx);
+    if (s[0] || s[1] || s[2]) use(to, "materials", USES_SPECULAR, "specular of object", USES_OBJECT, idx);
+    if (e[0] || e[1] || e[2]) use(to, "materials", USES_EMISSIVE, "emissive colour of object", USES_OBJECT, idx);
+    if (o->mask_u8 || o->mask_image) use(to, "materials", USES_BAKED, "mask of object", USES_OBJECT, idx);
+    if (o->baked_uq12) use(to, "materials", USES_BAKED, "baked light of object", USES_OBJECT, idx);
     if (o->skin) use(to, "vertex_joints", o->skin->per_vertex, "object", USES_OBJECT, idx);
 }
 
 void uses_mesh(const uses_list *to, const gn_mesh *mesh, uint32_t idx)
 {
-    if (mesh->nrm_q15) use(to, "vertex_values", USES_NORMALS, "mesh", USES_MESH, idx);
-    if (mesh->rgb_uq16) use(to, "vertex_values", USES_COLOURS, "mesh", USES_MESH, idx);
+    if (mesh->nrm_q15) use(to, "vertex_values", USES_NORMALS, "normals of mesh", USES_MESH, idx);
+    if (mesh->rgb_uq16) use(to, "vertex_values", USES_COLOURS, "colours of mesh", USES_MESH, idx);
 }
 
 void uses_camera(const uses_list *to, const gn_camera *camera)
 {
-    if (camera->half_height_q16) use(to, "pictures", USES_ORTHOGRAPHIC, "the camera", USES_SETTING, 0);
+    if (camera->half_height_q16) use(to, "pictures", USES_ORTHOGRAPHIC, "the orthographic camera", USES_SETTING, 0);
 }
 
 void uses_shadows(const uses_list *to, const gn_scene *scene)
