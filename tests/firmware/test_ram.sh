@@ -31,7 +31,7 @@ int main(int argc, char **argv)
     return 0;
 }
 EOF_C
-if gcc -std=c11 -D_POSIX_C_SOURCE=200809L -O1 $warn -Ilib -I. $host_knobs -o "$tmp/ram" "$tmp/ram.c" host/tool/settings/*.c host/tool/fixed/output.c host/scene/core/*.c host/scene/image/*.c host/base/*.c -lm >"$tmp/ram.log" 2>&1; then
+if gcc -std=c11 -D_POSIX_C_SOURCE=200809L -O1 $warn -Ilib -I. $host_knobs -o "$tmp/ram" "$tmp/ram.c" host/tool/settings/*.c host/record/uses.c host/tool/fixed/output.c host/scene/core/*.c host/scene/image/*.c host/base/*.c -lm >"$tmp/ram.log" 2>&1; then
     pass
 else
     fail "settings_ram: $(grep -m 1 -E 'error|undefined' "$tmp/ram.log")"
