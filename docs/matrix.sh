@@ -19,15 +19,24 @@ trap 'exit 1' HUP INT TERM
 # ---- Configurations -----------------------------------------------------------------------------------------------------------
 
 features=$(sed -n '/GN_FEATURE_KNOBS/,$s/^    X([a-z_0-9]*, \([A-Z_0-9]*\), .*/\1/p' lib/gn_knobs.h)
-most() { case $1 in FILTER_MAX) echo 5 ;; VERTEX_JOINTS) echo 4 ;; TEXTURE_FORMATS) echo 1023 ;; MANY_CASCADES) echo 3 ;; TEXTURES | INCREMENTAL | TILE_SIZES | CLIPPING) echo 2 ;; *) echo 1 ;; esac; }
+most() {
+    case $1 in
+    SHADOWS) echo 6 ;;
+    VERTEX_JOINTS) echo 4 ;;
+    TEXTURE_FORMATS) echo 2047 ;;
+    MANY_CASCADES | BIASES | OTHER_LIGHTS | VERTEX_VALUES) echo 3 ;;
+    PICTURES) echo 7 ;;
+    MATERIALS) echo 15 ;;
+    INCREMENTAL | TILE_SIZES | CLIPPING) echo 2 ;;
+    *) echo 1 ;;
+    esac
+}
 # Formats of textures, in the order of gn_scene_types.h
 FORMATS="RGBA8888 RGB565 RGB565A1 PALETTE8 PALETTE4 PALETTE1 GREY8 GREY4 ALPHA8 ALPHA4"
 # base FEATURE: what must be built for it to have something to do
 base() {
     case $1 in
-    SHADOWS | PUNCTUAL_LIGHTS | TEXTURES | SPECULAR | VERTEX_* | BAKED | VALIDATION | OTHER_FORMATS | ALPHA | \
-        EMISSIVE | ORTHOGRAPHIC | TILE_DRAWING | CLIPPING) echo none ;;
-    TEXTURE_*) echo textures ;;
+    SHADOWS | OTHER_LIGHTS | TEXTURE_FORMATS | MATERIALS | VERTEX_* | VALIDATION | PICTURES | CLIPPING) echo none ;;
     *) echo shadows ;;
     esac
 }
@@ -40,23 +49,22 @@ without() { for feature in $features; do if [ "$feature" = "$1" ]; then echo "-D
 configurations() {
     echo "none $(with SHADOWS=0)"
     echo "shadows $(with SHADOWS=1)"
-    echo "lights $(with PUNCTUAL_LIGHTS=1)"
-    echo "filters $(with SHADOWS=1 FILTER_MAX=4)"
-    echo "textures $(with TEXTURES=1 TEXTURE_FORMATS=1)"
-    echo "shadows+lights $(with SHADOWS=1 PUNCTUAL_LIGHTS=1)"
+    echo "lights $(with OTHER_LIGHTS=1)"
+    echo "filters $(with SHADOWS=5)"
+    echo "textures $(with TEXTURE_FORMATS=1)"
+    echo "shadows+lights $(with SHADOWS=1 OTHER_LIGHTS=1)"
     echo "all $(without nothing)"
     bit=1
     for format in $FORMATS; do
-        [ $bit = 1 ] || echo "textures+$format $(with TEXTURES=1 TEXTURE_FORMATS=$((1 + bit)))"
+        [ $bit = 1 ] || echo "textures+$format $(with TEXTURE_FORMATS=$((1 + bit)))"
         bit=$((2 * bit))
     done
     for feature in $features; do
         value=$(most "$feature")
         case $(base "$feature") in
-        none) echo "none+$feature $(with TEXTURE_FORMATS=1 "$feature=$value")" ;;
-        textures) echo "textures+$feature $(with TEXTURES=1 TEXTURE_FORMATS=1 "$feature=$value")" ;;
-        lights) echo "lights+$feature $(with PUNCTUAL_LIGHTS=1 "$feature=$value")" ;;
-        filters) echo "filters+$feature $(with SHADOWS=1 FILTER_MAX=4 "$feature=$value")" ;;
+        none) echo "none+$feature $(with "$feature=$value")" ;;
+        lights) echo "lights+$feature $(with OTHER_LIGHTS=1 "$feature=$value")" ;;
+        filters) echo "filters+$feature $(with SHADOWS=5 "$feature=$value")" ;;
         shadows) echo "shadows+$feature $(with SHADOWS=1 "$feature=$value")" ;;
         esac
         echo "all-$feature $(without "$feature")"
@@ -136,22 +144,22 @@ tables() {
         }
         function share(a, b) { return a == "" || b == "" ? "·" : sprintf("−%.1f %%", 100 * (1 - a / b)) }
         function alone(f,    b) {
-            for (b = 1; b <= 5; b++) if (get("flash", "M4", base[b] "+" f) != "" || get("flash", "M0", base[b] "+" f) != "") return base[b]
+            for (b = 1; b <= 4; b++) if (get("flash", "M4", base[b] "+" f) != "" || get("flash", "M0", base[b] "+" f) != "") return base[b]
             return "none"
         }
         END {
-            split("none shadows lights filters textures", base, " ")
+            split("none shadows lights filters", base, " ")
             head = "| configuration | flash, M0 | flash, M4 | RAM | stack, M0 | stack, M4 |\n| --- | --- | --- | --- | --- | --- |"
             print head
             row("none", "none")
             row("shadows", "`shadows` alone, hard")
-            row("lights", "`punctual_lights` alone")
+            row("lights", "`other_lights` 1 alone")
             row("shadows+lights", "both")
             row("all", "all")
             n = split(scenes, scene, " ")
             for (i = 1; i <= n; i++) row("own-" scene[i], scene[i] ", its own")
             print "\n## What each feature costs\n"
-            print "Bytes; *alone*: more than what it stands on (none of the features; `shadows`; `punctual_lights`; `shadows` with `filter_max` 4; `textures` of RGBA8888); *of all*: what all of them take more than all but this.\n"
+            print "Bytes; *alone*: more than what it stands on (none of the features; `shadows`; `other_lights` 1; `shadows` 5); *of all*: what all of them take more than all but this.\n"
             print "| feature | alone, over | flash, M0 | flash, M4 | RAM | stack, M4 | of all: flash, M0 | flash, M4 | RAM | stack, M4 |"
             print "| --- | --- | --- | --- | --- | --- | --- | --- | --- | --- |"
             n_features = split(features, feature, " ")
@@ -165,7 +173,7 @@ tables() {
                     minus(get("ram", "M4", "all"), get("ram", "M4", y)), minus(get("stack", "M4", "all"), get("stack", "M4", y))
             }
             print "\n## What each format of textures costs\n"
-            print "Bytes of flash more than `textures` of RGBA8888 alone.\n"
+            print "Bytes of flash more than RGBA8888 alone.\n"
             print "| format | M0 | M4 |\n| --- | --- | --- |"
             n_formats = split(formats, format, " ")
             for (i = 2; i <= n_formats; i++)

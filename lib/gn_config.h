@@ -18,14 +18,19 @@
 /* Knobs that are gone. */
 #if defined(GN_TILE_LIGHTS) || defined(GN_LINEAR_KERNELS) || defined(GN_DEPTH_BLOCKS) || defined(GN_ATTEN_BITS) ||     \
     defined(GN_NEWTON_STEPS) || defined(GN_SHADOW_DEPTH_FRAC) || defined(GN_SHADOW_SUBPIXEL_BITS) ||                   \
-    defined(GN_WEIGHT_BITS)
+    defined(GN_WEIGHT_BITS) || defined(GN_VERTEX_CACHE)
 #error "the configuration sets a knob that is gone: docs/CHANGELOG.md says what to do instead"
 #endif
 #if defined(GN_CASTER_ALPHA) || defined(GN_VISIBLE_ALPHA) || defined(GN_EMISSIVE_TEXTURES) || defined(GN_MASKS) ||     \
     defined(GN_BAKED_LIGHT) || defined(GN_RECEIVER_BIAS) || defined(GN_CASTER_BIAS) || defined(GN_RECEIVER_PLANE) ||   \
     defined(GN_BLENDED_CASCADES) || defined(GN_CASTER_CULLING) || defined(GN_DISK_FILTER) ||                           \
     defined(GN_TEXTURE_LEVELS) || defined(GN_STATIC_LAYER) || defined(GN_TILE_IMPORTANCE) || defined(GN_TIGHT_FIT) ||  \
-    defined(GN_CASTER_CLIPPING) || defined(GN_CLIPS) || defined(GN_PICKING) || defined(GN_RAW_VIEWS)
+    defined(GN_CASTER_CLIPPING) || defined(GN_CLIPS) || defined(GN_PICKING) || defined(GN_RAW_VIEWS) ||                \
+    defined(GN_ERROR_FIELDS) || defined(GN_FILTER_MAX) || defined(GN_TEXTURES) || defined(GN_AUTO_BIAS) ||             \
+    defined(GN_OTHER_BIASES) || defined(GN_SPECULAR) || defined(GN_EMISSIVE) || defined(GN_POSITION_BITS) ||           \
+    defined(GN_NORMAL_BITS) || defined(GN_TILE_DRAWING) || defined(GN_OTHER_FORMATS) || defined(GN_ORTHOGRAPHIC) ||    \
+    defined(GN_PUNCTUAL_LIGHTS) || defined(GN_MAIN_LIGHT) || defined(GN_VERTEX_NORMALS) ||                             \
+    defined(GN_VERTEX_COLOURS) || defined(GN_ALPHA) || defined(GN_BAKED)
 #error "the configuration sets a knob that is part of another one now: docs/CHANGELOG.md says of which"
 #endif
 
@@ -57,8 +62,7 @@
 #define GN_PRESETS_TILE_HEIGHT        16, 16, 16, 16
 #define GN_PRESETS_SRGB               1, 1, 1, 1
 #define GN_PRESETS_VERTEX_LIGHT       0, 1, 0, 0
-#define GN_PRESETS_POSITION_BITS      32, 32, 32, 32
-#define GN_PRESETS_NORMAL_BITS        16, 16, 16, 16
+#define GN_PRESETS_SHORT_VERTICES     0, 0, 0, 0
 #define GN_PRESETS_TRIANGLE_GROUPS    0, 0, 0, 0
 #define GN_PRESETS_TRANSPARENT_LAYERS 0, 0, 0, 0
 
@@ -96,11 +100,8 @@
 #ifndef GN_VERTEX_LIGHT
 #define GN_VERTEX_LIGHT GN_PICK(GN_PRESETS_VERTEX_LIGHT)
 #endif
-#ifndef GN_POSITION_BITS
-#define GN_POSITION_BITS GN_PICK(GN_PRESETS_POSITION_BITS)
-#endif
-#ifndef GN_NORMAL_BITS
-#define GN_NORMAL_BITS GN_PICK(GN_PRESETS_NORMAL_BITS)
+#ifndef GN_SHORT_VERTICES
+#define GN_SHORT_VERTICES GN_PICK(GN_PRESETS_SHORT_VERTICES)
 #endif
 #ifndef GN_TRIANGLE_GROUPS
 #define GN_TRIANGLE_GROUPS GN_PICK(GN_PRESETS_TRIANGLE_GROUPS)
@@ -143,67 +144,41 @@
 #ifndef GN_OTHER_ATLAS_TEXELS
 #define GN_OTHER_ATLAS_TEXELS (GN_OTHER_ATLAS_SIZE * GN_OTHER_ATLAS_SIZE)
 #endif
-#ifndef GN_VERTEX_CACHE
-#define GN_VERTEX_CACHE 32
-#endif
 
 /* Features: 0 means absent from the image. */
 #ifndef GN_SHADOWS
+#if GN_COMPACT
 #define GN_SHADOWS 1
+#else
+#define GN_SHADOWS 6
 #endif
-#ifndef GN_FILTER_MAX
-#define GN_FILTER_MAX (GN_COMPACT ? 0 : 5)
 #endif
-#ifndef GN_PUNCTUAL_LIGHTS
-#define GN_PUNCTUAL_LIGHTS (!GN_COMPACT)
-#endif
-#ifndef GN_MAIN_LIGHT
-#define GN_MAIN_LIGHT (!GN_COMPACT)
-#endif
-#ifndef GN_ALPHA
-#define GN_ALPHA (!GN_COMPACT)
-#endif
-#ifndef GN_TEXTURES
-#define GN_TEXTURES (GN_COMPACT ? 0 : 2)
+#ifndef GN_OTHER_LIGHTS
+#define GN_OTHER_LIGHTS (GN_COMPACT ? 0 : 3)
 #endif
 #ifndef GN_TEXTURE_FORMATS
-#define GN_TEXTURE_FORMATS 1023
+#define GN_TEXTURE_FORMATS (GN_COMPACT ? 0 : 2047)
 #endif
-#ifndef GN_SPECULAR
-#define GN_SPECULAR (!GN_COMPACT)
+#ifndef GN_MATERIALS
+#define GN_MATERIALS (GN_COMPACT ? 0 : 15)
 #endif
-#ifndef GN_EMISSIVE
-#define GN_EMISSIVE (!GN_COMPACT)
-#endif
-#ifndef GN_BAKED
-#define GN_BAKED (!GN_COMPACT)
-#endif
-#ifndef GN_OTHER_BIASES
-#define GN_OTHER_BIASES (!GN_COMPACT)
-#endif
-#ifndef GN_AUTO_BIAS
-#define GN_AUTO_BIAS 1
+#ifndef GN_BIASES
+#define GN_BIASES (GN_COMPACT ? 1 : 3)
 #endif
 #ifndef GN_INCREMENTAL
 #define GN_INCREMENTAL (!GN_COMPACT)
 #endif
-#ifndef GN_VERTEX_NORMALS
-#define GN_VERTEX_NORMALS (!GN_COMPACT)
-#endif
-#ifndef GN_VERTEX_COLOURS
-#define GN_VERTEX_COLOURS (!GN_COMPACT)
+#ifndef GN_VERTEX_VALUES
+#define GN_VERTEX_VALUES (GN_COMPACT ? 0 : 3)
 #endif
 #ifndef GN_VERTEX_JOINTS
 #define GN_VERTEX_JOINTS (GN_COMPACT ? 0 : 4)
 #endif
-#ifndef GN_TILE_DRAWING
-#define GN_TILE_DRAWING (!GN_COMPACT)
-#endif
 #ifndef GN_VALIDATION
 #define GN_VALIDATION 1
 #endif
-#ifndef GN_OTHER_FORMATS
-#define GN_OTHER_FORMATS (!GN_COMPACT)
+#ifndef GN_PICTURES
+#define GN_PICTURES (GN_COMPACT ? 0 : 7)
 #endif
 #ifndef GN_MANY_CASCADES
 #define GN_MANY_CASCADES (GN_COMPACT ? 0 : 2)
@@ -214,24 +189,19 @@
 #ifndef GN_OBJECT_BOXES
 #define GN_OBJECT_BOXES (!GN_COMPACT)
 #endif
-#ifndef GN_ORTHOGRAPHIC
-#define GN_ORTHOGRAPHIC (!GN_COMPACT)
-#endif
 #ifndef GN_CLIPPING
 #define GN_CLIPPING (GN_COMPACT ? 0 : 2)
 #endif
 
-/* How the library is built. A program may be compiled with another size_first or error_fields than the library: no type
- * depends on them. */
+/* No knob: less flash rather than fewer instructions, where the compiler is asked for that: one code path where two
+ * give the same bits, calls in place of inline code. No type depends on it: a program may have another than the
+ * library. */
 #ifndef GN_SIZE_FIRST
 #ifdef __OPTIMIZE_SIZE__
 #define GN_SIZE_FIRST 1
 #else
 #define GN_SIZE_FIRST 0
 #endif
-#endif
-#ifndef GN_ERROR_FIELDS
-#define GN_ERROR_FIELDS 0
 #endif
 
 /* No knob: quality knobs as data, with all that they may need, for host tools. */
@@ -247,9 +217,15 @@
 #endif
 
 /* What the features above stand for, by parts of the library. */
+#define GN_PUNCTUAL_LIGHTS  ((GN_OTHER_LIGHTS) % 2)
+#define GN_MAIN_LIGHT       ((GN_OTHER_LIGHTS) >= 2)
+#define GN_FILTER_MAX       ((GN_SHADOWS) - ((GN_SHADOWS) > 0))
 #define GN_DISK_FILTER      ((GN_FILTER_MAX) >= 5)
 #define GN_BLENDED_CASCADES ((GN_MANY_CASCADES) >= 2)
 #define GN_CASTER_CULLING   ((GN_MANY_CASCADES) >= 3)
+#define GN_FORMATS          ((GN_TEXTURE_FORMATS)&1023)
+#define GN_TEXTURES         (GN_FORMATS != 0)
+#define GN_MIPMAPS          ((GN_TEXTURE_FORMATS) >= 1024)
 #define GN_STATIC_LAYER     ((GN_INCREMENTAL) >= 2)
 #define GN_TILE_IMPORTANCE  ((GN_TILE_SIZES) >= 1)
 #define GN_TIGHT_FIT        ((GN_SHADOWS) && (GN_TILE_SIZES) >= 2)
@@ -257,17 +233,26 @@
 #define GN_VISIBLE_ALPHA    (GN_ALPHA)
 #define GN_MASKS            (GN_BAKED)
 #define GN_BAKED_LIGHT      (GN_BAKED)
+#define GN_SPECULAR         ((GN_MATERIALS) % 2)
+#define GN_EMISSIVE         ((GN_MATERIALS) / 2 % 2)
+#define GN_ALPHA            ((GN_MATERIALS) / 4 % 2)
+#define GN_BAKED            ((GN_MATERIALS) >= 8)
+#define GN_AUTO_BIAS        ((GN_BIASES) % 2)
+#define GN_OTHER_BIASES     ((GN_BIASES) >= 2)
 #define GN_RECEIVER_BIAS    (GN_OTHER_BIASES)
 #define GN_CASTER_BIAS      (GN_OTHER_BIASES)
 #define GN_RECEIVER_PLANE   (GN_OTHER_BIASES)
 #define GN_CASTER_CLIPPING  ((GN_CLIPPING) >= 2)
-#define GN_RAW_VIEWS        ((GN_OTHER_FORMATS) >= 2)
+#define GN_VERTEX_NORMALS   ((GN_VERTEX_VALUES) % 2)
+#define GN_VERTEX_COLOURS   ((GN_VERTEX_VALUES) >= 2)
+#define GN_TILE_DRAWING     ((GN_PICTURES) / 2 % 2)
+#define GN_ORTHOGRAPHIC     ((GN_PICTURES) / 4 % 2)
+#define GN_RAW_VIEWS        ((GN_PICTURES) >= 8)
+#define GN_OTHER_FORMATS    ((GN_PICTURES) % 2 || GN_RAW_VIEWS)
+#define GN_ERROR_FIELDS     ((GN_VALIDATION) >= 2)
 
 /* Whether the boxes of objects are needed. */
 #define GN_BOXES (GN_PUNCTUAL_LIGHTS || (GN_SHADOWS && (GN_OBJECT_BOXES || GN_CASTER_CULLING || GN_TIGHT_FIT)))
-
-/* Whether textures may have half-size levels. */
-#define GN_MIPMAPS ((GN_TEXTURES) >= 2)
 
 /* Whether light that a surface emits may have to be added after colours of vertices or a texture. */
 #define GN_GLOW_APART (GN_EMISSIVE && (GN_TEXTURES || GN_VERTEX_COLOURS))
@@ -276,6 +261,13 @@
  * can do both). */
 #define GN_RECORDS (GN_RUNTIME_KNOBS || !GN_TRIANGLE_GROUPS)
 #define GN_GROUPS  (GN_RUNTIME_KNOBS || GN_TRIANGLE_GROUPS)
+
+/* Entries of the cache of vertices that are shaded: screen tiles of few pixels have few triangles. */
+#if GN_RUNTIME_KNOBS
+#define GN_VERTEX_CACHE 1024
+#else
+#define GN_VERTEX_CACHE ((GN_TILE_WIDTH) * (GN_TILE_HEIGHT) >= 512 ? 32 : 4)
+#endif
 
 /* Layers of transparent surfaces that there is memory for. */
 #if GN_RUNTIME_KNOBS

@@ -2,7 +2,7 @@
 #ifndef GN_FIELD_H
 #define GN_FIELD_H
 
-/* With error_fields, gn_detail.field. `light.` and `object.`: gn_detail.index tells which. A width or height of a
+/* With validation 2, gn_detail.field. `light.` and `object.`: gn_detail.index tells which. A width or height of a
  * texture is also its width_log2 or height_log2. */
 #define GN_FIELD_LIST(X)                                                                                               \
     X(GN_FIELD_NONE, "")                                                                                               \

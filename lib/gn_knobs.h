@@ -35,9 +35,10 @@
     X(vertex_light, VERTEX_LIGHT, 0, 1,                                                                                \
       "1: Gouraud shading: n . L of directional lights is computed at vertices and interpolated",                      \
       "saves a root per sample; 12 bytes per light of a surface")                                                      \
-    X(position_bits, POSITION_BITS, 16, 32, "bits of a mesh's coordinates (16 or 32)",                                 \
-      "flash: 6 or 12 bytes per vertex")                                                                               \
-    X(normal_bits, NORMAL_BITS, 8, 16, "bits of a mesh's normals (8 or 16)", "flash: 3 or 6 bytes per vertex")         \
+    X(short_vertices, SHORT_VERTICES, 0, 3,                                                                            \
+      "vertices of meshes in fewer bits, the sum: 1 coordinates of 16 bits in place of 32; 2 normals of 8 bits in "    \
+      "place of 16",                                                                                                   \
+      "saves flash: 6 bytes per vertex, and 3")                                                                        \
     X(triangle_groups, TRIANGLE_GROUPS, 0, 4096,                                                                       \
       "groups of neighbouring triangles in their meshes, in place of records of triangles: each screen tile sets up "  \
       "again the groups that it meets; 0: records; the same picture",                                                  \
@@ -60,77 +61,70 @@
       "620 bytes each, 84 with persp_step 1")                                                                          \
     X(max_objects, MAX_OBJECTS, 1, 65535, "objects in a scene", "37 bytes each, 25 without spot and point lights")     \
     X(max_shadow_tiles, MAX_SHADOW_TILES, 1, 16, "tiles of the directional atlas: lights times cascades",              \
-      "232 bytes each, 16 less without incremental, 8 less without auto_bias")                                         \
+      "232 bytes each, 16 less without incremental, 8 less without automatic bias")                                    \
     X(max_other_tiles, MAX_OTHER_TILES, 1, 16, "tiles of the local-light atlas: 1 per spot, 6 per point light",        \
-      "232 bytes each, 16 less without incremental, 8 less without auto_bias")                                         \
+      "232 bytes each, 16 less without incremental, 8 less without automatic bias")                                    \
     X(atlas_texels, ATLAS_TEXELS, 64, 1048576,                                                                         \
       "texels reserved for the tiles of the directional atlas, a multiple of 64; by default the whole atlas; tiles "   \
       "by worth share them",                                                                                           \
       "depth_bits / 8 bytes each: tiles fill an atlas only if there are 1, 4 or 16 of them, or with sizes by "         \
       "importance")                                                                                                    \
     X(other_atlas_texels, OTHER_ATLAS_TEXELS, 64, 1048576, "the same of the local-light atlas",                        \
-      "other_depth_bits / 8 bytes each")                                                                               \
-    X(vertex_cache, VERTEX_CACHE, 4, 1024, "entries of the transformed-vertex caches, a power of two", "16 bytes each")
+      "other_depth_bits / 8 bytes each")
 
 /* How the library is built: constant in every build. */
 #define GN_BUILD_KNOBS(X)                                                                                              \
     X(compact, COMPACT, 0, 1,                                                                                          \
       "32-bit arithmetic for one directional light with one hard shadow tile and flat colours, in pictures up to "     \
       "256x256; features are off",                                                                                     \
-      "none: the smallest flash; a scene beyond its range is refused")                                                 \
-    X(size_first, SIZE_FIRST, 0, 1,                                                                                    \
-      "less flash rather than fewer instructions: one code path where two give the same bits, calls in place of "      \
-      "inline code; by default 1 where the compiler optimises for size (-Os)",                                         \
-      "instructions; the same picture")                                                                                \
-    X(error_fields, ERROR_FIELDS, 0, 1, "errors name the field that is wrong: gn_detail.field",                        \
-      "flash; 3 KB more where gn_field_text is called")
+      "none: the smallest flash; a scene beyond its range is refused")
 
 #define GN_FEATURE_KNOBS(X)                                                                                            \
-    X(shadows, SHADOWS, 0, 1, "shadow maps", "atlas, rasteriser and filters")                                          \
-    X(filter_max, FILTER_MAX, 0, 5,                                                                                    \
-      "largest filter built: 0 hard, 1 2x2, 2 3x3, 3 5x5, 4 7x7, 5 the rotated disk, too",                             \
-      "flash; 5: a table of 256 bytes; 4 bytes of RAM per 64 texels")                                                  \
-    X(punctual_lights, PUNCTUAL_LIGHTS, 0, 1, "spot and point lights", "flash; the local-light atlas")                 \
-    X(main_light, MAIN_LIGHT, 0, 1, "a main light with cascades; other directional lights take one tile each",         \
+    X(shadows, SHADOWS, 0, 6,                                                                                          \
+      "shadow maps, and the largest filter built: 0 no shadows, 1 hard, 2 2x2, 3 3x3, 4 5x5, 5 7x7, 6 the rotated "    \
+      "disk, too",                                                                                                     \
+      "atlas, rasteriser and filters; 6: a table of 256 bytes; 4 bytes of RAM per 64 texels")                          \
+    X(other_lights, OTHER_LIGHTS, 0, 3,                                                                                \
+      "lights of the local-light atlas, the sum: 1 spot and point lights; 2 directional lights beside a main one, "    \
+      "which "                                                                                                         \
+      "alone has cascades: they take one tile each",                                                                   \
       "flash; the local-light atlas")                                                                                  \
-    X(alpha, ALPHA, 0, 1, "alpha of surfaces and of casters: clip and dither", "flash")                                \
-    X(textures, TEXTURES, 0, 2,                                                                                        \
-      "textures: colour and alpha; 2: also half-size levels (mip chains), chosen per cell by depth: far textures do "  \
-      "not glitter",                                                                                                   \
-      "flash; a table of 512 bytes; a lookup per pixel; 2: a third more flash per texture that has levels; a root "    \
+    X(texture_formats, TEXTURE_FORMATS, 0, 2047,                                                                       \
+      "textures, colour and alpha: the formats that are built, their sum; 0: no textures; 1 RGBA8888, 2 RGB565, 4 "    \
+      "RGB565 with 1 bit of alpha, 8, 16, 32 palettes of 8, 4, 1 bits, 64, 128 grey of 8, 4 bits, 256, 512 alpha of "  \
+      "8, 4 bits; 1024: also half-size levels (mip chains), chosen per cell by depth: far textures do not glitter",    \
+      "flash; a table of 512 bytes; a lookup per pixel; 1024: a third more flash per texture that has levels; a root " \
       "per triangle")                                                                                                  \
-    X(texture_formats, TEXTURE_FORMATS, 0, 1023,                                                                       \
-      "formats of textures that are built, their sum: 1 RGBA8888, 2 RGB565, 4 RGB565 with 1 bit of alpha, 8, 16, 32 "  \
-      "palettes of 8, 4, 1 bits, 64, 128 grey of 8, 4 bits, 256, 512 alpha of 8, 4 bits",                              \
+    X(materials, MATERIALS, 0, 15,                                                                                     \
+      "what surfaces have beside a colour, the sum: 1 specular highlights; 2 emissive colours and, with textures, "    \
+      "textures of them: objects that glow; 4 alpha, also of casters: clip and dither; 8 baked shadow masks and "      \
+      "their "                                                                                                         \
+      "mixing, baked irradiance per vertex",                                                                           \
+      "flash; 1: a reciprocal root per light and sample of such objects; 2: three additions per triangle, or per "     \
+      "pixel "                                                                                                         \
+      "where it has a texture; a second lookup where it emits by one; 8: four values and three per sample")            \
+    X(biases, BIASES, 0, 3,                                                                                            \
+      "biases beside constant, slope and normal ones, their sum: 1 automatic; 2 of the receiver, in four terms, "      \
+      "casters shrunk along their normals, the receiver's plane per tap",                                              \
       "flash")                                                                                                         \
-    X(specular, SPECULAR, 0, 1, "specular highlights",                                                                 \
-      "flash; a reciprocal root per light and sample of such objects")                                                 \
-    X(emissive, EMISSIVE, 0, 1, "emissive colours and, with textures, textures of them: objects that glow",            \
-      "flash; three additions per triangle, or per pixel where it has a texture; a second lookup where it emits by "   \
-      "one")                                                                                                           \
-    X(baked, BAKED, 0, 1, "baked shadow masks and their mixing; baked irradiance per vertex",                          \
-      "flash; four values and three per sample")                                                                       \
-    X(other_biases, OTHER_BIASES, 0, 1,                                                                                \
-      "biases in place of auto_bias: of the receiver, in four terms; casters shrunk along their normals; the "         \
-      "receiver's plane per tap",                                                                                      \
-      "flash")                                                                                                         \
-    X(auto_bias, AUTO_BIAS, 0, 1, "automatic bias", "flash")                                                           \
     X(incremental, INCREMENTAL, 0, 2,                                                                                  \
       "1: shadow tiles are kept from frame to frame while nothing in them changes; 2: also static casters apart from " \
       "moving ones; a single picture does not show it",                                                                \
       "16 bytes per tile; 2: the RAM of the atlases twice; the same picture with and without")                         \
-    X(vertex_normals, VERTEX_NORMALS, 0, 1, "interpolated vertex normals", "flash; a reciprocal root per sample")      \
-    X(vertex_colours, VERTEX_COLOURS, 0, 1, "interpolated vertex colours", "flash; three multiplications per sample")  \
+    X(vertex_values, VERTEX_VALUES, 0, 3, "values of vertices that are interpolated, the sum: 1 normals; 2 colours",   \
+      "flash; 1: a reciprocal root per sample; 2: three multiplications per sample")                                   \
     X(vertex_joints, VERTEX_JOINTS, 0, 4, "skins: the most joints that move a vertex; 0: no skins",                    \
       "flash; vertices of skinned objects are blended once for their box, and each time they are transformed")         \
-    X(tile_drawing, TILE_DRAWING, 0, 1, "a background gradient; the caller's drawing behind and over a screen tile",   \
-      "flash")                                                                                                         \
-    X(validation, VALIDATION, 0, 1,                                                                                    \
-      "scenes are checked before they are drawn; without, an invalid scene has undefined behaviour", "flash")          \
-    X(other_formats, OTHER_FORMATS, 0, 2,                                                                              \
-      "pixel formats other than RGB565: 1 RGB888, grey, one bit; 2 also views of depth, normals, shadow and triangle " \
-      "identity, for host tools",                                                                                      \
-      "flash")                                                                                                         \
+    X(validation, VALIDATION, 0, 2,                                                                                    \
+      "1: scenes are checked before they are drawn; 2: errors also name the field that is wrong, gn_detail.field; "    \
+      "without, an invalid scene has undefined behaviour",                                                             \
+      "flash; 2: 0.5 KB, 3 KB more where gn_field_text is called")                                                     \
+    X(pictures, PICTURES, 0, 15,                                                                                       \
+      "what pictures may be, the sum: 1 of other formats than RGB565: RGB888, grey, one bit; 2 with a background "     \
+      "gradient, and drawings of the caller behind and over a screen tile; 4 of orthographic cameras; 8 views of "     \
+      "depth, "                                                                                                        \
+      "normals, shadow and triangle identity, for host tools",                                                         \
+      "flash; 4: 48 bytes of RAM")                                                                                     \
     X(many_cascades, MANY_CASCADES, 0, 3,                                                                              \
       "cascades per light: 0 one; 1 up to four; 2 with soft and dithered blending between them; 3 also casters whose " \
       "shadows lie wholly in a smaller cascade are not drawn into larger ones: 0.5 % more instructions in the scenes " \
@@ -142,7 +136,6 @@
       "flash; 2: 64 bytes per tile, 24 per object")                                                                    \
     X(object_boxes, OBJECT_BOXES, 0, 1, "casters whose box lies outside a shadow tile are skipped",                    \
       "flash, 24 bytes per object; the same picture with and without")                                                 \
-    X(orthographic, ORTHOGRAPHIC, 0, 1, "orthographic cameras", "flash; 48 bytes of RAM")                              \
     X(clipping, CLIPPING, 0, 2,                                                                                        \
       "1: visible triangles may cross the near plane, or extend far beyond the picture; 2: also directional casters "  \
       "more than 8192 texels beyond their tile; without, such a frame is refused",                                     \

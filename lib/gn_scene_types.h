@@ -5,12 +5,12 @@
 #define GN_SCENE_TYPES_H
 
 /* With quality knobs as data, the wide types are used: every narrow value fits. */
-#if GN_POSITION_BITS == 16 && !GN_RUNTIME_KNOBS
+#if GN_SHORT_VERTICES % 2 && !GN_RUNTIME_KNOBS
 typedef int16_t gn_position;
 #else
 typedef int32_t gn_position;
 #endif
-#if GN_NORMAL_BITS == 8 && !GN_RUNTIME_KNOBS
+#if GN_SHORT_VERTICES >= 2 && !GN_RUNTIME_KNOBS
 typedef int8_t gn_normal;
 #else
 typedef int16_t gn_normal;
@@ -246,7 +246,7 @@ typedef struct {
  * but `mesh` may be set later, and `objects` and `lights` may be NULL if there are none. */
 
 /* A mesh of two arrays (not pointers): 3 coordinates per vertex, 3 indices per triangle. Face normals. GN_MESH: the
- * coordinates are written with GN_Q16. With GN_POSITION_BITS 16 those end at half a unit: give fewer fraction bits with
+ * coordinates are written with GN_Q16. With GN_SHORT_VERTICES 1 those end at half a unit: give fewer fraction bits with
  * GN_MESH_FRAC, such as 8 for coordinates GN_Q16(x) / 256 up to 127.99. */
 #define GN_MESH(pos, idx) GN_MESH_FRAC(pos, idx, 16)
 #define GN_MESH_FRAC(pos, idx, pos_frac_bits)                                                                          \

@@ -10,7 +10,7 @@
  *
  * A frame: describe a gn_scene, call gn_render() with a flush callback. Nothing is allocated, nothing is global: all
  * state is in gn_renderer (one static object, about 110 KB as configured by default, of which 34 KB serve the atlas of
- * spot and point lights: 73 KB with GN_PUNCTUAL_LIGHTS 0 and GN_MAIN_LIGHT 0), so several can run in one program.
+ * spot and point lights: 73 KB with GN_OTHER_LIGHTS 0), so several can run in one program.
  */
 #ifndef GNOMON_H
 #define GNOMON_H
@@ -81,7 +81,7 @@ extern "C" {
                       "or have more than 15 fraction bits, or an emissive texture that clamps otherwise")              \
     X(GN_ERR_TEXTURE_FORMAT,                                                                                           \
       "unknown format of a texture, or one not built in (GN_TEXTURE_FORMATS), or smaller levels that are not "         \
-      "(GN_TEXTURES 2), or a mask image that is not RGBA8888")                                                         \
+      "(1024 more), or a mask image that is not RGBA8888")                                                             \
     X(GN_ERR_MATERIAL, "alpha, cutoff, specular or emissive colour or shininess out of range, or an alpha mode, "      \
                        "caster mode or such a colour or emissive texture that is not built in")                        \
     X(GN_ERR_MASK, "mask image without coordinates, or masks or baked light where they are not built in")              \
@@ -121,7 +121,7 @@ typedef enum { GN_STATUS_LIST(GN_STATUS_ENUM_) GN_STATUS_COUNT } gn_status;
 /* What the last failing call was about. */
 typedef struct {
     gn_status status;
-    gn_field field;     /* that is wrong, with GN_ERROR_FIELDS; GN_FIELD_NONE: no single one */
+    gn_field field;     /* that is wrong, with GN_VALIDATION 2; GN_FIELD_NONE: no single one */
     uint32_t index;     /* of the object, light, triangle or tile it concerns; 0 where there is only one */
     uint32_t needed;    /* capacity errors: how much would have been enough; otherwise 0 */
     uint32_t available; /* capacity errors: how much there is */
@@ -186,7 +186,7 @@ typedef enum {
     GN_FORMAT_GREY4,          /* two pixels per byte, the left one in the high bits; rows begin on a byte */
     GN_FORMAT_MONO1, /* eight pixels per byte, the left one in the highest bit, 1 = light; rows begin on a byte; ordered
                         dither */
-    GN_FORMAT_RAW32  /* with GN_OTHER_FORMATS 2: uint32_t per pixel, see gn_view; all ones where there is no surface */
+    GN_FORMAT_RAW32  /* with GN_PICTURES 8: uint32_t per pixel, see gn_view; all ones where there is no surface */
 } gn_format;
 
 typedef enum {

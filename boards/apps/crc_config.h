@@ -9,9 +9,7 @@
 #define GN_MAX_LIGHTS       1
 #define GN_SURFACE_LIGHTS   1
 #define GN_MAX_OBJECTS      1
-#define GN_VERTEX_CACHE     16
 #define GN_ATLAS_SIZE       32
 #define GN_TILE_WIDTH       32
 #define GN_MAX_SHADOW_TILES 1
-#define GN_PUNCTUAL_LIGHTS  0
-#define GN_MAIN_LIGHT       0
+#define GN_OTHER_LIGHTS     0

@@ -11,27 +11,19 @@
 #define GN_SURFACE_LIGHTS   1
 #define GN_MAX_OBJECTS      9
 #define GN_MAX_SHADOW_TILES 1
-#define GN_VERTEX_CACHE     4
 #define GN_ATLAS_SIZE       64
 #define GN_DEPTH_BITS       16
 #define GN_PERSP_STEP       1 /* every pixel exact: interpolated shading takes 3.5 KB more */
 #define GN_TILE_WIDTH       128
 #define GN_TILE_HEIGHT      2
-#define GN_FILTER_MAX       2 /* hard, 2x2, 3x3 */
+#define GN_SHADOWS          3 /* filters hard, 2x2, 3x3 */
 
 /* What the scene does not use, and what only saves instructions, is not built. */
-#define GN_PUNCTUAL_LIGHTS 0
-#define GN_MAIN_LIGHT      0
+#define GN_OTHER_LIGHTS    0
 #define GN_MANY_CASCADES   1 /* without blending */
-#define GN_ALPHA           0
-#define GN_TEXTURES        0
-#define GN_SPECULAR        0
-#define GN_BAKED           0
-#define GN_OTHER_BIASES    0
-#define GN_AUTO_BIAS       0
+#define GN_TEXTURE_FORMATS 0
+#define GN_MATERIALS       0
+#define GN_BIASES          0
 #define GN_INCREMENTAL     0
-#define GN_VERTEX_NORMALS  0
-#define GN_VERTEX_COLOURS  0
-#define GN_TILE_DRAWING    0
-#define GN_EMISSIVE        0
-#define GN_ORTHOGRAPHIC    0
+#define GN_VERTEX_VALUES   0
+#define GN_PICTURES        0

@@ -32,12 +32,11 @@ fi
 
 features=$(sed -n '/GN_FEATURE_KNOBS/,$s/^    X([a-z_0-9]*, \([A-Z_0-9]*\), .*/\1/p' lib/gn_knobs.h)
 # One directional light with a filtered shadow on smooth meshes
-typical="SHADOWS VERTEX_NORMALS"
-# flags NAME...: these features; FILTER_MAX as it is given, else 2
+typical="SHADOWS=3 VERTEX_VALUES"
+# flags NAME...: these features
 flags() {
     for feature in $features; do
         value=0
-        [ "$feature" = FILTER_MAX ] && value=2
         for name in "$@"; do
             case $name in
             "$feature") value=1 ;;
@@ -52,22 +51,17 @@ row() { # row NAME COMMENT FLAGS...: more than the typical build
     shift 2
     echo "FLASH($name, $(($(size cortex-m0 "$@") - m0)), $(($(size cortex-m4 "$@") - m4))) /* $comment */"
 }
-levels() { case $1 in MANY_CASCADES) echo 3 ;; INCREMENTAL | TEXTURES | TILE_SIZES | CLIPPING) echo 2 ;; *) echo 1 ;; esac; }
-without() { # without FEATURE: of the typical ones
-    for name in $typical; do [ "$name" = "$1" ] || echo "$name"; done
-}
+levels() { case $1 in MANY_CASCADES) echo 3 ;; OTHER_LIGHTS | BIASES | MATERIALS | INCREMENTAL | TILE_SIZES | CLIPPING) echo 2 ;; *) echo 1 ;; esac; }
 
 m0=$(size cortex-m0 $(flags $typical)) m4=$(size cortex-m4 $(flags $typical))
 echo "/* Made by host/generate/gen_flash.sh with $(arm-none-eabi-gcc -dumpversion). Bytes of flash: on Cortex-M0, on Cortex-M4. */"
-echo "FLASH(typical, $m0, $m4) /* shadows, vertex_normals, filter_max 2, preset balanced */"
-row no_shadows "without shadows, and what is of shadows" $(flags VERTEX_NORMALS)
-for feature in VERTEX_NORMALS; do
-    row no_$(echo $feature | tr A-Z a-z) "without" $(flags $(without $feature))
-done
-for max in 0 1 3 4 5; do row filter_max_$max "another filter_max" $(flags $typical FILTER_MAX=$max); done
-row punctual_unshadowed "spot and point lights, no shadows: above no_shadows too" $(flags VERTEX_NORMALS PUNCTUAL_LIGHTS)
+echo "FLASH(typical, $m0, $m4) /* shadows 3, vertex_values 1, preset balanced */"
+row no_shadows "without shadows, and what is of shadows" $(flags VERTEX_VALUES)
+for level in 0 3; do row vertex_values_$level "with $level" $(flags $typical VERTEX_VALUES=$level); done
+for level in 1 2 4 5 6; do row shadows_$level "other shadows" $(flags $typical SHADOWS=$level); done
+row punctual_unshadowed "spot and point lights, no shadows: above no_shadows too" $(flags VERTEX_VALUES OTHER_LIGHTS)
 for feature in $features; do
-    case " $typical FILTER_MAX " in *" $feature "*) continue ;; esac
+    case " SHADOWS $typical " in *" $feature "*) continue ;; esac
     row $(echo $feature | tr A-Z a-z) "with" $(flags $typical $feature)
     level=2
     while [ $level -le $(levels $feature) ]; do
@@ -75,9 +69,12 @@ for feature in $features; do
         level=$((level + 1))
     done
 done
+for part in 2 4; do row pictures_$part "with $part" $(flags $typical PICTURES=$part); done
+for part in 4 8; do row materials_$part "with $part" $(flags $typical MATERIALS=$part); done
+row texture_formats_1025 "with 1025" $(flags $typical TEXTURE_FORMATS=1025)
 row edge "edge 4" $(flags $typical) -DGN_EDGE=4
 row preset_accurate "quality of preset accurate" $(flags $typical) -DGN_PRESET=GN_PRESET_ACCURATE
-row accurate_unshadowed "the same without shadows" $(flags VERTEX_NORMALS) -DGN_PRESET=GN_PRESET_ACCURATE
+row accurate_unshadowed "the same without shadows" $(flags VERTEX_VALUES) -DGN_PRESET=GN_PRESET_ACCURATE
 row linear "srgb 0" $(flags $typical) -DGN_SRGB=0
 
 # Compact arithmetic, and what more than that
@@ -85,11 +82,11 @@ compact() { # compact NAME COMMENT FLAGS...
     name=$1 comment=$2
     shift 2
     for cpu in m0 m4; do
-        eval "$cpu"=$(size cortex-$cpu -DGN_COMPACT=1 -DGN_VALIDATION=0 -DGN_AUTO_BIAS=0)
+        eval "$cpu"=$(size cortex-$cpu -DGN_COMPACT=1 -DGN_VALIDATION=0 -DGN_BIASES=0)
     done
     row "$name" "$comment" -DGN_COMPACT=1 "$@"
 }
-row compact "compact arithmetic" -DGN_COMPACT=1 -DGN_VALIDATION=0 -DGN_AUTO_BIAS=0
-compact compact_validation "with" -DGN_VALIDATION=1 -DGN_AUTO_BIAS=0
-compact compact_auto_bias "with" -DGN_VALIDATION=0 -DGN_AUTO_BIAS=1
-compact compact_linear "srgb 0" -DGN_VALIDATION=0 -DGN_AUTO_BIAS=0 -DGN_SRGB=0
+row compact "compact arithmetic" -DGN_COMPACT=1 -DGN_VALIDATION=0 -DGN_BIASES=0
+compact compact_validation "with" -DGN_VALIDATION=1 -DGN_BIASES=0
+compact compact_auto_bias "with" -DGN_VALIDATION=0 -DGN_BIASES=1
+compact compact_linear "srgb 0" -DGN_VALIDATION=0 -DGN_BIASES=0 -DGN_SRGB=0

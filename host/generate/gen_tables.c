@@ -154,7 +154,7 @@ int main(void)
     print_tent_sums();
     printf("\n#if GN_TEXTURES || GN_LAYERS_MAX");
     print_u16("gn_srgb_decode_table", v, 256);
-    printf("\n#if (GN_TEXTURE_FORMATS & 6) || GN_LAYERS_MAX");
+    printf("\n#if (GN_FORMATS & 6) || GN_LAYERS_MAX");
     print_linear("gn_linear_31_table", 31);
     print_linear("gn_linear_63_table", 63);
     printf("#endif\n#endif\n");

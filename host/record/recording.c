@@ -46,14 +46,13 @@ static const struct {
     {"max_other_tiles", "as recorded: a light without a tile casts no shadow, which is no error"},
     {"atlas_texels", "as recorded: sizes of tiles follow from it"},
     {"other_atlas_texels", "as recorded: sizes of tiles follow from it"},
-    {"vertex_cache", "as recorded: speed alone"},
     {"object_boxes", "as recorded: speed alone"},
     {"clipping", "as recorded: another place of the camera may need it"},
     {"validation", "as recorded: it refuses what is not built"},
 };
 
 static uint32_t n_frames;
-static int changed;
+static int changed, shadows; /* some light has asked for one */
 
 static knob *find(const char *name)
 {
@@ -98,8 +97,10 @@ static void write_log(void)
     fprintf(f, "gnomon-log " GN_VERSION_STRING "\npreset %d %d as recorded\n", GN_PRESET, GN_PRESET);
     for (int i = 0; i < N_KNOBS; i++) {
         const knob *k = &knobs[i];
-        fprintf(f, "%s %d %d ", k->name, k->built, k->used > k->least ? k->used : k->least);
-        write_reason(f, k);
+        const int idle = !shadows && strcmp(k->name, "shadows") == 0;
+        fprintf(f, "%s %d %d ", k->name, k->built, idle || k->used < k->least ? k->least : k->used);
+        if (idle) fprintf(f, "nothing uses it");
+        else write_reason(f, k);
         fprintf(f, "\n");
     }
     fprintf(f, "frames %u\n", (unsigned)n_frames);
@@ -129,11 +130,11 @@ static void use_frame(const gn_frame *frame)
 {
     const gn_scene *s = frame->scene;
     const gn_format format = frame->picture.format;
-    if (s->background_gradient) use_at_least("tile_drawing", 1, "the background's gradient");
-    if (s->draw_behind || s->draw_over) use_at_least("tile_drawing", 1, "draw_behind or draw_over");
-    if (format == GN_FORMAT_RAW32) use_at_least("other_formats", 2, "the picture's format");
+    if (s->background_gradient) use_at_least("pictures", USES_TILE_DRAWING, "the background's gradient");
+    if (s->draw_behind || s->draw_over) use_at_least("pictures", USES_TILE_DRAWING, "draw_behind or draw_over");
+    if (format == GN_FORMAT_RAW32) use_at_least("pictures", USES_RAW_VIEWS, "the picture's format");
     else if (format != GN_FORMAT_RGB565 && format != GN_FORMAT_RGB565_SWAPPED)
-        use_at_least("other_formats", 1, "the picture's format");
+        use_at_least("pictures", USES_OTHER_FORMATS, "the picture's format");
 #if GN_SHADOWS
     uint32_t n_tiles = 0;
     for (uint32_t i = 0; i < frame->n_views; i++) n_tiles += !frame->view[i].empty;
@@ -148,13 +149,16 @@ static void use_frame(const gn_frame *frame)
 static void use_scene(const gn_scene *s)
 {
     const uses_list to = {use_knob, NULL};
-    for (uint32_t i = 0; i < s->n_lights; i++) uses_light(&to, &s->shadow, &s->lights[i], i, 1);
+    for (uint32_t i = 0; i < s->n_lights; i++) {
+        uses_light(&to, &s->lights[i], i, 1);
+        if (!shadows && uses_shadow(&s->lights[i])) shadows = changed = 1;
+    }
     for (uint32_t i = 0; i < s->n_objects; i++) {
         uses_object(&to, &s->objects[i], i);
         uses_mesh(&to, s->objects[i].mesh, i);
     }
     uses_camera(&to, &s->camera);
-    uses_shadows(&to, &s->shadow); /* they are checked without a shadow, too, and cost nothing then */
+    uses_shadows(&to, s); /* where another frame has shadows, they are checked in this one, too */
 }
 
 static void begin(void)

@@ -13,14 +13,38 @@ typedef struct {
     void *user;
 } uses_list;
 
-void uses_light(const uses_list *to, const gn_shadow_settings *shadow, const gn_light *light, uint32_t idx, int casts);
+/* Whether the light asks for a shadow at run time. */
+int uses_shadow(const gn_light *light);
+void uses_light(const uses_list *to, const gn_light *light, uint32_t idx, int casts);
 void uses_object(const uses_list *to, const gn_object *object, uint32_t idx);
 void uses_mesh(const uses_list *to, const gn_mesh *mesh, uint32_t idx);
 void uses_camera(const uses_list *to, const gn_camera *camera);
 /* Only where shadows are drawn. */
-void uses_shadows(const uses_list *to, const gn_shadow_settings *shadow);
+void uses_shadows(const uses_list *to, const gn_scene *scene);
 
-/* A knob's value for two uses: the larger, but of texture_formats both. */
+/* Parts of the knobs that are sums: texture_formats, biases, materials, pictures, other_lights, vertex_values. */
+enum {
+    USES_TEXTURE_LEVELS = 1024,
+    USES_AUTO_BIAS = 1,
+    USES_OTHER_BIASES = 2,
+    USES_SPECULAR = 1,
+    USES_EMISSIVE = 2,
+    USES_ALPHA = 4,
+    USES_BAKED = 8,
+    USES_OTHER_FORMATS = 1,
+    USES_TILE_DRAWING = 2,
+    USES_ORTHOGRAPHIC = 4,
+    USES_RAW_VIEWS = 8,
+    USES_PUNCTUAL = 1,
+    USES_MAIN_LIGHT = 2,
+    USES_NORMALS = 1,
+    USES_COLOURS = 2
+};
+
+/* Whether a knob is a sum of parts, not a level. */
+int uses_is_sum(const char *knob);
+
+/* A knob's value for two uses: the larger level, or the parts of both. */
 int uses_both(const char *knob, int a, int b);
 
 /* The most lights that one surface of the frame takes: all directional ones, and those of an object's list. */

@@ -23,9 +23,6 @@ GN_STATIC_ASSERT(atlas_texels_not_multiple_of_64, GN_ATLAS_TEXELS % 64 == 0);
 GN_STATIC_ASSERT(other_atlas_texels_not_multiple_of_64, GN_OTHER_ATLAS_TEXELS % 64 == 0);
 GN_STATIC_ASSERT(depth_bits_not_8_16_or_32, GN_IS_POWER_OF_TWO(GN_DEPTH_BITS));
 GN_STATIC_ASSERT(other_depth_bits_not_8_16_or_32, GN_IS_POWER_OF_TWO(GN_OTHER_DEPTH_BITS));
-GN_STATIC_ASSERT(position_bits_not_16_or_32, GN_POSITION_BITS == 16 || GN_POSITION_BITS == 32);
-GN_STATIC_ASSERT(normal_bits_not_8_or_16, GN_NORMAL_BITS == 8 || GN_NORMAL_BITS == 16);
-GN_STATIC_ASSERT(vertex_cache_not_power_of_two, GN_IS_POWER_OF_TWO(GN_VERTEX_CACHE));
 GN_STATIC_ASSERT(tile_width_not_multiple_of_8, GN_TILE_WIDTH % 8 == 0);
 GN_STATIC_ASSERT(tile_has_more_than_65536_pixels,
                  (GN_TILE_WIDTH) * (GN_TILE_HEIGHT) <= 65536); /* gn_runs.h links cells by 16 bits */
@@ -35,6 +32,7 @@ GN_STATIC_ASSERT(triangle_groups_have_up_to_128_columns_and_rows_of_tiles, /* gn
                      ((GN_MAX_WIDTH) <= 128 * (GN_TILE_WIDTH) && (GN_MAX_HEIGHT) <= 128 * (GN_TILE_HEIGHT)));
 GN_STATIC_ASSERT(triangle_groups_have_tiles_from_16_pixels, /* gn_setup.c has a vertex in them */
                  !(GN_TRIANGLE_GROUPS) || (GN_TILE_WIDTH) * (GN_TILE_HEIGHT) >= 16);
+GN_STATIC_ASSERT(texture_formats_of_levels_alone, GN_TEXTURES || !GN_MIPMAPS);
 GN_STATIC_ASSERT(transparent_layers_need_alpha, !(GN_TRANSPARENT_LAYERS) || (GN_ALPHA));
 
 /* Compact arithmetic: its features are shadows, optionally automatic bias and validation. Clipping is always built. */

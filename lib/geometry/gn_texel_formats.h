@@ -8,22 +8,22 @@
 
 /* Whether a texture has a format. Of formats that are not built the compiler drops what asks; where one is built alone
  * nothing is asked. */
-#define GN_TEXEL_IS(t, of) (GN_TEXTURE_FORMATS == 1 << (of) || (GN_TEXTURE_FORMATS >> (of)&1 && (t)->format == (of)))
+#define GN_TEXEL_IS(t, of) (GN_FORMATS == 1 << (of) || (GN_FORMATS >> (of)&1 && (t)->format == (of)))
 
 /* The same of formats that are decoded alike; 565, palettes and greys are neighbours. */
 #define GN_TEXEL_AMONG(t, first, last)                                                                                 \
-    ((GN_TEXTURE_FORMATS & ((2 << (last)) - (1 << (first)))) != 0 && (t)->format >= (first) && (t)->format <= (last))
+    ((GN_FORMATS & ((2 << (last)) - (1 << (first)))) != 0 && (t)->format >= (first) && (t)->format <= (last))
 #define GN_TEXEL_IS_565(t)     GN_TEXEL_AMONG(t, GN_TEXTURE_RGB565, GN_TEXTURE_RGB565A1)
 #define GN_TEXEL_IS_PALETTE(t) GN_TEXEL_AMONG(t, GN_TEXTURE_PALETTE8, GN_TEXTURE_PALETTE1)
 #define GN_TEXEL_IS_GREY(t)    GN_TEXEL_AMONG(t, GN_TEXTURE_GREY8, GN_TEXTURE_GREY4)
 
-#define GN_TEXEL_565S (GN_TEXTURE_FORMATS & 6)
+#define GN_TEXEL_565S (GN_FORMATS & 6)
 
 /* Bits of a texel, as a power of two. */
 GN_HOT static inline uint32_t gn_texel_bits_log2(const gn_texture *t)
 {
     static const uint8_t log2[GN_TEXTURE_FORMAT_COUNT] = {5, 4, 4, 3, 2, 0, 3, 2, 3, 2};
-    return GN_TEXTURE_FORMATS == 1 ? 5 : log2[t->format];
+    return GN_FORMATS == 1 ? 5 : log2[t->format];
 }
 
 /* Bytes of a row. */

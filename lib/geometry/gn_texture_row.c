@@ -195,8 +195,7 @@ GN_HOT static uint64_t blend_at_border(const row_source *s, int kind, const int3
                                        const uint32_t y[2])
 {
     uint8_t texel[16];
-    const uint32_t bits_log2 = GN_TEXTURE_FORMATS == 1 ? 5 : s->bits_log2,
-                   bytes_log2 = bits_log2 > 3 ? bits_log2 - 3 : 0,
+    const uint32_t bits_log2 = GN_FORMATS == 1 ? 5 : s->bits_log2, bytes_log2 = bits_log2 > 3 ? bits_log2 - 3 : 0,
                    factor = kind == TEXELS_GREY && bits_log2 == 2 ? 17 : 1; /* of 4 bits, as read_texel() has it */
     const row_source side = {s->texture, texel, 2U << bytes_log2, bytes_log2 + 3, {0, 0}};
     for (uint32_t i = 0; i < 2; i++) {

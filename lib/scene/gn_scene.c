@@ -153,7 +153,7 @@ static gn_status check_texture(gn_frame *frame, const gn_mesh *mesh, const gn_te
 {
     gn_field wrong = wrong_texture(mesh, texture, which);
     if (wrong) return GN_FAIL_AT(frame, GN_ERR_TEXTURE, idx, wrong);
-    if (texture->format >= GN_TEXTURE_FORMAT_COUNT || !(GN_TEXTURE_FORMATS >> texture->format & 1))
+    if (texture->format >= GN_TEXTURE_FORMAT_COUNT || !(GN_FORMATS >> texture->format & 1))
         return GN_FAIL_AT(frame, GN_ERR_TEXTURE_FORMAT, idx, TEXTURE_FIELD(which, FORMAT));
     if (!GN_MIPMAPS && texture->flags & GN_TEXTURE_MIPMAPPED)
         return GN_FAIL_AT(frame, GN_ERR_TEXTURE_FORMAT, idx, TEXTURE_FIELD(which, FLAGS));

@@ -19,7 +19,7 @@ gn_status gn_fail(gn_frame *frame, gn_status status, uint32_t index);
 gn_status gn_fail_field(gn_frame *frame, gn_status status, uint32_t index, gn_field field);
 gn_status gn_fail_capacity(gn_frame *frame, gn_status status, uint32_t needed, uint32_t available);
 
-/* The same, naming a field. Without error_fields no code names one: what finds a field then finds any. */
+/* The same, naming a field. Without validation 2 no code names one: what finds a field then finds any. */
 #define GN_FAIL_AT(frame, status, index, field)                                                                        \
     (GN_ERROR_FIELDS ? gn_fail_field(frame, status, index, field) : gn_fail(frame, status, index))
 #define GN_AT(field) ((gn_field)(GN_ERROR_FIELDS ? (field) : 1))

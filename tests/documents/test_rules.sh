@@ -40,7 +40,7 @@ none "floating-point constant in lib/ outside the macros of gnomon.h" "$tmp/foun
 # Any floating-point arithmetic is an error; nothing is inlined, for the graph of calls below.
 mkdir -p "$tmp/objects"
 for arithmetic in 0 1; do # of either, GN_COMPACT
-    if gcc -std=c99 -pedantic $warn -Ilib -DGN_OTHER_FORMATS=$((2 - 2 * arithmetic)) -DGN_COMPACT=$arithmetic -O0 -mgeneral-regs-only -Wvla -ffreestanding -fno-inline \
+    if gcc -std=c99 -pedantic $warn -Ilib -DGN_PICTURES=$((15 - 15 * arithmetic)) -DGN_COMPACT=$arithmetic -O0 -mgeneral-regs-only -Wvla -ffreestanding -fno-inline \
         -fdump-rtl-expand -c -o "$tmp/objects/$arithmetic.o" lib/gnomon.c >"$tmp/log" 2>&1; then pass
     else fail "lib/ with GN_COMPACT=$arithmetic does not compile: $(grep -m 1 error "$tmp/log")"; fi
 done

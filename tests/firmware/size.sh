@@ -38,7 +38,7 @@ CONFIGURATIONS="smallest small tiny fast balanced accurate full"
 flags_of() {
     case $1 in
     smallest) # one directional light, hard shadow, flat colours, in 32 bits
-        echo "-DGN_COMPACT=1 -DGN_AUTO_BIAS=0 -DGN_VALIDATION=0 -DGN_PRESET=GN_PRESET_TINY -DGN_SRGB=0 -DGN_MAX_WIDTH=128 -DGN_MAX_HEIGHT=128 -DGN_MAX_TRIANGLES=64 -DGN_MAX_OBJECTS=8" ;;
+        echo "-DGN_COMPACT=1 -DGN_BIASES=0 -DGN_VALIDATION=0 -DGN_PRESET=GN_PRESET_TINY -DGN_SRGB=0 -DGN_MAX_WIDTH=128 -DGN_MAX_HEIGHT=128 -DGN_MAX_TRIANGLES=64 -DGN_MAX_OBJECTS=8" ;;
     small) # the same as the library does it, without clipping
         echo "$(off SHADOWS) -DGN_SHADOWS=1 -DGN_PRESET=GN_PRESET_TINY -DGN_PERSP_STEP=1 -DGN_SRGB=0 -DGN_MAX_LIGHTS=1 -DGN_SURFACE_LIGHTS=1 -DGN_MAX_SHADOW_TILES=1" \
             "-DGN_MAX_WIDTH=128 -DGN_MAX_HEIGHT=128 -DGN_MAX_TRIANGLES=64 -DGN_MAX_TILE_REFS=256 -DGN_MAX_OBJECTS=8" ;;
@@ -47,10 +47,14 @@ flags_of() {
         for feature in $features; do
             case $feature in
             OBJECT_BOXES) echo "-DGN_$feature=0" ;;
+            SHADOWS) echo "-DGN_$feature=6" ;;
             VERTEX_JOINTS) echo "-DGN_$feature=4" ;;
-            MANY_CASCADES) echo "-DGN_$feature=3" ;;
-            TEXTURES | INCREMENTAL | TILE_SIZES | CLIPPING) echo "-DGN_$feature=2" ;;
-            *) [ "$feature" = FILTER_MAX ] || echo "-DGN_$feature=1" ;;
+            MANY_CASCADES | BIASES | OTHER_LIGHTS | VERTEX_VALUES) echo "-DGN_$feature=3" ;;
+            PICTURES) echo "-DGN_$feature=7" ;;
+            MATERIALS) echo "-DGN_$feature=15" ;;
+            TEXTURE_FORMATS) echo "-DGN_$feature=1025" ;;
+            INCREMENTAL | TILE_SIZES | CLIPPING) echo "-DGN_$feature=2" ;;
+            *) echo "-DGN_$feature=1" ;;
             esac
         done
         echo "-DGN_PERSP_STEP=1" ;;

@@ -13,11 +13,12 @@ if command -v arm-none-eabi-gcc >/dev/null 2>&1; then
 fi
 most() {
     case $1 in
-    FILTER_MAX) echo 5 ;;
+    SHADOWS) echo 6 ;;
     VERTEX_JOINTS) echo 4 ;;
-    MANY_CASCADES) echo 3 ;;
-    TEXTURES | INCREMENTAL | TILE_SIZES | CLIPPING | OTHER_FORMATS) echo 2 ;;
-    TEXTURE_FORMATS) echo 1023 ;;
+    MANY_CASCADES | BIASES | OTHER_LIGHTS | VERTEX_VALUES) echo 3 ;;
+    INCREMENTAL | TILE_SIZES | CLIPPING | VALIDATION) echo 2 ;;
+    TEXTURE_FORMATS) echo 2047 ;;
+    PICTURES | MATERIALS) echo 15 ;;
     *) echo 1 ;;
     esac
 }
@@ -61,7 +62,7 @@ without() { whole "all-$1" "$1"; }
 # What a feature stands on: alone it has nothing to do.
 under() {
     case $1 in
-    CLIPPING | SHADOWS | PUNCTUAL_LIGHTS | ALPHA | TEXTURES | SPECULAR | EMISSIVE | ORTHOGRAPHIC | BAKED | VERTEX* | RAW* | VALID* | *FORMATS | TILE_DRAWING) ;;
+    CLIPPING | SHADOWS | OTHER_LIGHTS | MATERIALS | PICTURES | VERTEX* | VALID* | *FORMATS) ;;
     *) echo SHADOWS ;;
     esac
 }
@@ -91,7 +92,7 @@ for feature in $features; do
     fi
 done
 # Without shadows all of these together are a few comparisons.
-[ "$(echo $idle | wc -w)" -ge 7 ] && pass || fail "what builds on shadows is $idle"
+[ "$(echo $idle | wc -w)" -ge 5 ] && pass || fail "what builds on shadows is $idle"
 together=$(($(bytes $(but none 1 $idle)) - none))
 if [ $together -le 32 ]; then pass
 else fail "without shadows $together bytes:$(for feature in $idle; do echo " $feature $(($(bytes $(but none 1 $feature)) - none))"; done)"; fi
@@ -113,24 +114,15 @@ while read -r feature pattern; do
     gone "$feature" "$feature" "$pattern" && pass || fail "$feature is off, and there is $(tr '\n' ' ' <"$tmp/found")"
 done <<'LIST'
 SHADOWS gn_(atlas|caster|cascade|ortho|persp|filter|blocks|cull|tiles|bias)_.*|gn_tent.*|gn_disk_.*
-PUNCTUAL_LIGHTS gn_(persp|punctual|object_list)_.*
-FILTER_MAX gn_tent_weights|gn_disk_.*|disk.*|gn_blocks_.*
+OTHER_LIGHTS gn_(persp|punctual|object_list)_.*|main_light
 MANY_CASCADES gn_cull_shown_nearer
-ALPHA alpha_plane|cut_begin|cut_row
-TEXTURE_FORMATS gn_linear_(31|63)_table|gn_texel_decode_.*
-TEXTURES gn_texture_(level_at|level_depth2|use_level)|gn_texture_colour|gn_alpha_coords|gn_srgb_decode_table
-SPECULAR highlight_q30
+TEXTURE_FORMATS gn_texture_(level_at|level_depth2|use_level)|gn_texture_colour|gn_alpha_coords|gn_srgb_decode_table|gn_linear_(31|63)_table|gn_texel_decode_.*
+MATERIALS highlight_q30|emitted_light|begin_glow|alpha_plane|cut_begin|cut_row|gn_texture_mask
 VERTEX_JOINTS gn_skin_.*|mean_matrix|skin_signature|gn_scene_skin_check
-ORTHOGRAPHIC flat_plane|flat_sphere|intersect_flat
-EMISSIVE emitted_light|begin_glow
-BAKED gn_texture_mask
-OTHER_BIASES corner_normals|start_plane|dark_on_plane
-AUTO_BIAS gn_bias_auto_.*|.*_share_q3[02]|auto_.*
+BIASES corner_normals|start_plane|dark_on_plane|gn_bias_auto_.*|.*_share_q3[02]|auto_.*
 INCREMENTAL gn_kept_.*|view_signature|stays|gn_static_layer_.*
-MAIN_LIGHT main_light
-VALIDATION gn_scene_validate|check_.*light
-TILE_DRAWING gradient_row|draw_behind
-OTHER_FORMATS luminance_q20|fill_(grey4|mono)
+VALIDATION gn_scene_validate|check_.*light|gn_fail_field
+PICTURES gradient_row|draw_behind|luminance_q20|fill_(grey4|mono)|flat_plane|flat_sphere|intersect_flat
 TILE_SIZES sizes_by_importance|weight_of|gn_seen_.*|gn_ortho_(fit_tight|covers)|sides_by_worth|sixteenth_octaves|place_by_worth
 OBJECT_BOXES gn_cull_sees|.*_sees
 CLIPPING project_cut|general_triangle|clip_side|clip_to_reach
@@ -141,18 +133,27 @@ while read -r feature level pattern; do
     whole "all-level-$feature" NOTHING "-UGN_$feature -DGN_$feature=$level"
     gone "level-$feature" NOTHING "$pattern" "-UGN_$feature -DGN_$feature=$level" && pass || fail "$feature is $level, and there is $(tr '\n' ' ' <"$tmp/found")"
 done <<'LIST'
-FILTER_MAX 4 gn_disk_.*|gn_blocks_.*
+SHADOWS 1 gn_tent_weights|gn_disk_.*|disk.*|gn_blocks_.*
+PICTURES 6 luminance_q20|fill_(grey4|mono)
+PICTURES 5 gradient_row|draw_behind
+PICTURES 3 flat_plane|flat_sphere|intersect_flat
+MATERIALS 13 emitted_light|begin_glow
+MATERIALS 14 highlight_q30
+MATERIALS 11 alpha_plane|cut_begin|cut_row
+MATERIALS 7 gn_texture_mask
+OTHER_LIGHTS 1 main_light
+OTHER_LIGHTS 2 gn_(persp|punctual|object_list)_.*
+BIASES 1 corner_normals|start_plane|dark_on_plane
+BIASES 2 gn_bias_auto_.*|.*_share_q3[02]|auto_.*
+SHADOWS 5 gn_disk_.*|gn_blocks_.*
 MANY_CASCADES 2 gn_cull_shown_nearer
-TEXTURES 1 gn_texture_(level_at|level_depth2|use_level)
+TEXTURE_FORMATS 1 gn_texture_(level_at|level_depth2|use_level)|gn_linear_(31|63)_table|gn_texel_decode_(565|grey)
+TEXTURE_FORMATS 1023 gn_texture_(level_at|level_depth2|use_level)
 INCREMENTAL 1 gn_static_layer_.*
 CLIPPING 1 clip_side|clip_to_reach
+VALIDATION 1 gn_fail_field
 TILE_SIZES 1 gn_seen_.*|gn_ortho_(fit_tight|covers)|sides_by_worth
 LIST
-
-# Errors name fields only where that is asked for.
-if symbols NOTHING | grep -q -x 'gn_fail_field'; then fail "names of fields without error_fields"; else pass; fi
-whole all-FIELDS NOTHING -DGN_ERROR_FIELDS=1
-symbols FIELDS | grep -q -x gn_fail_field && pass || fail "error_fields: there is no symbol gn_fail_field at all"
 
 # Neither way of keeping triangles knows the other's functions.
 gone NOTHING NOTHING 'gn_setup_tile|gn_raster_triangle|setup_.*groups|count_group|check_tiles' && pass || fail "groups of triangles without triangle_groups: $(tr '\n' ' ' <"$tmp/found")"

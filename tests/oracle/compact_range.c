@@ -71,7 +71,7 @@ static gn_status draw(void)
 
 /* ---- Refused ----------------------------------------------------------------------------------------------------- */
 
-/* With error_fields: the last thing that was changed is what the error names. */
+/* With validation 2: the last thing that was changed is what the error names. */
 static void check_named(const char *change)
 {
     static const char *const names[][2] = {{"scene.camera.", "camera."},

@@ -35,16 +35,16 @@ done
 
 # ---- Range: the compilers of the test suite, with sanitizers -----------------------------------------------------------------------
 
-for how in "gcc -O1 -DGN_AUTO_BIAS=0" "clang -O0 -DGN_ERROR_FIELDS=1"; do
+for how in "gcc -O1 -DGN_BIASES=0" "clang -O0 -DGN_VALIDATION=2"; do
     if $how -std=c11 -w -fsanitize=address,undefined -fno-sanitize-recover=all $flags -DGN_MAX_TRIANGLES=64 -DGN_MAX_HEIGHT=64 -Ilib -Itests/support \
         -o "$tmp/range" tests/oracle/compact_range.c lib/gnomon.c -lm 2>"$tmp/log"; then counted "$tmp/range" 5000
     else fail "$how: $(grep -m 1 error "$tmp/log")"; fi
 done
-for knobs in -O2 "-fsyntax-only -DGN_PRESET=GN_PRESET_ACCURATE -DGN_VALIDATION=0" "-fsyntax-only -DGN_AUTO_BIAS=0" "-fsyntax-only -DGN_ERROR_FIELDS=1"; do
+for knobs in -O2 "-fsyntax-only -DGN_PRESET=GN_PRESET_ACCURATE -DGN_VALIDATION=0" "-fsyntax-only -DGN_BIASES=0" "-fsyntax-only -DGN_VALIDATION=2"; do
     gcc -std=c99 -pedantic $warn -Ilib -DGN_COMPACT=1 $knobs -c -o "$tmp/warnings.o" lib/gnomon.c 2>"$tmp/log" && pass || fail "$knobs: $(grep -m 1 -E 'error|warning' "$tmp/log")"
 done
-for contradiction in TEXTURES MANY_CASCADES FILTER_MAX PUNCTUAL_LIGHTS OTHER_FORMATS INCREMENTAL; do
-    gcc -std=c99 -w -Ilib -DGN_COMPACT=1 -DGN_$contradiction=1 -fsyntax-only lib/frame/gn_frame.c 2>"$tmp/log" && fail "compact builds with $contradiction"
+for contradiction in TEXTURE_FORMATS=1 MANY_CASCADES=1 SHADOWS=2 OTHER_LIGHTS=1 PICTURES=1 INCREMENTAL=1; do
+    gcc -std=c99 -w -Ilib -DGN_COMPACT=1 -DGN_$contradiction -fsyntax-only lib/frame/gn_frame.c 2>"$tmp/log" && fail "compact builds with $contradiction"
     grep -q 'error.*compact_' "$tmp/log" && pass || fail "$contradiction: the message does not name compact: $(grep -m 1 error "$tmp/log")"
 done
 # The tool refuses by name what it has not, in a scene, in what is set afterwards, and in the picture.
@@ -54,19 +54,19 @@ refused() { # refused MESSAGE SCENE OPTIONS...
     build/gnomon render "host/scenes/$scene.gltf" -o "$tmp/no.png" --size 64x48 --set compact=1 "$@" >"$tmp/log" 2>&1 && fail "the tool renders $scene with compact=1 $*"
     grep -q "$message" "$tmp/log" && pass || fail "$scene, compact=1 $*: $(cat "$tmp/log")"
 }
-refused "'textures': 0, and the texture of object 'cube'" cube
-refused "'punctual_lights': 0, and spot light 'lamp'" desk
+refused "'texture_formats': 0, and the texture of object 'cube'" cube
+refused "'other_lights': 0, and spot light 'lamp'" desk
 refused 'lights: 5, and compact arithmetic has one' mixed
 refused 'atlas_size 512, and .* up to 256' fence
 refused 'picture has 320x240, .* up to 256x256' sundial --size 320x240
-refused "'filter_max': 0, and filter 3x3" sundial --set filter=3x3
+refused "'shadows': 1, and filter 3x3" sundial --set filter=3x3
 refused "'many_cascades': 0, and cascades 2" sundial --set cascades=2
 refused 'output is grey8, .* rgb565' sundial --set output=grey8
-refused 'textures 1, ' sundial --set textures=1
+refused 'texture_formats 1, ' sundial --set texture_formats=1
 refused 'depth_bits 8, .* 16' sundial --set depth_bits=8
 refused 'triangle_groups 64' sundial --set triangle_groups=64
 refused 'distance_mode is radius, .* depth' sundial --set distance_mode=radius
-refused "light '.*': bias_caster\|'other_biases': 0" sundial --set bias_caster=1
+refused "light '.*': bias_caster\|'biases': 1" sundial --set bias_caster=1
 refused "'compact': '2' is not a whole number from 0 to 1" sundial --set compact=2
 build/gnomon sweep host/scenes/sundial.gltf --size 64x48 --set compact=1 >"$tmp/log" 2>&1 && fail "it is swept, and nothing counts" || pass
 # and is the general arithmetic again

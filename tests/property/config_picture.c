@@ -59,6 +59,11 @@ static void use_flag(const char *flag)
     GN_FEATURE_KNOBS(NAMED)
 }
 
+static int32_t filter_max(void)
+{
+    return use.shadows ? use.shadows - 1 : 0;
+}
+
 /* ---- The scene --------------------------------------------------------------------------------------------------- */
 
 static gn_renderer renderer;
@@ -89,23 +94,23 @@ static void make_arrays(void)
 static void use_lights(int variant)
 {
     gn_light sun = demo.light[0];
-    sun.mode = use.baked ? GN_LIGHT_MIXED : GN_LIGHT_REALTIME;
-    sun.mask_channel = use.baked ? 0 : -1;
+    sun.mode = use.materials & 8 ? GN_LIGHT_MIXED : GN_LIGHT_REALTIME;
+    sun.mask_channel = use.materials & 8 ? 0 : -1;
     sun.bias_constant_q16 = GN_Q16(0.5);
     sun.bias_slope_q16 = GN_Q16(0.5);
-    if (use.other_biases)
+    if (use.biases & 2)
         for (int i = 0; i < 4; i++) sun.bias_receiver_q16[i] = GN_Q16(0.1) * i;
-    if (use.other_biases) sun.bias_caster_q16 = GN_Q16(0.4);
-    sun.receiver_plane = use.other_biases && variant % 2;
-    if (use.auto_bias && variant) sun.auto_bias = variant % 2 ? GN_AUTO_BIAS_NORMAL : GN_AUTO_BIAS_DEPTH;
-    sun.softness = use.filter_max >= 3 && variant == 1 ? GN_SOFTNESS_SOFT : GN_SOFTNESS_DEFAULT;
+    if (use.biases & 2) sun.bias_caster_q16 = GN_Q16(0.4);
+    sun.receiver_plane = (use.biases & 2) && variant % 2;
+    if ((use.biases & 1) && variant) sun.auto_bias = variant % 2 ? GN_AUTO_BIAS_NORMAL : GN_AUTO_BIAS_DEPTH;
+    sun.softness = filter_max() >= 3 && variant == 1 ? GN_SOFTNESS_SOFT : GN_SOFTNESS_DEFAULT;
     sun.near_q16 = GN_Q16(0.1);
     lights[0] = lights[1] = lights[2] = lights[3] = sun;
     lights[1].direction[0] = -lights[1].direction[0];
     lights[1].colour_uq16[0] /= 2;
     lights[1].shadow_strength_uq16 = 50000;
     lights[1].mask_channel = -1;
-    if (use.filter_max >= 1 && variant == 2) lights[1].softness = GN_SOFTNESS_HARD;
+    if (filter_max() >= 1 && variant == 2) lights[1].softness = GN_SOFTNESS_HARD;
     lights[2].kind = GN_LIGHT_SPOT;
     lights[2].position_q16[0] = GN_Q16(-2);
     lights[2].position_q16[1] = GN_Q16(4);
@@ -117,7 +122,7 @@ static void use_lights(int variant)
     lights[3].position_q16[2] = GN_Q16(1.5);
     lights[3].range_q16 = variant % 2 ? GN_UQ16(9) : 0;
     demo.scene.lights = lights;
-    demo.scene.n_lights = use.punctual_lights ? LIGHTS : 2;
+    demo.scene.n_lights = use.other_lights & 1 ? LIGHTS : 2;
     for (uint32_t i = 1; i < demo.scene.n_lights; i++)
         for (int k = 0; k < 3; k++) lights[i].colour_uq16[k] *= i < 2 ? 1U : 3U;
 }
@@ -152,39 +157,39 @@ static void use_materials(int variant)
     demo.ground.uv_frac_bits = demo.box.uv_frac_bits = 10;
     demo.ground.mask_uv_uq16 = demo.box.mask_uv_uq16 = mask_uv;
     texture.flags = (uint8_t)(variant % 3 == 2 ? GN_TEXTURE_BILINEAR : variant % 3);
-    if (use.textures > 1) texture.flags |= GN_TEXTURE_MIPMAPPED;
-    if (use.textures) use_format(3 * variant);
+    if (use.texture_formats >= 1024) texture.flags |= GN_TEXTURE_MIPMAPPED;
+    if (use.texture_formats) use_format(3 * variant);
     if (use.vertex_joints) use_skin();
     gn_alpha cut = variant % 2 ? GN_ALPHA_CLIP : GN_ALPHA_DITHER;
     for (int i = 0; i < DEMO_OBJECTS; i++) {
         demo.object[i].alpha_uq16 = 50000;
         demo.object[i].alpha_cutoff_uq16 = 30000;
     }
-    if (use.textures) box->texture = ground->texture = &texture;
-    if (use.textures && use.emissive) ground->emissive_texture = &texture;
-    if (use.alpha) {
+    if (use.texture_formats) box->texture = ground->texture = &texture;
+    if (use.texture_formats && (use.materials & 2)) ground->emissive_texture = &texture;
+    if (use.materials & 4) {
         box->visible_alpha = cut;
         ball->visible_alpha = variant % 3 ? cut : GN_ALPHA_BLEND;
     }
-    if (use.alpha) box->caster_alpha = ball->caster_alpha = cut;
-    for (int k = 0; use.specular && k < 3; k++) ball->specular_uq16[k] = 30000;
+    if (use.materials & 4) box->caster_alpha = ball->caster_alpha = cut;
+    for (int k = 0; (use.materials & 1) && k < 3; k++) ball->specular_uq16[k] = 30000;
     ball->shininess_log2 = 4;
-    for (int i = 0; use.emissive && i < DEMO_OBJECTS; i++)
+    for (int i = 0; (use.materials & 2) && i < DEMO_OBJECTS; i++)
         demo.object[i].emissive_uq16[i % 3] = 9000U * (uint32_t)(i + variant);
-    if (use.baked) ball->mask_u8 = mask;
-    if (use.baked) ground->mask_image = &mask_image;
-    if (use.baked) ball->baked_uq12 = baked;
+    if (use.materials & 8) ball->mask_u8 = mask;
+    if (use.materials & 8) ground->mask_image = &mask_image;
+    if (use.materials & 8) ball->baked_uq12 = baked;
     ball->flags |= GN_OBJECT_MOVING;
     /* a build without them does not look at these; this one would */
-    if (GN_VERTEX_NORMALS && !use.vertex_normals) demo.ball.nrm_q15 = NULL;
-    if (GN_VERTEX_COLOURS && !use.vertex_colours) demo.ball.rgb_uq16 = demo.box.rgb_uq16 = NULL;
+    if (GN_VERTEX_NORMALS && !(use.vertex_values & 1)) demo.ball.nrm_q15 = NULL;
+    if (GN_VERTEX_COLOURS && !(use.vertex_values & 2)) demo.ball.rgb_uq16 = demo.box.rgb_uq16 = NULL;
     for (int i = 0; GN_SHADOWS && !use.shadows && i < DEMO_OBJECTS; i++)
         demo.object[i].flags &= ~(uint32_t)GN_OBJECT_CASTS;
 }
 
 static gn_filter filter_of(int variant)
 {
-    return (gn_filter)(variant % VARIANTS < use.filter_max ? variant % VARIANTS : use.filter_max);
+    return (gn_filter)(variant % VARIANTS < filter_max() ? variant % VARIANTS : filter_max());
 }
 
 static void use_shadow_settings(int variant)
@@ -194,9 +199,9 @@ static void use_shadow_settings(int variant)
     s->other_filter = filter_of(variant + 3);
     s->penumbra_uq16 = GN_UQ16(6);
     s->disk_samples = 12;
-    s->mixing = use.baked ? (gn_mixing)(variant % 3) : GN_MIXING_NONE;
+    s->mixing = use.materials & 8 ? (gn_mixing)(variant % 3) : GN_MIXING_NONE;
     s->tile_sizes = use.tile_sizes && variant % 2 ? GN_TILES_IMPORTANCE : GN_TILES_EQUAL;
-    s->main_light = use.main_light && variant > 1;
+    s->main_light = (use.other_lights & 2) && variant > 1;
     s->caster_culling = 1;
     s->object_lights = (uint32_t)variant % 3;
     s->n_cascades =
@@ -222,10 +227,10 @@ static void invert_some(void *user, int x, int y, int w, int h, void *pixels)
 
 static void use_background(int variant, gn_picture *picture)
 {
-    demo.scene.background_gradient = use.tile_drawing && variant % 2;
+    demo.scene.background_gradient = (use.pictures & 2) && variant % 2;
     demo.scene.background_bottom_uq20[variant % 3] = 800000;
-    if (use.tile_drawing && variant > 1) demo.scene.draw_behind = invert_some;
-    if (use.tile_drawing && variant > 2) demo.scene.draw_over = invert_some;
+    if ((use.pictures & 2) && variant > 1) demo.scene.draw_behind = invert_some;
+    if ((use.pictures & 2) && variant > 2) demo.scene.draw_over = invert_some;
     demo.scene.draw_user = picture;
 }
 
@@ -233,7 +238,7 @@ static void make_scene(int variant, int moved)
 {
     demo_scene_make(&demo, (uint32_t)variant % 3);
     if (moved) demo.object[1].to_world.t_q16[0] -= GN_Q16(0.3);
-    if (use.orthographic && variant > 3) demo.scene.camera.half_height_q16 = GN_Q16(2.5);
+    if ((use.pictures & 4) && variant > 3) demo.scene.camera.half_height_q16 = GN_Q16(2.5);
     use_lights(variant);
     use_materials(variant);
     use_shadow_settings(variant);
@@ -489,11 +494,11 @@ int main(int argc, char **argv)
     use_what_is_built();
     if (argc > 1) {
         use_preset(GN_PRESET_BALANCED);
-        use.other_formats = 1;
+        use.pictures = 7;
     }
     for (int i = 1; i < argc; i++) use_flag(argv[i]);
-    int failed = pictures(use.other_formats ? GN_FORMAT_RGB888 : GN_FORMAT_RGB565_SWAPPED, GN_VIEW_COLOUR, 0);
-    for (uint8_t l = 0; !failed && use.other_formats > 1 && l < (use.punctual_lights ? LIGHTS : 2); l++)
+    int failed = pictures(use.pictures & 9 ? GN_FORMAT_RGB888 : GN_FORMAT_RGB565_SWAPPED, GN_VIEW_COLOUR, 0);
+    for (uint8_t l = 0; !failed && use.pictures >= 8 && l < (use.other_lights & 1 ? LIGHTS : 2); l++)
         failed = pictures(GN_FORMAT_RAW32, GN_VIEW_SHADOW, l);
     if (!failed && argc == 1 && GN_VALIDATION) refuse();
     return failed;

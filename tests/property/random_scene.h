@@ -564,8 +564,7 @@ static void random_knobs(gn_frame *k)
     SET_KNOB(k, tile_height, 1 + (int32_t)(rnd() % 40));
     SET_KNOB(k, srgb, one_in(2));
     SET_KNOB(k, vertex_light, one_in(4));
-    SET_KNOB(k, position_bits, 32); /* may have been spoiled */
-    SET_KNOB(k, normal_bits, 16);
+    SET_KNOB(k, short_vertices, 0); /* may have been spoiled */
     SET_KNOB(k, triangle_groups, one_in(2) ? 0 : 1 + (int32_t)(rnd() % 16));
     SET_KNOB(k, transparent_layers, one_in(2) ? 0 : 1 + (int32_t)(rnd() % 3));
     if (one_in(200)) {

@@ -19,18 +19,18 @@ flags() {
         all) for feature in $features; do echo "-DGN_$feature=$(most "$feature")"; done ;;
         tiny | fast | balanced | accurate) echo "-DGN_PRESET=GN_PRESET_$(echo "$word" | tr a-z A-Z)" ;;
         -*) echo "$word" ;;
-        TEXTURES=[12]) echo "-DGN_$word" && echo "-DGN_TEXTURE_FORMATS=$(most TEXTURE_FORMATS)" ;; # nothing to read otherwise
         *) echo "-DGN_$word" ;;
         esac
     done | awk -F= '!($1 in at) { at[$1] = ++n } { flag[at[$1]] = $0 } END { for (i = 1; i <= n; i++) print flag[i] }'
 }
 most() {
     case $1 in
-    FILTER_MAX) echo 5 ;;
+    SHADOWS) echo 6 ;;
     VERTEX_JOINTS) echo 4 ;;
-    MANY_CASCADES) echo 3 ;;
-    TEXTURES | INCREMENTAL | TILE_SIZES | CLIPPING | OTHER_FORMATS) echo 2 ;;
-    TEXTURE_FORMATS) echo 1023 ;;
+    MANY_CASCADES | BIASES | OTHER_LIGHTS | VERTEX_VALUES) echo 3 ;;
+    INCREMENTAL | TILE_SIZES | CLIPPING) echo 2 ;;
+    TEXTURE_FORMATS) echo 2047 ;;
+    PICTURES | MATERIALS) echo 15 ;;
     *) echo 1 ;;
     esac
 }
@@ -62,7 +62,7 @@ pairs() {
     for feature in $features; do
         value=$(most "$feature")
         case $feature in
-        *FILTER* | *CASC* | *BIAS* | MAIN* | INCREM* | TILE_S* | OBJECT_B*)
+        *CASC* | *BIAS* | INCREM* | TILE_S* | OBJECT_B*)
             idle="$idle $feature=$value"
             more "none SHADOWS=1 $feature=$value" ;;
         *) more "none $feature=$value" ;;
@@ -72,35 +72,39 @@ pairs() {
     more "none $idle"
     echo "all VALIDATION=0"
     more "none SHADOWS=1 VALIDATION=0 tiny SRGB=0"
-    for cut in ALPHA BAKED; do
-        more "none SHADOWS=1 TEXTURES=1 $cut=1"
-        more "all TEXTURES=0 ALPHA=0 BAKED=0 $cut=1"
+    for part in 4 8; do
+        more "none SHADOWS=1 TEXTURE_FORMATS=1023 MATERIALS=$part"
+        more "all TEXTURE_FORMATS=0 MATERIALS=$((3 + part))"
     done
-    for level in TEXTURES=1 MANY_CASCADES=1 MANY_CASCADES=2 TILE_SIZES=1 INCREMENTAL=1 OTHER_FORMATS=1 FILTER_MAX=4; do echo "all $level"; done
+    for level in TEXTURE_FORMATS=1023 MANY_CASCADES=1 MANY_CASCADES=2 TILE_SIZES=1 INCREMENTAL=1 SHADOWS=5; do echo "all $level"; done
+    for parts in "OTHER_LIGHTS=1 VERTEX_VALUES=2 BIASES=1 MATERIALS=10 PICTURES=1" "OTHER_LIGHTS=2 VERTEX_VALUES=1 BIASES=2 MATERIALS=5 PICTURES=6"; do
+        echo "all $parts"
+        echo "none SHADOWS=1 $parts"
+    done
     echo "none SHADOWS=1"
-    more "none SHADOWS=1 PUNCTUAL_LIGHTS=1"
-    more "none SHADOWS=1 PUNCTUAL_LIGHTS=1 MAIN_LIGHT=1 OTHER_BIASES=1"
-    more "all PUNCTUAL_LIGHTS=0 MANY_CASCADES=1"
-    echo "all PUNCTUAL_LIGHTS=0 MAIN_LIGHT=0"
+    more "none SHADOWS=1 OTHER_LIGHTS=1"
+    more "none SHADOWS=1 OTHER_LIGHTS=3 BIASES=2"
+    more "all OTHER_LIGHTS=2 MANY_CASCADES=1"
+    echo "all OTHER_LIGHTS=0"
     more "none SHADOWS=1 INCREMENTAL=2"
-    for max in 0 1 2 3; do # with what builds upon kernels
-        $([ $max = 1 ] && echo echo || echo more) "all FILTER_MAX=$max OTHER_BIASES=$((max % 2))"
+    for level in 1 2 3 4; do # with what builds upon kernels
+        $([ $level = 2 ] && echo echo || echo more) "all SHADOWS=$level BIASES=$((level % 2 ? 1 : 3))"
     done
     for bits in "8 32" "16 8" "32 16"; do
-        echo "DEPTH_BITS=${bits% *} OTHER_DEPTH_BITS=${bits#* } FILTER_MAX=$((4 + ${bits% *} / 16 % 2))"
+        echo "DEPTH_BITS=${bits% *} OTHER_DEPTH_BITS=${bits#* } SHADOWS=$((5 + ${bits% *} / 16 % 2))"
     done
-    more "PUNCTUAL_LIGHTS=0 MAIN_LIGHT=0 DEPTH_BITS=8"
+    more "OTHER_LIGHTS=0 DEPTH_BITS=8"
     more "EDGE=4"
     more "tiny all EDGE=8 DEPTH_BITS=32"
-    echo "fast EDGE=1 PUNCTUAL_LIGHTS=0 OTHER_BIASES=0"
-    more "accurate EDGE=3 FILTER_MAX=0"
-    more "PUNCTUAL_LIGHTS=0 MAIN_LIGHT=0 DEPTH_BITS=32 INCREMENTAL=2"
+    echo "fast EDGE=1 OTHER_LIGHTS=2 BIASES=1"
+    more "accurate EDGE=3 SHADOWS=1"
+    more "OTHER_LIGHTS=0 DEPTH_BITS=32 INCREMENTAL=2"
     echo "OTHER_ATLAS_SIZE=32 ATLAS_SIZE=64 TILE_WIDTH=32 TILE_HEIGHT=5"
     echo "TRIANGLE_GROUPS=64 MAX_TRIANGLES=400 MAX_TILE_REFS=1"
-    echo "TRANSPARENT_LAYERS=1 TEXTURES=0 SIZE_FIRST=1"
+    echo "TRANSPARENT_LAYERS=1 TEXTURE_FORMATS=0 SIZE_FIRST=1"
     echo "fast TRANSPARENT_LAYERS=3 TRIANGLE_GROUPS=64 MAX_TRIANGLES=400"
-    more "accurate all TRANSPARENT_LAYERS=2 OTHER_FORMATS=0 ORTHOGRAPHIC=0"
-    more "none TRIANGLE_GROUPS=3 TILE_WIDTH=24 SIZE_FIRST=1 ERROR_FIELDS=1"
+    more "accurate all TRANSPARENT_LAYERS=2 PICTURES=2"
+    more "none TRIANGLE_GROUPS=3 TILE_WIDTH=24 SIZE_FIRST=1 VALIDATION=2"
     more "tiny all TRIANGLE_GROUPS=4096"
     more "-m32 accurate TRIANGLE_GROUPS=17"
     for preset in tiny fast accurate; do # balanced is the default
@@ -108,18 +112,18 @@ pairs() {
         more "$preset none"
         more "-m32 $preset"
     done
-    more "tiny all SRGB=0 ERROR_FIELDS=1"
+    more "tiny all SRGB=0 VALIDATION=2"
     more "accurate all SRGB=0"
     more "-m32"
     more "-m32 none"
     echo "-m32 all"
     more "-m32 all SHADOWS=0"
-    more "-m32 all PUNCTUAL_LIGHTS=0 DEPTH_BITS=32"
+    more "-m32 all OTHER_LIGHTS=2 DEPTH_BITS=32"
     echo "RUNTIME_KNOBS=1"
     more "RUNTIME_KNOBS=1 SHADOWS=0"
-    more "RUNTIME_KNOBS=1 FILTER_MAX=0"
+    more "RUNTIME_KNOBS=1 SHADOWS=1"
     echo "SUBPIXEL_BITS=8 MAX_TILE_REFS=65535"
-    echo "MAX_TILE_REFS=65536 VERTEX_CACHE=4 MAX_LIGHTS=4 SURFACE_LIGHTS=4 MAX_OBJECTS=3"
+    echo "MAX_TILE_REFS=65536 MAX_LIGHTS=4 SURFACE_LIGHTS=4 MAX_OBJECTS=3"
     echo "MAX_WIDTH=56 MAX_HEIGHT=44 TILE_WIDTH=8 TILE_HEIGHT=1 MAX_TILE_REFS=2000"
 } >"$tmp/wanted"
 
@@ -212,16 +216,16 @@ refused atlas_size -DGN_ATLAS_SIZE=96
 refused other_atlas_size -DGN_OTHER_ATLAS_SIZE=96
 refused depth_bits -DGN_DEPTH_BITS=24
 refused other_depth_bits -DGN_OTHER_DEPTH_BITS=12
-refused vertex_cache -DGN_VERTEX_CACHE=33
 refused tile_width -DGN_TILE_WIDTH=68
 refused triangle_groups_have_tiles "-DGN_TRIANGLE_GROUPS=1 -DGN_TILE_WIDTH=8 -DGN_TILE_HEIGHT=1 -DGN_MAX_HEIGHT=100"
 refused triangle_groups_have_up_to_128 "-DGN_TRIANGLE_GROUPS=1 -DGN_TILE_HEIGHT=1"
-for gone in TILE_LIGHTS LINEAR_KERNELS DEPTH_BLOCKS ATTEN_BITS NEWTON_STEPS SHADOW_DEPTH_FRAC SHADOW_SUBPIXEL_BITS WEIGHT_BITS; do refused "knob that is gone" "-DGN_$gone=0"; done
+for gone in TILE_LIGHTS LINEAR_KERNELS DEPTH_BLOCKS ATTEN_BITS NEWTON_STEPS SHADOW_DEPTH_FRAC SHADOW_SUBPIXEL_BITS WEIGHT_BITS VERTEX_CACHE; do refused "knob that is gone" "-DGN_$gone=0"; done
 for part in CASTER_ALPHA VISIBLE_ALPHA EMISSIVE_TEXTURES MASKS BAKED_LIGHT RECEIVER_BIAS CASTER_BIAS RECEIVER_PLANE BLENDED_CASCADES CASTER_CULLING DISK_FILTER \
-    TEXTURE_LEVELS STATIC_LAYER TILE_IMPORTANCE TIGHT_FIT CASTER_CLIPPING CLIPS PICKING RAW_VIEWS; do
+    TEXTURE_LEVELS STATIC_LAYER TILE_IMPORTANCE TIGHT_FIT CASTER_CLIPPING CLIPS PICKING RAW_VIEWS ERROR_FIELDS FILTER_MAX TEXTURES AUTO_BIAS OTHER_BIASES SPECULAR EMISSIVE POSITION_BITS NORMAL_BITS TILE_DRAWING \
+    OTHER_FORMATS ORTHOGRAPHIC PUNCTUAL_LIGHTS MAIN_LIGHT VERTEX_NORMALS VERTEX_COLOURS ALPHA BAKED; do
     refused "part of another one" "-DGN_$part=0"
 done
-refused transparent_layers_need_alpha "-DGN_TRANSPARENT_LAYERS=1 -DGN_ALPHA=0"
+refused transparent_layers_need_alpha "-DGN_TRANSPARENT_LAYERS=1 -DGN_MATERIALS=0"
 
 # ---- The user's own header; C++ --------------------------------------------------------------------------------------------
 
@@ -266,13 +270,13 @@ gn_status draw()
     return gn_get_detail(&renderer)->needed ? GN_ERR_NO_BEGIN : gn_status_text(status)[0] ? status : GN_OK;
 }
 EOF_C
-for words in "" none all "SHADOWS=0 OTHER_FORMATS=2" RUNTIME_KNOBS=1 accurate; do
+for words in "" none all "SHADOWS=0 PICTURES=15" RUNTIME_KNOBS=1 accurate; do
     if g++ -std=c++11 -Wall -Wextra -pedantic -Werror -Ilib $(flags $words) -fsyntax-only "$tmp/user.cpp" 2>"$tmp/message"; then pass
     else fail "C++ $words: $(grep -m 1 error "$tmp/message")"; fi
 done
 
 # what a user need not set, where positions are short, too
-for words in "" "POSITION_BITS=16 NORMAL_BITS=8"; do
+for words in "" SHORT_VERTICES=3; do
     if clang $strict -Itests/support -O0 $(flags $words) -o "$tmp/defaults" lib/gnomon.c tests/unit/test_defaults.c 2>"$tmp/log" && "$tmp/defaults" >"$tmp/log"; then pass
     else fail "tests/unit/test_defaults.c with '$words': $(grep -m 1 -E 'error|failed' "$tmp/log")"; fi
 done
@@ -403,7 +407,7 @@ full GN_ERR_TRIANGLES_FULL GN_MAX_TRIANGLES 3
 full GN_ERR_TRIANGLES_FULL GN_MAX_TRIANGLES 1 TRIANGLE_GROUPS=8
 full GN_ERR_TILE_REFS_FULL GN_MAX_TILE_REFS 3
 full GN_ERR_TOO_MANY_OBJECTS GN_MAX_OBJECTS 1
-full GN_ERR_TOO_MANY_LIGHTS GN_MAX_LIGHTS 1 PUNCTUAL_LIGHTS=0
+full GN_ERR_TOO_MANY_LIGHTS GN_MAX_LIGHTS 1 OTHER_LIGHTS=2
 full GN_ERR_SURFACE_LIGHTS GN_SURFACE_LIGHTS 1
 # texels come in blocks of 64: as many as are needed, and a block less
 for macro in GN_ATLAS_TEXELS GN_OTHER_ATLAS_TEXELS; do

@@ -56,7 +56,7 @@ poses() { # poses NAME SCENE MOST FRAMES...
 for scene in cube sundial avenue desk mixed; do same $scene host/scenes/$scene.gltf; done
 same robot tests/data/robot.gltf
 same materials docs/scenes/materials.gltf --set preset=tiny
-same lamps docs/scenes/lamps.gltf --set lights=directional --set position_bits=16
+same lamps docs/scenes/lamps.gltf --set lights=directional --set short_vertices=1
 # --triangles: the same meshes in every command, as many as said, and the error is said
 same fewer host/scenes/fence.gltf --triangles 200
 grep -q "meshes have 199 of 672 triangles, off by at most [0-9.]*, [0-9.]* % of the size of '" "$tmp/fewer.log" && pass || fail "--triangles 200: $(cat "$tmp/fewer.log")"
@@ -135,8 +135,8 @@ printf "${corners}g A\nf 1 2 3\ng B\nf 1 2 4\n" >"$tmp/parts.obj"
 three parts PARTS_OBJECT_A PARTS_OBJECT_B
 
 # what a configuration lacks is said when it is compiled
-gcc -std=c99 -w -Ilib -I"$tmp" -DGN_SPECULAR=0 -fsyntax-only "$tmp/desk.c" 2>"$tmp/log"
-grep -q "DGN_SPECULAR=1: specular of object" "$tmp/log" && pass || fail "without specular: $(head -n 1 "$tmp/log")"
+gcc -std=c99 -w -Ilib -I"$tmp" -DGN_MATERIALS=0 -fsyntax-only "$tmp/desk.c" 2>"$tmp/log"
+grep -q "DGN_MATERIALS=1: specular of object" "$tmp/log" && pass || fail "without materials: $(head -n 1 "$tmp/log")"
 
 # mistakes
 refused() { # refused STATUS WORD ARGUMENTS...

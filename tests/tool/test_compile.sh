@@ -79,8 +79,8 @@ grep -q gn_fixed_fit "$tmp/open-fits/scene.c" && fail "an open scene has boxes" 
 grep -q '^#define GN_COMPACT  *1 ' "$tmp/compact/gn_scene_config.h" && ! grep -q GN_COMPACT "$tmp/sundial/gn_scene_config.h" && pass || fail "GN_COMPACT is not where it was set"
 
 # vertices in half the bytes: the tool quantises alike
-same short host/scenes/sundial.gltf "0 2" "--frames 0-2" --size 96x64 --set position_bits=16 --set normal_bits=8
-same short-room host/scenes/room.gltf 0 "--simplify none" --size 96x64 --set position_bits=16
+same short host/scenes/sundial.gltf "0 2" "--frames 0-2" --size 96x64 --set short_vertices=3
+same short-room host/scenes/room.gltf 0 "--simplify none" --size 96x64 --set short_vertices=1
 # chosen where no bit of the picture changes, else measured
 mesh() { # mesh NAME X: a pyramid on a grid but for a coordinate X of four bytes, as glTF
     zero='\000\000\000\000' one='\000\000\200\077' minus='\000\000\200\277' words='\000\000\001\000\002\000\000\000\002\000\003\000\000\000\004\000\001\000\003\000\004\000\000\000'
@@ -97,13 +97,13 @@ mesh grid '\000\000\200\077'
 mesh off '\315\314\214\077' # 1.1
 same grid "$tmp/grid.gltf" 0 "--simplify safe" --size 96x64 --set ground=0
 same off "$tmp/off.gltf" 0 "--simplify safe" --size 96x64 --set ground=0
-same wide "$tmp/grid.gltf" 0 "" --size 96x64 --set ground=0 --set position_bits=32
-for name in grid:16 off:32 wide:32; do
-    grep -q "^#define GN_POSITION_BITS *${name#*:} " "$tmp/${name%:*}/gn_scene_config.h" && pass || fail "${name%:*}: positions are not of ${name#*:} bits"
+same wide "$tmp/grid.gltf" 0 "" --size 96x64 --set ground=0 --set short_vertices=0
+for name in grid:1 off:0 wide:0; do
+    grep -q "^#define GN_SHORT_VERTICES *${name#*:} " "$tmp/${name%:*}/gn_scene_config.h" && pass || fail "${name%:*}: short_vertices is not ${name#*:}"
 done
-grep -q 'positions that 16 bits hold exactly' "$tmp/grid/gn_scene_config.h" && grep -q 'position_bits=16 [0-9]* less: ' "$tmp/off/gn_scene_config.h" &&
+grep -q 'positions that 16 bits hold exactly' "$tmp/grid/gn_scene_config.h" && grep -q 'short_vertices=1 [0-9]* less: ' "$tmp/off/gn_scene_config.h" &&
     pass || fail "it is not said what 16 bits change"
-grep -q 'static const gn_position ' "$tmp/short/scene.c" && grep -q '^#define GN_POSITION_BITS *16 ' "$tmp/short/gn_scene_config.h" && pass || fail "short: no short positions"
+grep -q 'static const gn_position ' "$tmp/short/scene.c" && grep -q '^#define GN_SHORT_VERTICES *3 ' "$tmp/short/gn_scene_config.h" && pass || fail "short: no short positions"
 
 # ---- What it says it takes -------------------------------------------------------------------------------------------------------
 
@@ -263,7 +263,7 @@ has far CLIPPING 2
 # a lamp that reaches nothing, a sun whose shadow is nowhere: neither its kind nor its atlas is in the image
 same lamp docs/scenes/near.gltf 0 "" --size 96x64 --set add_light=point --set range@1=0.01
 leaves lamp "lights that reach nothing: '"
-grep -q '^#define GN_PUNCTUAL_LIGHTS *0 ' "$tmp/lamp/gn_scene_config.h" && pass || fail "lamp: punctual lights are built"
+grep -q '^#define GN_OTHER_LIGHTS *0 ' "$tmp/lamp/gn_scene_config.h" && pass || fail "lamp: punctual lights are built"
 same suns docs/scenes/near.gltf 0 "" --size 96x64 --set max_distance=0.5
 leaves suns "shadows of lights that no frame shows"
 grep -q '^#define GN_SHADOWS *0 ' "$tmp/suns/gn_scene_config.h" && pass || fail "suns: shadows are built"

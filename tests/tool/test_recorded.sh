@@ -71,7 +71,7 @@ refused plain objects 'more objects than GN_MAX_OBJECTS'
 refused plain wide 'above GN_MAX_WIDTH'
 
 # what is set to less than was used is left out
-build normals --set vertex_normals=0 && "$tmp/normals/run" normals >"$tmp/out" && cmp -s "$tmp/out" "$tmp/plain.full" && pass || fail "normals left out: $(cat "$tmp/out" "$tmp/normals/log")"
+build normals --set vertex_values=0 && "$tmp/normals/run" normals >"$tmp/out" && cmp -s "$tmp/out" "$tmp/plain.full" && pass || fail "normals left out: $(cat "$tmp/out" "$tmp/normals/log")"
 build objects --set max_objects=1 && refused objects objects 'more objects than GN_MAX_OBJECTS'
 
 # ---- Errors -------------------------------------------------------------------------------------------------------------------
@@ -97,7 +97,7 @@ wrong 2 "does not use --size" "$log" -o "$tmp/no.h" --size 8x8
 wrong 1 "no.h: " "$log" -o "$tmp/none/no.h"
 wrong 1 "not a knob" "$log" -o "$tmp/no.h" --set preset=tiny
 wrong 1 "not a knob" "$log" -o "$tmp/no.h" --set shadows
-wrong 1 "setting 'filter_max': '9' is not" "$log" -o "$tmp/no.h" --set filter_max=9
+wrong 1 "setting 'shadows': '9' is not" "$log" -o "$tmp/no.h" --set shadows=9
 broken "another version of the library" '1s/$/9/'
 broken "line 2: there is no preset 7" '2s/2 2/2 7/'
 broken "the preset is missing" 2d

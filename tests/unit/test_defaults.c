@@ -10,7 +10,7 @@ static gn_renderer renderer;
 static uint16_t picture[WIDTH * HEIGHT];
 
 /* Short positions hold fewer fraction bits. */
-#if GN_POSITION_BITS == 16 && !GN_RUNTIME_KNOBS
+#if GN_SHORT_VERTICES % 2 && !GN_RUNTIME_KNOBS
 #define POS(x)         (GN_Q16(x) / 256)
 #define MESH(pos, idx) GN_MESH_FRAC(pos, idx, 8)
 #else

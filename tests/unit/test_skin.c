@@ -45,7 +45,7 @@ static void random_weights(uint8_t *idx, uint8_t *weight, int n)
 static void random_vertex(void)
 {
     const int bits = (int)rng_below(&state, 31), size = (int)rng_below(&state, (uint32_t)bits + 1U);
-    mesh.pos_frac_bits = (uint8_t)(GN_POSITION_BITS == 16 && !GN_RUNTIME_KNOBS && bits > 14 ? 14 : bits);
+    mesh.pos_frac_bits = (uint8_t)(GN_SHORT_VERTICES % 2 && !GN_RUNTIME_KNOBS && bits > 14 ? 14 : bits);
     for (int k = 0; k < 3; k++) {
         pos[k] = (gn_position)(rng_range(&state, -(1 << 30), 1 << 30) >> (30 - size));
         nrm[k] = (gn_normal)rng_range(&state, -127, 127);

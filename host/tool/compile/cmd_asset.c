@@ -6,6 +6,7 @@
 
 #include "compile_emit.h"
 #include "rig.h"
+#include "../../record/uses.h"
 #include "../../scene/core/texture_format.h"
 #include "../cli/remarks.h"
 
@@ -15,9 +16,10 @@ enum { PATH_BYTES = 4096, SYMBOL_BYTES = 64 };
 
 static void write_check(FILE *f, const char *knob, const char *compare, int value, const char *why)
 {
-    fprintf(f, "#if GN_");
+    const bool sum = uses_is_sum(knob);
+    fprintf(f, sum ? "#if ~(GN_" : "#if (GN_");
     open_write_upper(f, knob);
-    fprintf(f, " %s %d\n#error \"compile the library and the program with -DGN_", compare, value);
+    fprintf(f, ") %s %d\n#error \"compile the library and the program with -DGN_", sum ? "&" : compare, value);
     open_write_upper(f, knob);
     fprintf(f, "=%d: ", value);
     for (; *why; why++) fputc(*why == '"' || *why == '\\' || *why < 32 || *why > 126 ? '.' : *why, f);
@@ -33,8 +35,7 @@ static void write_checks(FILE *f, const compiled *c)
     for (int i = 0; i < n; i++) write_check(f, needs[i].knob, "<", needs[i].value, needs[i].what);
     write_check(f, "max_objects", "<", (int)c->fixed.scene.n_objects, "objects of the model");
     write_check(f, "max_lights", "<", (int)c->fixed.scene.n_lights, "lights of the model");
-    write_check(f, "position_bits", "!=", c->set.quality.position_bits, "coordinates as they were written");
-    write_check(f, "normal_bits", "!=", c->set.quality.normal_bits, "normals as they were written");
+    write_check(f, "short_vertices", "!=", c->set.quality.short_vertices, "vertices as they were written");
 }
 
 /* Knobs with which the picture is that of gnomon render. */

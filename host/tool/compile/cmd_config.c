@@ -50,7 +50,7 @@ static int take_values(program_log *log, const logged_knob *k, const char *built
     if (settings_feature_at(&log->set, k->name)) {
         header_because(&log->reasons, k->name, "%s", why);
         log->less |= uses_both(k->name, most, *value) != most;
-        if (strcmp(k->name, "texture_formats") == 0) *value &= most;
+        if (uses_is_sum(k->name)) *value &= most;
     } else if (strcmp(k->name, "max_triangles") == 0 || strcmp(k->name, "max_tile_refs") == 0) {
         header_because(&log->reasons, k->name, "%d %s, and %d %% more", *value, why, o->margin);
         *value = (int)header_with_margin((size_t)*value, o->margin);
@@ -141,7 +141,7 @@ static int read_log(program_log *log, const tool_options *o, char *error, size_t
         failed = -1;
     }
     if (!failed) failed = take_settings(log, o, error, bytes);
-    if (!failed && log->set.quality.transparent_layers && !log->set.feature.alpha) {
+    if (!failed && log->set.quality.transparent_layers && !(log->set.feature.materials & USES_ALPHA)) {
         log->set.quality.transparent_layers = 0;
         header_because(&log->reasons, "transparent_layers", "nothing has alpha");
     }

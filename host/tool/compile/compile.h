@@ -62,7 +62,7 @@ typedef struct {
 enum { COMPILE_SAVINGS_MAX = 24 };
 
 /* What fewer bits would change in some frames' pictures. */
-typedef enum { COMPILE_POSITIONS, COMPILE_NORMALS } compile_narrowed;
+typedef enum { COMPILE_POSITIONS, COMPILE_NORMALS } compile_narrowed; /* bits of short_vertices */
 typedef struct {
     size_t n_pixels, n_changed; /* n_pixels 0: not measured */
     int max_error;              /* of 255 */

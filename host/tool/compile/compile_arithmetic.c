@@ -23,8 +23,8 @@ static bool is_set(const compiled *c, const char *key)
 /* Of what --set compact=1 draws otherwise, and does not refuse. */
 static bool is_simple(const compiled *c)
 {
-    return !c->set.feature.vertex_normals && !c->set.feature.vertex_colours && !c->set.feature.filter_max &&
-           !c->set.feature.many_cascades && !c->requested.quality.vertex_light;
+    return !c->set.feature.vertex_values && c->set.feature.shadows < 2 && !c->set.feature.many_cascades &&
+           !c->requested.quality.vertex_light;
 }
 
 static bool serves(const compiled *general, const compiled *compact, const board *b, double *change)

@@ -82,7 +82,7 @@ static void choose_capacities(compiled *c)
 static void shrink_atlases(compiled *c)
 {
     settings *s = &c->set;
-    bool other = s->feature.punctual_lights || s->feature.main_light;
+    bool other = s->feature.other_lights;
     if (!s->feature.shadows || !other) return;
     const settings_demand d = demand_of(c);
     if (!d.shadow_tiles) {
@@ -107,12 +107,19 @@ static void use(void *user, const char *knob, int needed, const char *what, uses
     int *value = settings_feature_at(&c->set, knob);
     const int both = uses_both(knob, *value, needed);
     if (both == *value) return;
+    char before[80] = "";
+    if (*value && uses_is_sum(knob)) snprintf(before, sizeof before, "%s, ", header_reason(&c->reasons, knob));
     *value = both;
-    if (owner == USES_SETTING) because(c, knob, "%s", what);
+    if (owner == USES_SETTING) because(c, knob, "%s%s", before, what);
     else {
         const char **names = owner == USES_LIGHT ? c->light_name : owner == USES_OBJECT ? c->object_name : c->mesh_name;
-        because(c, knob, "%s '%s'", what, names[idx]);
+        because(c, knob, "%s%s '%s'", before, what, names[idx]);
     }
+}
+
+static void use_setting(compiled *c, const char *knob, int needed, const char *what)
+{
+    use(c, knob, needed, what, USES_SETTING, 0);
 }
 
 /* Everything that a scene can use to 0; the rest makes the same picture with and without. */
@@ -120,23 +127,15 @@ static void use_nothing(compiled *c)
 {
 #define NOTHING(name) (c->set.feature.name = 0, because(c, #name, "nothing uses it"))
     NOTHING(shadows);
-    NOTHING(filter_max);
-    NOTHING(punctual_lights);
-    NOTHING(main_light);
+    NOTHING(other_lights);
     NOTHING(many_cascades);
     NOTHING(tile_sizes);
-    NOTHING(alpha);
-    NOTHING(textures);
     NOTHING(texture_formats);
-    NOTHING(specular);
-    NOTHING(emissive);
-    NOTHING(orthographic);
-    NOTHING(baked);
-    NOTHING(other_biases);
-    NOTHING(auto_bias);
+    NOTHING(materials);
+    NOTHING(pictures);
+    NOTHING(biases);
     NOTHING(vertex_joints);
-    NOTHING(vertex_normals);
-    NOTHING(vertex_colours);
+    NOTHING(vertex_values);
 }
 
 static void choose_features(compiled *c)
@@ -147,11 +146,11 @@ static void choose_features(compiled *c)
     use_nothing(c);
     for (uint32_t i = 0; i < f->scene.n_objects; i++) flags |= f->objects[i].flags;
     const bool casts = (flags & GN_OBJECT_CASTS) && (flags & GN_OBJECT_RECEIVES);
-    for (uint32_t i = 0; i < f->scene.n_lights; i++) uses_light(&to, &f->scene.shadow, &f->lights[i], i, casts);
+    for (uint32_t i = 0; i < f->scene.n_lights; i++) uses_light(&to, &f->lights[i], i, casts);
     for (uint32_t i = 0; i < f->scene.n_objects; i++) uses_object(&to, &f->objects[i], i);
     for (uint32_t i = 0; i < f->n_meshes; i++) uses_mesh(&to, &f->meshes[i], i);
     uses_camera(&to, &f->scene.camera);
-    if (c->set.feature.shadows) uses_shadows(&to, &f->scene.shadow);
+    if (c->set.feature.shadows) uses_shadows(&to, &f->scene);
 }
 
 /* What changes no picture is built where it has something to do, unless it was switched off. */
@@ -193,7 +192,7 @@ static void choose_casters(compiled *c)
 /* What the tool has done already. */
 static void choose_checks(compiled *c)
 {
-    const bool rgb565 = c->set.output == GN_FORMAT_RGB565, path = compile_simplifies(c) == TOOL_SIMPLIFY_PATH;
+    const bool path = compile_simplifies(c) == TOOL_SIMPLIFY_PATH;
     if (path) c->set.feature.validation = 0;
     if (c->set.build.compact) {
         c->set.feature.shadows = 1; /* always built */
@@ -204,21 +203,24 @@ static void choose_checks(compiled *c)
     because(c, "validation",
             c->set.feature.validation ? "scenes of --simplify none and safe may be moved otherwise"
                                       : "every frame was checked when it was compiled");
-    if (path && !c->fixed.scene.background_gradient) c->set.feature.tile_drawing = 0;
-    because(c, "tile_drawing",
-            c->fixed.scene.background_gradient ? "the background's gradient"
-            : path                             ? "no gradient; for a program that draws: --simplify none or safe"
-                   : "programs may draw behind and over scenes of --simplify none and safe");
-    c->set.feature.other_formats = !rgb565;
-    because(c, "other_formats", rgb565 ? "the panel takes RGB565" : "the panel takes another than RGB565");
+    if (c->fixed.scene.background_gradient) use_setting(c, "pictures", USES_TILE_DRAWING, "the background's gradient");
+    else if (!path && c->requested.feature.pictures & USES_TILE_DRAWING)
+        use_setting(c, "pictures", USES_TILE_DRAWING,
+                    "programs may draw behind and over scenes of --simplify none and safe");
+    if (c->set.output != GN_FORMAT_RGB565)
+        use_setting(c, "pictures", USES_OTHER_FORMATS, "the panel takes another than RGB565");
+    if (!c->set.feature.pictures)
+        because(c, "pictures", "RGB565 and no gradient; for a program that draws: --simplify none or safe");
 }
 
 /* compile_narrow.c has chosen, or measured. */
-static void explain_bits(compiled *c, compile_narrowed what, const char *knob, int bits, int requested)
+static void explain_vertices(compiled *c)
 {
-    const compile_change *change = &c->narrow_change[what];
-    if (bits < requested) because(c, knob, "no frame shows a difference to %d", requested);
-    else if (change->n_pixels) because(c, knob, "%d would change the picture: see above", bits / 2);
+    const int now = c->set.quality.short_vertices, requested = c->requested.quality.short_vertices;
+    const compile_change *change = c->narrow_change;
+    if (now != requested) because(c, "short_vertices", "no frame shows a difference to %d", requested);
+    else if (change[COMPILE_POSITIONS].n_pixels || change[COMPILE_NORMALS].n_pixels)
+        because(c, "short_vertices", "more would change the picture: see above");
 }
 
 void compile_choose(compiled *c)
@@ -229,9 +231,7 @@ void compile_choose(compiled *c)
     choose_casters(c);
     choose_checks(c);
     shrink_atlases(c);
-    explain_bits(c, COMPILE_POSITIONS, "position_bits", c->set.quality.position_bits,
-                 c->requested.quality.position_bits);
-    explain_bits(c, COMPILE_NORMALS, "normal_bits", c->set.quality.normal_bits, c->requested.quality.normal_bits);
+    explain_vertices(c);
 }
 
 /* ---- gn_scene_config.h ------------------------------------------------------------------------------------------- */
@@ -239,15 +239,13 @@ void compile_choose(compiled *c)
 /* What was not chosen by itself, as it changes the picture. */
 static void write_narrow(FILE *f, const compiled *c)
 {
-    static const char *const setting[2] = {"position_bits=16", "normal_bits=8"};
     for (int what = COMPILE_POSITIONS; what <= COMPILE_NORMALS; what++) {
         const compile_change *change = &c->narrow_change[what];
         compiled narrow = *c;
-        if (what == COMPILE_POSITIONS) narrow.set.quality.position_bits = 16;
-        else narrow.set.quality.normal_bits = 8;
+        narrow.set.quality.short_vertices |= 1 << what;
         long less = compile_flash_bytes(c, true) - compile_flash_bytes(&narrow, true);
         if (less <= 0 || !change->n_pixels) continue;
-        fprintf(f, " * With --set %s %ld less: ", setting[what], less);
+        fprintf(f, " * With --set short_vertices=%d %ld less: ", (int)narrow.set.quality.short_vertices, less);
         if (!change->n_changed) fprintf(f, "none of these pixels changes.\n");
         else
             fprintf(f, "%.2f %% of these pixels change, by up to %d of 255.\n",

@@ -90,8 +90,8 @@ static bool narrow_mesh(vertices *v, gn_mesh *m)
 
 static void set_bits(compiled *c, compile_narrowed what, bool narrow)
 {
-    if (what == COMPILE_POSITIONS) c->set.quality.position_bits = narrow ? 16 : 32;
-    else c->set.quality.normal_bits = narrow ? 8 : 16;
+    int *parts = &c->set.quality.short_vertices;
+    *parts = narrow ? *parts | 1 << what : *parts & ~(1 << what);
 }
 
 static void give_back(vertices *v, compiled *c)
@@ -159,10 +159,9 @@ static bool was_requested(const compiled *c, const char *knob)
 
 static bool wanted_narrow(const compiled *c, compile_narrowed what)
 {
-    if (what == COMPILE_POSITIONS) return c->set.quality.position_bits == 32 && !was_requested(c, "position_bits");
-    bool any = false;
+    bool any = what == COMPILE_POSITIONS;
     for (size_t i = 0; i < c->fixed.n_meshes; i++) any = any || c->fixed.meshes[i].nrm_q15;
-    return any && c->set.quality.normal_bits == 16 && !was_requested(c, "normal_bits");
+    return any && !(c->set.quality.short_vertices >> what & 1) && !was_requested(c, "short_vertices");
 }
 
 int compile_narrow(compiled *c, compile_stage *st, compile_narrowed what, bool rounded, const compile_run *wanted,

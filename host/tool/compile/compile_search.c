@@ -3,7 +3,7 @@
  * What changes the picture (shadow maps, depth, fractions of pixels, filters) is tried in every combination by the
  * prediction of memory alone; of those that fit, all that could be had with less change are dropped, and the others are
  * drawn and compared with what was requested, compact arithmetic and smaller textures among them. What changes no
- * picture but costs instructions (screen tiles, caches, bounds, last of all records of triangles) is then given up as
+ * picture but costs instructions (screen tiles, bounds, last of all records of triangles) is then given up as
  * far as it must be. Only where nothing fits, or shadows would be lost, the picture gets smaller. */
 #include <math.h>
 #include <stdarg.h>
@@ -13,7 +13,7 @@
 #include "compile.h"
 #include "../settings/settings_parse.h"
 
-enum { SAMPLES = 3, LISTED_MAX = 48, EIGHTHS = 8, LEAN_BARE = 2, LEAN_MAX = 3, SMALL_VERTEX_CACHE = 8, GROUPS = 256 };
+enum { SAMPLES = 3, LISTED_MAX = 48, EIGHTHS = 8, LEAN_BARE = 1, LEAN_MAX = 2, GROUPS = 256 };
 enum { TEXTURE_SIDE_MIN = 8, TEXTURE_SIDE_SMALL = 64, TEXTURE_SIDE_MAX = 2048 };
 
 /* What changes the picture, each from 0: as it was requested. */
@@ -22,8 +22,8 @@ enum { ATLAS, OTHER_ATLAS, DEPTH, OTHER_DEPTH, SUBPIXEL, FILTER, OTHER_FILTER, S
 typedef struct {
     int loss[LOSSES];
     int tile_width, tile_height; /* 0: as it is */
-    int lean;      /* 1: a small vertex cache; 2: nothing that only saves instructions; 3: and groups of triangles */
-    double change; /* mean square of the picture's, of 255 */
+    int lean;                    /* 1: nothing that only saves instructions; 2: and groups of triangles */
+    double change;               /* mean square of the picture's, of 255 */
 } variant;
 
 typedef struct {
@@ -87,8 +87,7 @@ static compiled apply(const search *s, const variant *v)
     compiled c = *s->c;
     c.set = c.requested;
     gn_knobs *q = &c.set.quality;
-    q->position_bits = s->c->set.quality.position_bits; /* what the meshes hold by now */
-    q->normal_bits = s->c->set.quality.normal_bits;
+    q->short_vertices = s->c->set.quality.short_vertices; /* what the meshes hold by now */
     q->atlas_size = halved(q->atlas_size, v->loss[ATLAS]);
     q->other_atlas_size = halved(q->other_atlas_size, v->loss[OTHER_ATLAS]);
     q->depth_bits = fewer_bits(q->depth_bits, v->loss[DEPTH]);
@@ -103,8 +102,6 @@ static compiled apply(const search *s, const variant *v)
         c.fixed.scene.shadow.fit = GN_FIT_STABLE;
         c.fixed.scene.shadow.tile_sizes = GN_TILES_EQUAL;
     }
-    if (v->lean >= 1 && c.set.capacity.vertex_cache > SMALL_VERTEX_CACHE)
-        c.set.capacity.vertex_cache = SMALL_VERTEX_CACHE;
     if (v->lean >= LEAN_BARE) {
         c.set.feature.object_boxes = c.set.feature.incremental = 0;
         c.fixed.scene.shadow.caster_culling = 0;
@@ -312,7 +309,6 @@ static void say_variant(const search *s, const variant *v, const compile_memory 
     if (v->loss[OTHER_FILTER])
         say(out, bytes, &n, " --set other_filter=%s", settings_filter_names[c.fixed.scene.shadow.other_filter]);
     if (v->loss[FIT]) say(out, bytes, &n, " --set fit=stable --set tiles=equal");
-    SAY_(capacity, vertex_cache);
     SAY_(quality, triangle_groups);
     if (v->lean >= LEAN_BARE) {
         if (on->feature.object_boxes) say(out, bytes, &n, " --set object_boxes=0");

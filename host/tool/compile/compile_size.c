@@ -27,8 +27,9 @@ static long scene_bytes(bool short_enums)
 
 static long mesh_bytes(const gn_mesh *m, const gn_knobs *knobs)
 {
-    long n = m->n_vertices, bytes = padded(3 * n * knobs->position_bits / 8) + padded((long)m->n_triangles * 6);
-    if (m->nrm_q15) bytes += padded(3 * n * knobs->normal_bits / 8);
+    long n = m->n_vertices,
+         bytes = padded(3 * n * (knobs->short_vertices % 2 ? 2 : 4)) + padded((long)m->n_triangles * 6);
+    if (m->nrm_q15) bytes += padded(3 * n * (knobs->short_vertices >= 2 ? 1 : 2));
     if (m->rgb_uq16) bytes += padded(6 * n);
     if (m->uv) bytes += 4 * n;
     if (m->mask_uv_uq16) bytes += 4 * n;

@@ -14,31 +14,32 @@ static long of_level(int level, const int *const *bytes, flash_core core)
 static long of_surfaces(const settings *s, flash_core core)
 {
     long bytes = 0;
-    if (!s->feature.vertex_normals) bytes += no_vertex_normals_bytes[core];
-    if (s->feature.vertex_colours) bytes += vertex_colours_bytes[core];
-    bytes += of_level(s->feature.textures, (const int *const[]){textures_bytes, textures_2_bytes}, core);
-    if (s->feature.specular) bytes += specular_bytes[core];
-    if (s->feature.baked) bytes += baked_bytes[core];
-    if (s->feature.alpha) bytes += alpha_bytes[core];
+    if (s->feature.vertex_values % 2 == 0) bytes += vertex_values_0_bytes[core];
+    if (s->feature.vertex_values >= 2) bytes += vertex_values_3_bytes[core];
+    bytes += of_level((s->feature.texture_formats > 0) + (s->feature.texture_formats >= 1024),
+                      (const int *const[]){texture_formats_bytes, texture_formats_1025_bytes}, core);
+    if (s->feature.materials % 2) bytes += materials_bytes[core];
+    if (s->feature.materials & 8) bytes += materials_8_bytes[core];
+    if (s->feature.materials & 4) bytes += materials_4_bytes[core];
     return bytes;
 }
 
 static long of_filter(const settings *s, flash_core core)
 {
-    const int *const by_max[] = {filter_max_0_bytes, filter_max_1_bytes, NULL,
-                                 filter_max_3_bytes, filter_max_4_bytes, filter_max_5_bytes};
-    const int *row = by_max[s->feature.filter_max];
+    const int *const of_level[] = {shadows_1_bytes, shadows_2_bytes, NULL,
+                                   shadows_4_bytes, shadows_5_bytes, shadows_6_bytes};
+    const int *row = of_level[s->feature.shadows - 1];
     return row ? row[core] : 0;
 }
 
 static long of_shadows(const settings *s, flash_core core)
 {
     long bytes = of_filter(s, core);
-    if (s->feature.punctual_lights) bytes += punctual_lights_bytes[core];
-    if (s->feature.main_light) bytes += main_light_bytes[core];
-    if (s->feature.other_biases) bytes += other_biases_bytes[core];
+    if (s->feature.other_lights % 2) bytes += other_lights_bytes[core];
+    if (s->feature.other_lights >= 2) bytes += other_lights_2_bytes[core];
+    if (s->feature.biases >= 2) bytes += biases_2_bytes[core];
     if (s->quality.edge) bytes += edge_bytes[core];
-    if (s->feature.auto_bias) bytes += auto_bias_bytes[core];
+    if (s->feature.biases % 2) bytes += biases_bytes[core];
     bytes += of_level(s->feature.incremental, (const int *const[]){incremental_bytes, incremental_2_bytes}, core);
     bytes += of_level(s->feature.many_cascades,
                       (const int *const[]){many_cascades_bytes, many_cascades_2_bytes, many_cascades_3_bytes}, core);
@@ -51,7 +52,7 @@ static long of_shadows(const settings *s, flash_core core)
 static long of_no_shadows(const settings *s, flash_core core)
 {
     long bytes = s->quality.persp_step == 1 ? accurate_unshadowed_bytes[core] : no_shadows_bytes[core];
-    if (s->feature.punctual_lights) bytes += punctual_unshadowed_bytes[core] - no_shadows_bytes[core];
+    if (s->feature.other_lights % 2) bytes += punctual_unshadowed_bytes[core] - no_shadows_bytes[core];
     return bytes;
 }
 
@@ -59,7 +60,7 @@ static long of_compact(const settings *s, flash_core core)
 {
     long bytes = typical_bytes[core] + compact_bytes[core];
     if (s->feature.validation) bytes += compact_validation_bytes[core];
-    if (s->feature.auto_bias) bytes += compact_auto_bias_bytes[core];
+    if (s->feature.biases % 2) bytes += compact_auto_bias_bytes[core];
     if (!s->quality.srgb) bytes += compact_linear_bytes[core];
     return bytes;
 }
@@ -72,7 +73,7 @@ long flash_estimate(const settings *s, flash_core core)
     else bytes += of_no_shadows(s, core);
     if (s->feature.validation) bytes += validation_bytes[core];
     bytes += of_level(s->feature.clipping, (const int *const[]){clipping_bytes, clipping_2_bytes}, core);
-    if (s->feature.other_formats) bytes += other_formats_bytes[core];
+    if (s->feature.pictures % 2) bytes += pictures_bytes[core];
     if (!s->quality.srgb) bytes += linear_bytes[core];
     if (s->quality.persp_step == 1 && s->feature.shadows) bytes += preset_accurate_bytes[core];
     return bytes;

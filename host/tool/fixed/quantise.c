@@ -265,7 +265,7 @@ static int allocate(fixed_scene *f, const scene *s)
 
 int quantise_scene(fixed_scene *out, const scene *s, char *error, size_t error_bytes)
 {
-    const gn_knobs wide = {.position_bits = 32, .normal_bits = 16};
+    const gn_knobs wide = {.short_vertices = 0};
     return quantise_scene_for(out, s, &wide, error, error_bytes);
 }
 

@@ -35,7 +35,7 @@ void quantise_free_skin(gn_skin *skin);
 /* Chooses the power of two that puts the scene into the upper range of Q15.16 and converts everything with rounding to
  * nearest. 0, or -1 with one line in error that names what does not fit. */
 int quantise_scene(fixed_scene *out, const scene *s, char *error, size_t error_bytes);
-/* The same with vertices for these position_bits and normal_bits: still 32 and 16 bits wide, but they hold what the
+/* The same with vertices for these short_vertices: still 32 and 16 bits wide, but they hold what the
  * narrow ones do. */
 int quantise_scene_for(fixed_scene *out, const scene *s, const gn_knobs *knobs, char *error, size_t error_bytes);
 int quantise_world_exp(const scene *s); /* the power of two that quantise_scene chooses */

@@ -19,8 +19,8 @@ mesh_plan *quantise_plan_meshes(const scene *s, const gn_knobs *knobs)
 {
     mesh_plan *plan = calloc(s->n_meshes + 1, sizeof *plan);
     for (size_t i = 0; plan && i < s->n_meshes; i++) {
-        plan[i].short_positions = knobs->position_bits == 16;
-        plan[i].normal_one = knobs->normal_bits == 8 ? 127 : 32767;
+        plan[i].short_positions = knobs->short_vertices % 2;
+        plan[i].normal_one = knobs->short_vertices >= 2 ? 127 : 32767;
         plan[i].pos_bits = position_bits(&s->meshes[i]) - (plan[i].short_positions ? 15 : 0);
     }
     for (size_t i = 0; plan && i < s->n_objects; i++) {

@@ -7,11 +7,13 @@
 #undef GN_MAX_LIGHTS
 #undef GN_MAX_SHADOW_TILES
 #undef GN_ATLAS_SIZE
+#undef GN_PICTURES
 #undef GN_COUNTERS
 #define GN_PREFIX     compact_
 #define GN_COMPACT    1
 #define GN_MAX_HEIGHT 256
 #define GN_ATLAS_SIZE 256
+#define GN_PICTURES   8
 #include "gnomon.c"
 #include "library_calls.h"
 

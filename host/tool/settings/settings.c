@@ -88,41 +88,19 @@ static int note_useless(scene *s, const char *key, size_t light, char *error, si
     return scene_add_note(s, note, error, bytes);
 }
 
-/* auto_bias: a word for lights, built or not as a knob. */
-static const char *as_knob(const char *value)
-{
-    if (strcmp(value, "off") == 0) return "0";
-    return strcmp(value, "depth") == 0 || strcmp(value, "normal") == 0 ? "1" : value;
-}
-
 /* KEY@LIGHT */
-static int apply_to_light(settings *out, scene *s, const char *key, const char *at, const char *value, char *error,
-                          size_t bytes)
+static int apply_to_light(scene *s, const char *key, const char *at, const char *value, char *error, size_t bytes)
 {
     char plain[64];
     size_t light;
     snprintf(plain, sizeof plain, "%.*s", (int)(at - key), key);
-    const bool is_knob = settings_is_knob(plain);
     if (!settings_of_lights(plain)) {
         snprintf(error, bytes, "setting '%s': '%s' is not a setting of lights", key, plain);
         return -1;
     }
     if (find_light(s, key, at + 1, &light, error, bytes)) return -1;
     if (settings_apply_scene(s, plain, light, value, error, bytes) < 0) return -1;
-    if (note_useless(s, plain, light, error, bytes)) return -1;
-    return is_knob && strcmp(as_knob(value), "0") != 0 ? settings_apply_knob(out, plain, as_knob(value), error, bytes)
-                                                       : 0; /* what one light uses must be built */
-}
-
-/* Built or not; without it no light uses it. */
-static bool of_knob_alone(const char *key, const char *value)
-{
-    return strcmp(key, "auto_bias") == 0 && strcmp(value, "1") == 0;
-}
-
-static const char *as_word(const char *key, const char *value)
-{
-    return strcmp(key, "auto_bias") == 0 && strcmp(value, "0") == 0 ? "off" : value;
+    return note_useless(s, plain, light, error, bytes);
 }
 
 /* Settings of earlier versions, and why they are gone. */
@@ -137,20 +115,37 @@ static const char *why_gone(const char *key)
         {"shadow_depth_frac", "4 bits always"},
         {"shadow_subpixel_bits", "follows from persp_step: 12 with 1, else 10"},
         {"weight_bits", "follows from persp_step: 12 with 1, else 8"},
+        {"position_bits", "short_vertices=1 is 16 bits, else 32"},
+        {"normal_bits", "short_vertices=2 is 8 bits, else 16"},
+        {"vertex_cache", "follows from the screen tile: 32 from 512 pixels on, else 4"},
         {"blended_cascades", "many_cascades=2 has it"},
-        {"disk_filter", "filter_max=5 has it"},
+        {"disk_filter", "shadows=6 has it"},
+        {"filter_max", "shadows has it: 1 hard, 2 2x2, 3 3x3, 4 5x5, 5 7x7, 6 disk"},
         {"static_layer", "incremental=2 has it"},
         {"tile_importance", "tile_sizes=1 has it"},
         {"tight_fit", "tile_sizes=2 has it"},
-        {"caster_alpha", "alpha has it"},
-        {"visible_alpha", "alpha has it"},
-        {"masks", "baked has it"},
-        {"raw_views", "other_formats=2 has it"},
+        {"alpha", "materials=4 has it"},
+        {"baked", "materials=8 has it"},
+        {"caster_alpha", "materials=4 has it"},
+        {"visible_alpha", "materials=4 has it"},
+        {"masks", "materials=8 has it"},
+        {"tile_drawing", "pictures=2 has it"},
+        {"other_formats", "pictures=1 has it"},
+        {"orthographic", "pictures=4 has it"},
+        {"raw_views", "pictures=8 has it"},
+        {"error_fields", "validation=2 has it"},
+        {"vertex_normals", "vertex_values=1 has it"},
+        {"vertex_colours", "vertex_values=2 has it"},
         {"runtime_knobs", "GN_RUNTIME_KNOBS is for host tools"},
-        {"baked_light", "baked has it"},
-        {"receiver_bias", "other_biases has it"},
-        {"caster_bias", "other_biases has it"},
-        {"emissive_textures", "emissive has it, with textures"},
+        {"size_first", "follows from the compiler: 1 with -Os"},
+        {"baked_light", "materials=8 has it"},
+        {"other_biases", "biases=2 has it"},
+        {"punctual_lights", "other_lights=1 has it"},
+        {"receiver_bias", "biases=2 has it"},
+        {"caster_bias", "biases=2 has it"},
+        {"specular", "materials=1 has it"},
+        {"emissive", "materials=2 has it"},
+        {"emissive_textures", "materials=2 has it, with textures"},
         {"caster_clipping", "clipping=2 has it"},
         {"clips", "always there, and linked where gn_pose is called"},
         {"picking", "always there, and linked where gn_pick is called"},
@@ -184,19 +179,13 @@ int settings_apply(settings *out, scene *s, const char *key, const char *value, 
     if (strcmp(key, "kernel") == 0 && strcmp(value, "tent") == 0) return 0; /* of earlier files: what is built */
     if ((taken = apply_own(out, s, key, value, error, error_bytes))) return taken < 0 ? -1 : 0;
     const char *at = strchr(key, '@');
-    if (at) return apply_to_light(out, s, key, at, value, error, error_bytes);
-    /* main_light and auto_bias are built and used, or neither: knobs
-     * and settings of the scene at once */
-    const bool is_knob = settings_is_knob(key);
-    const char *word = as_word(key, value);
-    if (!of_knob_alone(key, value) && (taken = settings_apply_scene(s, key, SCENE_NONE, word, error, error_bytes)) < 0)
-        return -1;
-    if (is_knob) {
-        if (settings_apply_knob(out, key, as_knob(value), error, error_bytes)) return -1;
+    if (at) return apply_to_light(s, key, at, value, error, error_bytes);
+    if ((taken = settings_apply_scene(s, key, SCENE_NONE, value, error, error_bytes))) return taken < 0 ? -1 : 0;
+    if (settings_is_knob(key)) {
+        if (settings_apply_knob(out, key, value, error, error_bytes)) return -1;
         if (out->build.compact && strcmp(key, "compact") == 0) settings_compact_scene(s);
         return 0;
     }
-    if (taken) return 0;
     return unknown(key, error, error_bytes);
 }
 

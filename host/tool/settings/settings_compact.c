@@ -7,18 +7,24 @@
 
 enum { SIDE_MAX = 256 }; /* of the picture, and of the atlas */
 
-static bool has_feature(const char *feature)
+/* The most of a feature that it has. */
+static int most_of(const char *feature)
 {
-    static const char *const all[] = {"shadows", "auto_bias", "validation", "texture_formats"};
+    static const struct {
+        const char *feature;
+        int most;
+    } all[] = {{"shadows", 1}, {"biases", 1}, {"validation", 2}};
     for (size_t i = 0; i < sizeof all / sizeof *all; i++)
-        if (strcmp(feature, all[i]) == 0) return true;
-    return false;
+        if (strcmp(feature, all[i].feature) == 0) return all[i].most;
+    return 0;
 }
 
 /* user: what a feature has that is not switched off */
 static void switch_feature(void *user, const char *name, int *value)
 {
-    if (!has_feature(name)) *value = user ? settings_feature(user, name) : 0;
+    const int most = most_of(name);
+    if (!user && *value > most) *value = most;
+    if (user && (*value || !most)) *value = settings_feature(user, name);
 }
 
 /* Presets that have other depths have these in compact arithmetic: as GN_DEPTH_BITS. */
@@ -70,19 +76,19 @@ static int refuse_number(char *error, size_t bytes, const char *what, size_t val
 
 typedef struct {
     const char *name;
-    int value;
+    int value, most;
 } found;
 
 static void find_missing(void *user, const char *name, int *value)
 {
     found *first = user;
-    if (!first->name && *value && !has_feature(name)) *first = (found){name, *value};
+    if (!first->name && *value > most_of(name)) *first = (found){name, *value, most_of(name)};
 }
 
 int settings_compact_check(const settings *set, const scene *s, int width, int height, char *error, size_t error_bytes)
 {
     settings copy = *set;
-    found missing = {NULL, 0};
+    found missing = {NULL, 0, 0};
     char size[32];
     const gn_knobs *q = &set->quality;
     snprintf(size, sizeof size, "%dx%d", width, height);
@@ -94,7 +100,8 @@ int settings_compact_check(const settings *set, const scene *s, int width, int h
         return refuse(error, error_bytes, "distance_mode is", "radius", "depth");
     if (set->output != GN_FORMAT_RGB565 && set->output != GN_FORMAT_RGB565_SWAPPED)
         return refuse(error, error_bytes, "output is", output_names[set->output], "rgb565 and rgb565_swapped");
-    if (missing.name) return refuse_number(error, error_bytes, missing.name, (size_t)missing.value, "0");
+    if (missing.name)
+        return refuse_number(error, error_bytes, missing.name, (size_t)missing.value, missing.most ? "1" : "0");
     if (!set->feature.shadows) return refuse(error, error_bytes, "shadows", "0", "1");
     if (q->atlas_size > SIDE_MAX)
         return refuse_number(error, error_bytes, "atlas_size", (size_t)q->atlas_size, "up to 256");

@@ -108,10 +108,10 @@ void settings_preset_scene(scene *s, int preset)
 
 void settings_init(settings *out)
 {
-    static const settings defaults = {.output = GN_FORMAT_RGB888, .capacity.vertex_cache = 32};
+    static const settings defaults = {.output = GN_FORMAT_RGB888};
     *out = defaults;
     for (size_t i = 0; i < groups[FEATURE].n; i++) *field(out, &feature_knobs[i]) = feature_knobs[i].hi;
-    out->feature.incremental = out->feature.other_formats = 1; /* no picture needs more */
+    out->feature.incremental = out->feature.validation = 1, out->feature.pictures = 7; /* no picture needs more */
     settings_preset(out, SETTINGS_BALANCED);
 }
 
@@ -182,12 +182,9 @@ static const char *refine(const settings *s, const void *changed, int n)
         return "8, 16 or 32";
     if ((changed == &s->quality.atlas_size || changed == &s->quality.other_atlas_size) && (n & (n - 1)))
         return "a power of two";
-    if (changed == &s->quality.position_bits && n != 16 && n != 32) return "16 or 32";
-    if (changed == &s->quality.normal_bits && n != 8 && n != 16) return "8 or 16";
     if (changed == &s->quality.tile_width && n % 8) return "a multiple of 8";
     if ((changed == &s->capacity.atlas_texels || changed == &s->capacity.other_atlas_texels) && n % 64)
         return "a multiple of 64";
-    if (changed == &s->capacity.vertex_cache && (n & (n - 1))) return "a power of two";
     return NULL;
 }
 

@@ -4,6 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "../../record/uses.h"
 #include "settings_parse.h"
 
 typedef struct {
@@ -17,16 +18,19 @@ __attribute__((format(printf, 4, 5)))
 static void
 need(need_list *list, const char *knob, int value, const char *format, ...);
 
-/* Of several that need one knob, the first that needs most is named. */
+/* Of several that need one knob, the first that needs most is named; of parts, the first. */
 static void need(need_list *list, const char *knob, int value, const char *format, ...)
 {
     settings_need *found = NULL;
     for (int i = 0; i < list->n; i++)
         if (strcmp(list->all[i].knob, knob) == 0) found = &list->all[i];
-    if (found && found->value >= value) return;
+    const int both = found ? uses_both(knob, found->value, value) : value;
+    if (found && both == found->value) return;
+    const bool is_named = found && uses_is_sum(knob);
     if (!found) found = &list->all[list->n++];
     found->knob = knob;
-    found->value = value;
+    found->value = both;
+    if (is_named) return;
     va_list arguments;
     va_start(arguments, format);
     vsnprintf(found->what, sizeof found->what, format, arguments);
@@ -48,7 +52,7 @@ size_t settings_shadow_lights(const scene *s)
 static void needs_of_filter(need_list *list, const char *setting, scene_filter filter)
 {
     if (filter > SCENE_FILTER_HARD)
-        need(list, "filter_max", (int)filter, "%s %s", setting, settings_filter_names[filter]);
+        need(list, "shadows", 1 + (int)filter, "%s %s", setting, settings_filter_names[filter]);
 }
 
 static void needs_of_shadows(need_list *list, const scene *s)
@@ -57,11 +61,11 @@ static void needs_of_shadows(need_list *list, const scene *s)
     needs_of_filter(list, "other_filter", s->shadow.other_filter);
     if (s->shadow.blend != SCENE_BLEND_HARD)
         need(list, "many_cascades", 2, "cascade_blend %s", settings_blend_names[s->shadow.blend]);
-    if (s->shadow.main_light) need(list, "main_light", 1, "main_light 1");
+    if (s->shadow.main_light) need(list, "other_lights", USES_MAIN_LIGHT, "main_light 1");
     if (s->shadow.n_cascades > 1) need(list, "many_cascades", 1, "cascades %d", s->shadow.n_cascades);
     if (s->shadow.caster_culling) need(list, "many_cascades", 3, "caster_culling 1");
     if (s->shadow.tiles == SCENE_TILES_IMPORTANCE) need(list, "tile_sizes", 1, "tiles importance");
-    if (s->shadow.mixing != SCENE_MIX_NONE) need(list, "baked", 1, "mixing");
+    if (s->shadow.mixing != SCENE_MIX_NONE) need(list, "materials", USES_BAKED, "mixing");
 }
 
 /* F5: soft is at least 5x5, hard is 2x2 where the atlas's filter is not hard itself. */
@@ -70,21 +74,21 @@ static void needs_of_softness(need_list *list, const scene *s, const scene_light
     bool beside = s->shadow.main_light || l->kind != SCENE_LIGHT_DIRECTIONAL;
     scene_filter atlas = beside ? s->shadow.other_filter : s->shadow.filter;
     if (l->softness == SCENE_SOFT_SOFT && atlas != SCENE_FILTER_DISK)
-        need(list, "filter_max", SCENE_FILTER_5X5, "soft light '%s'", l->name);
+        need(list, "shadows", 1 + SCENE_FILTER_5X5, "soft light '%s'", l->name);
     if (l->softness == SCENE_SOFT_HARD && atlas != SCENE_FILTER_HARD)
-        need(list, "filter_max", SCENE_FILTER_2X2, "hard light '%s'", l->name);
+        need(list, "shadows", 1 + SCENE_FILTER_2X2, "hard light '%s'", l->name);
 }
 
 static void needs_of_light(need_list *list, const scene *s, const scene_light *l, bool shadows)
 {
     bool biased = false;
     for (int i = 0; i < 4; i++) biased |= l->bias_receiver[i] > 0;
-    if (l->kind == SCENE_LIGHT_SPOT) need(list, "punctual_lights", 1, "spot light '%s'", l->name);
-    if (l->kind == SCENE_LIGHT_POINT) need(list, "punctual_lights", 1, "point light '%s'", l->name);
-    if (biased) need(list, "other_biases", 1, "bias_receiver of light '%s'", l->name);
-    if (l->bias_caster > 0) need(list, "other_biases", 1, "bias_caster of light '%s'", l->name);
-    if (l->receiver_plane) need(list, "other_biases", 1, "receiver_plane of light '%s'", l->name);
-    if (l->auto_bias) need(list, "auto_bias", 1, "auto_bias of light '%s'", l->name);
+    if (l->kind == SCENE_LIGHT_SPOT) need(list, "other_lights", USES_PUNCTUAL, "spot light '%s'", l->name);
+    if (l->kind == SCENE_LIGHT_POINT) need(list, "other_lights", USES_PUNCTUAL, "point light '%s'", l->name);
+    if (biased) need(list, "biases", USES_OTHER_BIASES, "bias_receiver of light '%s'", l->name);
+    if (l->bias_caster > 0) need(list, "biases", USES_OTHER_BIASES, "bias_caster of light '%s'", l->name);
+    if (l->receiver_plane) need(list, "biases", USES_OTHER_BIASES, "receiver_plane of light '%s'", l->name);
+    if (l->auto_bias) need(list, "biases", USES_AUTO_BIAS, "auto_bias of light '%s'", l->name);
     if (!shadows || !requests_shadow(l)) return;
     need(list, "shadows", 1, "the shadow of light '%s'", l->name);
     needs_of_softness(list, s, l);
@@ -107,23 +111,25 @@ static void needs_of_object(need_list *list, const scene *s, const scene_object 
     const size_t shown[] = {o->texture_idx, o->emissive_texture_idx};
     if (o->n_joints)
         need(list, "vertex_joints", joints_of(&s->meshes[o->mesh_idx]), "the skin of object '%s'", o->name);
-    if (o->visible_alpha != SCENE_ALPHA_OPAQUE) need(list, "alpha", 1, "alpha of object '%s'", o->name);
+    if (o->visible_alpha != SCENE_ALPHA_OPAQUE) need(list, "materials", USES_ALPHA, "alpha of object '%s'", o->name);
     for (int i = 0; i < 2; i++) {
         if (shown[i] >= s->n_textures) continue;
-        need(list, "textures", 1, "the texture of object '%s'", o->name);
+        need(list, "texture_formats", 1 << s->textures[shown[i]].format, "the texture of object '%s'", o->name);
         if (s->textures[shown[i]].mipmapped)
-            need(list, "textures", 2, "the texture of object '%s', whose sampler has a mipmap,", o->name);
+            need(list, "texture_formats", USES_TEXTURE_LEVELS,
+                 "the texture of object '%s', whose sampler has a mipmap,", o->name);
     }
     if (o->emissive_texture_idx < s->n_textures)
-        need(list, "emissive", 1, "the emissive texture of object '%s'", o->name);
+        need(list, "materials", USES_EMISSIVE, "the emissive texture of object '%s'", o->name);
     if (o->specular[0] > 0 || o->specular[1] > 0 || o->specular[2] > 0)
-        need(list, "specular", 1, "specular of object '%s'", o->name);
+        need(list, "materials", USES_SPECULAR, "specular of object '%s'", o->name);
     if (o->emissive[0] > 0 || o->emissive[1] > 0 || o->emissive[2] > 0)
-        need(list, "emissive", 1, "the emissive colour of object '%s'", o->name);
-    if (o->baked) need(list, "baked", 1, "baked light of object '%s'", o->name);
+        need(list, "materials", USES_EMISSIVE, "the emissive colour of object '%s'", o->name);
+    if (o->baked) need(list, "materials", USES_BAKED, "baked light of object '%s'", o->name);
     if (o->caster == SCENE_CASTER_CLIP || o->caster == SCENE_CASTER_DITHER)
-        need(list, "alpha", 1, "the shadow of object '%s', cut by alpha,", o->name);
-    if (o->mask || o->mask_texture_idx != SCENE_NONE) need(list, "baked", 1, "the shadow mask of object '%s'", o->name);
+        need(list, "materials", USES_ALPHA, "the shadow of object '%s', cut by alpha,", o->name);
+    if (o->mask || o->mask_texture_idx != SCENE_NONE)
+        need(list, "materials", USES_BAKED, "the shadow mask of object '%s'", o->name);
 }
 
 /* A build refuses what it lacks even where nothing comes of it; only what shadows alone are made with it does not look
@@ -131,8 +137,8 @@ static void needs_of_object(need_list *list, const scene *s, const scene_object 
 int settings_needs(const scene *s, bool shadows, settings_need *needs)
 {
     need_list list = {needs, 0};
-    if (s->camera.half_height > 0) need(&list, "orthographic", 1, "the orthographic camera");
-    if (s->gradient) need(&list, "tile_drawing", 1, "the background's gradient");
+    if (s->camera.half_height > 0) need(&list, "pictures", USES_ORTHOGRAPHIC, "the orthographic camera");
+    if (s->gradient) need(&list, "pictures", USES_TILE_DRAWING, "the background's gradient");
     if (shadows) needs_of_shadows(&list, s);
     for (size_t i = 0; i < s->n_lights; i++) needs_of_light(&list, s, &s->lights[i], shadows);
     for (size_t i = 0; i < s->n_objects; i++) needs_of_object(&list, s, &s->objects[i]);
@@ -149,15 +155,13 @@ bool settings_casts(const scene *s)
 void settings_trim(settings *set, const scene *s)
 {
     settings_need needs[SETTINGS_NEEDS_MAX];
-    bool shadows = settings_shadow_lights(s) > 0 && settings_casts(s), punctual = false, main_light = false;
+    const bool shadows = settings_shadow_lights(s) > 0 && settings_casts(s);
+    int other = 0;
     int n = settings_needs(s, shadows, needs);
-    for (int i = 0; i < n; i++) {
-        punctual |= strcmp(needs[i].knob, "punctual_lights") == 0;
-        main_light |= strcmp(needs[i].knob, "main_light") == 0;
-    }
+    for (int i = 0; i < n; i++)
+        if (strcmp(needs[i].knob, "other_lights") == 0) other = needs[i].value;
     if (!shadows) set->feature.shadows = 0;
-    if (!punctual) set->feature.punctual_lights = 0;
-    if (!main_light) set->feature.main_light = 0;
+    set->feature.other_lights &= other;
     if (s->shadow.fit == SCENE_FIT_STABLE && s->shadow.tiles != SCENE_TILES_WORTH)
         set->feature.tile_sizes = s->shadow.tiles == SCENE_TILES_IMPORTANCE;
 }
@@ -180,8 +184,8 @@ int settings_enforce(const settings *set, scene *s, int width, int height, char 
     settings_need needs[SETTINGS_NEEDS_MAX];
     if (set->build.compact && settings_compact_check(set, s, width, height, error, error_bytes)) return -1;
     for (size_t i = 0; i < s->n_meshes; i++) {
-        if (!set->feature.vertex_normals) drop(&s->meshes[i].nrm);
-        if (!set->feature.vertex_colours) drop(&s->meshes[i].rgb);
+        if (set->feature.vertex_values % 2 == 0) drop(&s->meshes[i].nrm);
+        if (set->feature.vertex_values < 2) drop(&s->meshes[i].rgb);
     }
     for (size_t i = 0; i < s->n_lights && !set->feature.shadows; i++) s->lights[i].shadow = false;
     if (set->feature.tile_sizes < 2 || !set->feature.shadows) {
@@ -194,7 +198,7 @@ int settings_enforce(const settings *set, scene *s, int width, int height, char 
     int n = settings_needs(s, set->feature.shadows, needs);
     for (int i = 0; i < n; i++) {
         int value = settings_feature(set, needs[i].knob);
-        if (value >= needs[i].value) continue;
+        if (uses_both(needs[i].knob, value, needs[i].value) == value) continue;
         snprintf(error, error_bytes, "setting '%s': %d, and %s needs %d%s", needs[i].knob, value, needs[i].what,
                  needs[i].value, set->build.compact ? " (compact is 1)" : "");
         return -1;

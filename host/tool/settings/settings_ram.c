@@ -26,14 +26,14 @@ static long put_atlas(layout *l, const settings *s, long side, long texels, long
     if (!texels) texels = side * side;
     long bytes = 0, layers = s->feature.incremental > 1 ? 2 : 1;
     for (long i = 0; i < layers; i++) bytes += put(l, texels * depth_bits / 8, 1, 4);
-    if (s->feature.filter_max > 4) bytes += put(l, texels / 64, 4, 2);
+    if (s->feature.shadows > 5) bytes += put(l, texels / 64, 4, 2);
     return bytes;
 }
 
 /* GN_VIEWS_MAX */
 static long n_views(const settings *s)
 {
-    int other = s->feature.punctual_lights || s->feature.main_light;
+    int other = s->feature.other_lights > 0;
     return s->capacity.max_shadow_tiles + (other ? s->capacity.max_other_tiles : 0);
 }
 
@@ -41,8 +41,8 @@ static long n_views(const settings *s)
 static void put_views(layout *l, const settings *s)
 {
     const long views = n_views(s);
-    long view = 180 + (s->feature.filter_max > 4 ? 4 : 0) + (s->feature.auto_bias ? 8 : 0) +
-                (s->feature.tile_sizes > 1 ? 8 : 0);
+    long view =
+        180 + (s->feature.shadows > 5 ? 4 : 0) + (s->feature.biases % 2 ? 8 : 0) + (s->feature.tile_sizes > 1 ? 8 : 0);
     put(l, views, (view + 7) / 8 * 8, 8);
     if (s->feature.tile_sizes > 1) put(l, views, 56, 8); /* seen */
 }
@@ -50,7 +50,7 @@ static void put_views(layout *l, const settings *s)
 /* gn_frame from its memory of tiles on */
 static void put_shadows(layout *l, const settings *s, settings_ram_parts *r)
 {
-    const int other = s->feature.punctual_lights || s->feature.main_light;
+    const int other = s->feature.other_lights > 0;
     const long views = n_views(s);
     if (s->feature.incremental) put(l, 2 * views + 1, 8, 8); /* memory, layout */
     r->atlas = put_atlas(l, s, s->quality.atlas_size, s->capacity.atlas_texels, s->quality.depth_bits);
@@ -62,8 +62,8 @@ static void put_shadows(layout *l, const settings *s, settings_ram_parts *r)
 /* gn_alpha_cut of lib/geometry/gn_geometry_types.h */
 static long cut_bytes(const settings *s)
 {
-    if (!s->feature.alpha) return 0;
-    if (!s->feature.textures) return 24;
+    if (!(s->feature.materials & 4)) return 0;
+    if (!s->feature.texture_formats) return 24;
     return 216;
 }
 
@@ -78,27 +78,27 @@ static long casting_bytes(const settings *s)
 static long corner_bytes(const settings *s)
 {
     layout light = {0, 4}, all = {0, 4};
-    put(&light, s->feature.baked ? 2 : 1, 4, 4);
+    put(&light, s->feature.materials & 8 ? 2 : 1, 4, 4);
     if (s->feature.shadows) put(&light, 3, 4, 4);
-    if (s->feature.specular) {
+    if (s->feature.materials % 2) {
         put(&light, 1, 4, 4);
         put(&light, 3, 2, 2);
     }
     put(&light, s->feature.shadows ? 4 : 1, 1, 1);
     pad(&light, 4);
     put(&all, 8, 4, 4); /* state to base_q24 */
-    if (s->feature.vertex_colours) put(&all, 3, 4, 4);
-    if (s->feature.textures) put(&all, 2, 4, 4);
-    if (s->feature.baked) put(&all, 2, 4, 4);
-    if (s->feature.vertex_normals) put(&all, 3, 4, 4);
-    if (s->feature.punctual_lights) put(&all, 3, 4, 4);
+    if (s->feature.vertex_values >= 2) put(&all, 3, 4, 4);
+    if (s->feature.texture_formats) put(&all, 2, 4, 4);
+    if (s->feature.materials & 8) put(&all, 2, 4, 4);
+    if (s->feature.vertex_values % 2) put(&all, 3, 4, 4);
+    if (s->feature.other_lights % 2) put(&all, 3, 4, 4);
     put(&all, s->capacity.surface_lights, light.size, 4);
     return all.size;
 }
 
 static int has_levels(const settings *s)
 {
-    return s->feature.textures > 1;
+    return s->feature.texture_formats >= 1024;
 }
 
 static int wide_coordinates(const settings *s);
@@ -112,7 +112,7 @@ static long patch_bytes(const settings *s)
     put(&all, 1, 168, 4);                                                           /* view_q14 to colour */
     put(&all, 3, 252, 4);                                                           /* light */
     put(&all, 3, 16, 4);                                                            /* tint_q16 */
-    if (s->feature.textures) put(&all, 1, has_levels(s) ? 52 : 36, 4);              /* texture to level */
+    if (s->feature.texture_formats) put(&all, 1, has_levels(s) ? 52 : 36, 4);       /* texture to level */
     put(&all, 1, 384, 4);                                                           /* attenuation to texel */
     return all.size;
 }
@@ -122,22 +122,22 @@ static long patch_shared_bytes(const settings *s)
 {
     layout all = {0, 4};
     put(&all, 1, 56, 4); /* of */
-    if (s->feature.vertex_normals) put(&all, 32, 8, 4);
-    if (s->feature.vertex_normals && s->feature.vertex_joints) put(&all, 16, 20, 4);
-    if (s->feature.shadows && s->feature.auto_bias) put(&all, 1, 72, 4);
+    if (s->feature.vertex_values % 2) put(&all, 32, 8, 4);
+    if (s->feature.vertex_values % 2 && s->feature.vertex_joints) put(&all, 16, 20, 4);
+    if (s->feature.shadows && s->feature.biases % 2) put(&all, 1, 72, 4);
     return all.size;
 }
 
 static int has_glow(const settings *s)
 {
-    return s->feature.textures && s->feature.emissive;
+    return s->feature.texture_formats && s->feature.materials & 2;
 }
 
 /* gn_drawing of lib/shade/gn_lattice_types.h */
 static long drawing_bytes(const settings *s)
 {
-    const int glows = s->feature.emissive && (s->feature.textures || s->feature.vertex_colours);
-    return 88 + (glows ? 12 : 0) + (has_glow(s) ? 4 + 92 : 0) + (s->feature.textures ? 76 : 0) +
+    const int glows = s->feature.materials & 2 && (s->feature.texture_formats || s->feature.vertex_values >= 2);
+    return 88 + (glows ? 12 : 0) + (has_glow(s) ? 4 + 92 : 0) + (s->feature.texture_formats ? 76 : 0) +
            (has_levels(s) ? 28 : 0);
 }
 
@@ -145,12 +145,12 @@ static long drawing_bytes(const settings *s)
 static long lattice_bytes(const settings *s)
 {
     layout all = {0, 4};
-    put(&all, 1, 256, 4);                                                      /* span to plane */
-    if (s->feature.shadows) put(&all, 22, 4, 4);                               /* matrix */
-    if (s->feature.shadows && s->feature.punctual_lights) put(&all, 8, 68, 4); /* forms */
-    put(&all, s->capacity.surface_lights, 12, 4);                              /* light */
-    put(&all, 1, 200, 4);                                                      /* face_q30 to bits */
-    if (s->feature.shadows && (s->feature.other_biases || s->quality.edge))
+    put(&all, 1, 256, 4);                                                       /* span to plane */
+    if (s->feature.shadows) put(&all, 22, 4, 4);                                /* matrix */
+    if (s->feature.shadows && s->feature.other_lights % 2) put(&all, 8, 68, 4); /* forms */
+    put(&all, s->capacity.surface_lights, 12, 4);                               /* light */
+    put(&all, 1, 200, 4);                                                       /* face_q30 to bits */
+    if (s->feature.shadows && (s->feature.biases >= 2 || s->quality.edge))
         put(&all, 4, 4, 4); /* slope_view to slope_h_q14 */
     const long corners = 12 * corner_bytes(s), patch = patch_bytes(s);
     put(&all, 1, corners > patch ? corners : patch, 4); /* from */
@@ -171,36 +171,36 @@ static long lattice_bytes(const settings *s)
 static void put_work(layout *out, const settings *s)
 {
     layout surface = {0, 8}, all = {0, 8};
-    int per_light = (s->feature.shadows && s->feature.many_cascades > 1) || s->feature.punctual_lights ? 7
-                    : s->feature.shadows                                                               ? 4
-                                                                                                       : 1;
-    long values = (s->feature.textures ? 2 : 0) + (s->feature.baked ? 4 : 0) + (s->feature.baked ? 3 : 0) + 5 +
-                  (long)per_light * s->capacity.surface_lights;
-    put(&surface, 1, s->feature.orthographic ? 244 : 200, 8); /* object to the colours of attribute_q16 */
+    int per_light = (s->feature.shadows && s->feature.many_cascades > 1) || s->feature.other_lights % 2 ? 7
+                    : s->feature.shadows                                                                ? 4
+                                                                                                        : 1;
+    long values = (s->feature.texture_formats ? 2 : 0) + (s->feature.materials & 8 ? 4 : 0) +
+                  (s->feature.materials & 8 ? 3 : 0) + 5 + (long)per_light * s->capacity.surface_lights;
+    put(&surface, 1, s->feature.pictures & 4 ? 244 : 200, 8); /* object to the colours of attribute_q16 */
     put(&surface, 15, 4, 4);                                  /* v_q16 to hi_q16 */
-    if (s->feature.baked) put(&surface, 12, 4, 4);
-    if (s->feature.baked) put(&surface, 9, 4, 4);
-    if (s->feature.textures) put(&surface, 6, 8, 8);
+    if (s->feature.materials & 8) put(&surface, 12, 4, 4);
+    if (s->feature.materials & 8) put(&surface, 9, 4, 4);
+    if (s->feature.texture_formats) put(&surface, 6, 8, 8);
     if (has_levels(s)) put(&surface, 1, 28, 8);
     if (has_glow(s)) put(&surface, 1, 4, 4);
     if (has_levels(s) && has_glow(s)) put(&surface, 1, 8, 8); /* glow_depth2_q32 */
-    if (s->feature.other_biases || s->quality.edge || s->feature.auto_bias) put(&surface, 3, 4, 4);
+    if (s->feature.biases || s->quality.edge) put(&surface, 3, 4, 4);
     put(&surface, s->capacity.surface_lights, s->quality.vertex_light ? 44 : 36, 4);
     pad(&surface, surface.align);
     put(&all, 1, 40, 4);  /* frame to rows */
     put(&all, 1, 128, 4); /* cache */
     put(&all, 1, surface.size, 8);
     put(&all, 8, 4, 4); /* tri to radiance_q20 */
-    long incident = s->feature.punctual_lights ? s->capacity.surface_lights : 0;
+    long incident = s->feature.other_lights % 2 ? s->capacity.surface_lights : 0;
     incident *= s->feature.shadows ? 20 : 8;
-    put(&all, 1, 28 + 4 * values + incident + (s->feature.specular ? 24 : 0), 4); /* sample */
-    if (s->quality.transparent_layers) put(&all, 4, 4, 4);                        /* mixture */
+    put(&all, 1, 28 + 4 * values + incident + (s->feature.materials % 2 ? 24 : 0), 4); /* sample */
+    if (s->quality.transparent_layers) put(&all, 4, 4, 4);                             /* mixture */
     if (s->quality.persp_step > 1) {
         put(&all, 1, patch_shared_bytes(s), 4);
         put(&all, 1, lattice_bytes(s), 8);
     }
     pad(&all, all.align);
-    const long casting = casting_bytes(s), clipping = 264, seen = s->feature.punctual_lights ? 1008 : 988;
+    const long casting = casting_bytes(s), clipping = 264, seen = s->feature.other_lights % 2 ? 1008 : 988;
     long largest = casting > clipping ? casting : clipping;
     if (s->feature.shadows && s->feature.tile_sizes > 1 && seen > largest) largest = seen;
     put(out, 1, all.size > largest ? all.size : largest, 8);
@@ -243,10 +243,10 @@ settings_ram_parts settings_ram(const settings *s)
     long tile_w = s->quality.tile_width, tile_h = s->quality.tile_height;
     long tiles = ((s->capacity.max_width + tile_w - 1) / tile_w) * ((s->capacity.max_height + tile_h - 1) / tile_h);
     long offset = s->capacity.max_tile_refs > 65535 ? 4 : 2;
-    int punctual = s->feature.punctual_lights;
+    int punctual = s->feature.other_lights % 2;
     const long groups = s->quality.triangle_groups;
     const int fits = s->feature.shadows && s->feature.tile_sizes > 1;
-    put(&frame, 1, (s->feature.orthographic ? 260 : 252) + (groups ? 4 : 0) + (fits ? 4 : 0), 8); /* scene to detail */
+    put(&frame, 1, (s->feature.pictures & 4 ? 260 : 252) + (groups ? 4 : 0) + (fits ? 4 : 0), 8); /* scene to detail */
     if (s->feature.shadows) {
         put(&frame, 1, 8, 4);  /* n_cascades to frame_count */
         put(&frame, 4, 40, 8); /* cascade */
@@ -268,8 +268,8 @@ settings_ram_parts settings_ram(const settings *s)
     pad(&frame, frame.align);
     all = frame;
     r.cells = put(&all, 1 + tile_w * tile_h, 4, 4);
-    r.pixels = put(&all, tile_w * tile_h, s->feature.other_formats > 1 ? 4 : 3, 4);
-    put(&all, s->capacity.vertex_cache, 16, 4);
+    r.pixels = put(&all, tile_w * tile_h, s->feature.pictures >= 8 ? 4 : 3, 4);
+    put(&all, tile_w * tile_h >= 512 ? 32 : 4, 16, 4);                               /* GN_VERTEX_CACHE */
     put(&all, 64, tile_w * tile_h > 65535 ? 4 : 2, tile_w * tile_h > 65535 ? 4 : 2); /* run_list */
     if (groups) r.triangles += put(&all, 1 + s->capacity.max_triangles, 4, 2);       /* drawn */
     if (s->quality.transparent_layers) {

@@ -91,14 +91,14 @@ static const scene_knob scene_knobs[] = {
      "tiles of directional lights cover their cascade's sphere (D2), or what is visible where something casts (D12); "
      "compiled: in boxes for the whole animation"},
     SHADOW_("main_light", SWITCH, main_light, 0, 1,
-            "only the brightest directional light has cascades, others one tile each (D10); also the feature"),
+            "only the brightest directional light has cascades, others one tile each (D10)"),
     SHADOW_("caster_culling", SWITCH, caster_culling, 0, 1,
             "casters whose shadows lie wholly in a smaller cascade are not drawn into larger ones (D8)"),
     LIGHT_("shadow", SWITCH, shadow, 0, 1, "the light requests a shadow"),
     LIGHT_("receiver_plane", SWITCH, receiver_plane, 0, 1, "every tap compares with the receiver's plane (B5)"),
     {"auto_bias", OF_LIGHTS, WORD, offsetof(scene_light, auto_bias), 0, 0, auto_names,
      "the least bias that leaves a plane no acne (B6), depth by default; setting bias_normal or bias_receiver ends "
-     "it; also the feature"},
+     "it"},
     {"softness", OF_LIGHTS, WORD, offsetof(scene_light, softness), 0, 0, softness_names,
      "the atlas's filter, 2x2, or at least 5x5 (F5)"},
     {"mode", OF_LIGHTS, WORD, offsetof(scene_light, mode), 0, 0, mode_names,
