@@ -122,7 +122,7 @@
     X(vertex_normals, VERTEX_NORMALS, 0, 1, "interpolated vertex normals", "flash; a reciprocal root per sample")      \
     X(vertex_colours, VERTEX_COLOURS, 0, 1, "interpolated vertex colours", "flash; three multiplications per sample")  \
     X(vertex_joints, VERTEX_JOINTS, 0, 4, "skins: the most joints that move a vertex; 0: no skins",                    \
-      "flash; vertices of skinned objects are blended once for their box, and each time they are transformed")         \
+      "flash; skinned vertices are blended once a frame, again where records leave no room")                           \
     X(tile_drawing, TILE_DRAWING, 0, 1, "a background gradient; the caller's drawing behind and over a screen tile",   \
       "flash")                                                                                                         \
     X(validation, VALIDATION, 0, 1,                                                                                    \

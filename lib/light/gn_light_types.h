@@ -7,6 +7,9 @@
 /* Per-object state, computed before its triangles. */
 typedef struct {
     int32_t centre_q16[3], half_q16[3]; /* its box in the world */
+#if GN_VERTEX_JOINTS
+    const int32_t *posed_q16; /* its skin's vertices in frame->records: see gn_posed_vertex; NULL: no room */
+#endif
 #if GN_PUNCTUAL_LIGHTS
     uint8_t n_lights; /* of light[]; GN_OBJECT_LIGHTS_ALL: every light that is on, no list is kept */
     uint8_t light[GN_OBJECT_LIGHTS_MAX];

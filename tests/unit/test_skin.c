@@ -256,6 +256,46 @@ static void test_pictures(void)
     }
 }
 
+/* Vertices are posed once a frame, in the memory of records: whatever n of these are written over them. [R12] */
+static void test_posed_once(void)
+{
+    const gn_object *ball = &ls.object[2];
+    gn_frame *frame = &one.frame;
+    begin_scene(3);
+    pose(1);
+    ls.object[2].mesh = &rest;
+    ls.object[2].skin = &ball_skin;
+    for (uint32_t n = GN_RECORDS ? GN_MAX_TRIANGLES - 60 : GN_MAX_TRIANGLES + 1; n <= GN_MAX_TRIANGLES; n++) {
+        CHECK_EQ_INT(gn_begin(&one, &ls.scene), GN_OK);
+        frame->stats.n_triangles = n;
+        memset(frame->records.tri, 0x55, n * sizeof(gn_tri));
+        for (uint32_t i = 0; i < DEMO_BALL_VERTICES; i++) {
+            int32_t p[3], want[3];
+            gn_posed_vertex(p, frame, ball, 2, i);
+            gn_position_of(want, ball, i);
+            CHECK(memcmp(p, want, sizeof p) == 0);
+        }
+    }
+    draw(&one, pixels[0], 1);
+    CHECK_EQ_INT(gn_begin(&one, &ls.scene), GN_OK);
+    for (uint32_t i = 0; i < gn_shadow_tile_count(&one); i++) CHECK_EQ_INT(gn_shadow_tile(&one, i), GN_OK);
+    memset(&frame->records, 0x55, sizeof frame->records); /* as gn_prepare leaves them when it fails */
+    frame->stats.n_triangles = GN_MAX_TRIANGLES;
+    CHECK_EQ_INT(gn_prepare(&one), GN_OK);
+    for (uint32_t i = 0; i < gn_screen_tile_count(&one); i++) {
+        ls_canvas canvas = {pixels[1], W, BYTES};
+        CHECK_EQ_INT(gn_screen_tile(&one.frame, &one.scratch, i, ls_flush, &canvas), GN_OK);
+    }
+    CHECK(memcmp(pixels[0], pixels[1], sizeof pixels[0]) == 0);
+    if (!GN_BOXES || !GN_RECORDS) return;
+    int32_t p[3], moved[3];
+    CHECK_EQ_INT(gn_begin(&one, &ls.scene), GN_OK);
+    pose(2);
+    gn_posed_vertex(p, frame, ball, 2, 0);
+    gn_position_of(moved, ball, 0);
+    CHECK(memcmp(p, moved, sizeof p) != 0);
+}
+
 /* A renderer that lives on against one just begun: tiles are kept while joints stand still. [A5] */
 static void test_kept(void)
 {
@@ -282,6 +322,7 @@ int main(void)
     test_too_far();
     test_normals();
     test_pictures();
+    test_posed_once();
     test_kept();
     return check_report();
 }
