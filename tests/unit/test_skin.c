@@ -4,6 +4,7 @@
 
 #include "geometry/gn_skin.h"
 #include "geometry/gn_xform.h"
+#include "shade/gn_record.h"
 #include "exact.h"
 #include "knobs.h"
 #include "light_scene.h"
@@ -178,6 +179,48 @@ static void test_normals(void)
     CHECK(n_compared > 40000);
 }
 
+#if GN_INTERPOLATES && GN_VERTEX_NORMALS
+/* Matrices of small triangles: joints that turn, mirror, and scale each axis by 1/8 up to 1. [R12] */
+static void test_patch_matrices(void)
+{
+    real farthest = 0, longest = 0;
+    for (int i = 0; i < 20000; i++) {
+        real m[3][3], to_world[3][3], n[3], posed[3], want[3], got[3] = {0};
+        int32_t world[3][3], matrix[9], scale[3];
+        for (int k = 0; k < 3; k++) {
+            scale[k] = (1 << 15) - rng_range(&state, 0, i & 1 ? 28000 : 0);
+            n[k] = rng_range(&state, -99, 99);
+        }
+        gn_affine_rotation(&joint[0], (uint16_t)rng_u32(&state), (uint16_t)rng_u32(&state), (uint16_t)i);
+        gn_affine_rotation(&object.to_world, (uint16_t)rng_u32(&state), (uint16_t)i, 77);
+        gn_xform_normal_matrix(world, object.to_world.m_q30);
+        const int32_t sign = i & 2 ? -1 : 1;
+        for (int k = 0; k < 9; k++) {
+            int32_t *at = &joint[0].m_q30[k / 3][k % 3];
+            *at = (int32_t)((int64_t)*at * scale[k % 3] >> 15) / (i % 7 + 1) * sign;
+            m[k / 3][k % 3] = *at;
+            to_world[k / 3][k % 3] = object.to_world.m_q30[k / 3][k % 3];
+        }
+        gn_patch_normal_matrix(matrix, world, joint[0].m_q30);
+        if (unit(n) < 1) continue;
+        exact_turn(posed, m, n);
+        unit(posed);
+        exact_turn(want, to_world, posed);
+        unit(want);
+        for (int k = 0; k < 9; k++) got[k / 3] += ldexpl(matrix[k], -14) * n[k % 3];
+        const real length = unit(got);
+        if (!(i & 1)) longest = fmaxl(longest, fabsl(length - 1));
+        for (int k = 0; k < 3; k++) farthest = fmaxl(farthest, fabsl(got[k] - want[k]));
+    }
+    printf("normals of patches are off by at most %.5Lf, lengths of turned ones by %.5Lf\n", farthest, longest);
+    CHECK(farthest < 0.002L && longest < 0.001L);
+}
+#else
+static void test_patch_matrices(void)
+{
+}
+#endif
+
 /* ---- Pictures ---------------------------------------------------------------------------------------------------- */
 
 static gn_renderer one, two;
@@ -321,6 +364,7 @@ int main(void)
     test_positions();
     test_too_far();
     test_normals();
+    test_patch_matrices();
     test_pictures();
     test_posed_once();
     test_kept();
