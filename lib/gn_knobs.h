@@ -58,7 +58,7 @@
     X(max_lights, MAX_LIGHTS, 1, 64, "lights in a scene", "176 bytes each, 36 without spot and point lights")          \
     X(surface_lights, SURFACE_LIGHTS, 1, 64, "lights that can affect one surface",                                     \
       "620 bytes each, 84 with persp_step 1")                                                                          \
-    X(max_objects, MAX_OBJECTS, 1, 65535, "objects in a scene", "37 bytes each, 25 without spot and point lights")     \
+    X(max_objects, MAX_OBJECTS, 1, 65535, "objects in a scene", "41 bytes each, 29 without spot and point lights")     \
     X(max_shadow_tiles, MAX_SHADOW_TILES, 1, 16, "tiles of the directional atlas: lights times cascades",              \
       "232 bytes each, 16 less without incremental, 8 less without auto_bias")                                         \
     X(max_other_tiles, MAX_OTHER_TILES, 1, 16, "tiles of the local-light atlas: 1 per spot, 6 per point light",        \

@@ -8,7 +8,7 @@
 typedef struct {
     int32_t centre_q16[3], half_q16[3]; /* its box in the world */
 #if GN_VERTEX_JOINTS
-    const int32_t *posed_q16; /* its skin's vertices in frame->records: see gn_posed_vertex; NULL: no room */
+    int32_t posed; /* the word of frame->records where its skin's vertices begin; those below 0 have no room */
 #endif
 #if GN_PUNCTUAL_LIGHTS
     uint8_t n_lights; /* of light[]; GN_OBJECT_LIGHTS_ALL: every light that is on, no list is kept */
@@ -16,6 +16,8 @@ typedef struct {
 #endif
 } gn_object_state;
 #define GN_OBJECT_LIGHTS_ALL 255U
+
+#define GN_POSED_NOWHERE (-(1 << 30))
 
 /* The bounding sphere of a cascade's slice: on the view axis, shared by all lights. */
 typedef struct {

@@ -400,7 +400,7 @@ static gn_status setup_object(setup_job *job, gn_frame *frame, uint32_t first)
 static void forget_posed(gn_frame *frame)
 {
 #if GN_VERTEX_JOINTS && GN_BOXES
-    for (uint32_t i = 0; i < frame->n_objects; i++) frame->object[i].posed_q16 = NULL;
+    for (uint32_t i = 0; i < frame->n_objects; i++) frame->object[i].posed = GN_POSED_NOWHERE;
 #endif
     (void)frame;
 }

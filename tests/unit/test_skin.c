@@ -339,6 +339,33 @@ static void test_posed_once(void)
     CHECK(memcmp(p, moved, sizeof p) != 0);
 }
 
+/* More vertices than there is room for: the first ones are posed again. [R12] */
+static void test_posed_without_room(void)
+{
+    enum { N = 60000 };
+    static gn_position many_pos[3 * N];
+    static uint8_t many_joint[N], many_weight[N];
+    static const uint16_t idx[3] = {0, 1, N - 1};
+    const gn_mesh many = {.pos = many_pos, .idx = idx, .n_vertices = N, .n_triangles = 1, .pos_frac_bits = 24};
+    const gn_skin many_skin = {joint, many_joint, many_weight, JOINTS, 1};
+    begin_scene(3);
+    pose(1);
+    for (int i = 0; i < N; i++) {
+        many_joint[i] = (uint8_t)(i % JOINTS), many_weight[i] = 255;
+        for (int k = 0; k < 3; k++) many_pos[3 * i + k] = (gn_position)rng_range(&state, -30000, 30000);
+    }
+    for (int o = 0; o < 3; o++) ls.object[o].mesh = &many, ls.object[o].skin = &many_skin;
+    CHECK_EQ_INT(gn_begin(&one, &ls.scene), GN_OK);
+    long n_wrong = 0;
+    for (uint32_t i = 0; i < 3 * N; i++) {
+        int32_t p[3], want[3];
+        gn_posed_vertex(p, &one.frame, &ls.object[i / N], i / N, i % N);
+        gn_position_of(want, &ls.object[i / N], i % N);
+        n_wrong += memcmp(p, want, sizeof p) != 0;
+    }
+    CHECK_EQ_INT(n_wrong, 0);
+}
+
 /* A renderer that lives on against one just begun: tiles are kept while joints stand still. [A5] */
 static void test_kept(void)
 {
@@ -367,6 +394,7 @@ int main(void)
     test_patch_matrices();
     test_pictures();
     test_posed_once();
+    test_posed_without_room();
     test_kept();
     return check_report();
 }
