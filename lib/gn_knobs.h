@@ -59,7 +59,7 @@
     X(max_lights, MAX_LIGHTS, 1, 64, "lights in a scene", "176 bytes each, 36 without spot and point lights")          \
     X(surface_lights, SURFACE_LIGHTS, 1, 64, "lights that can affect one surface",                                     \
       "620 bytes each, 84 with persp_step 1")                                                                          \
-    X(max_objects, MAX_OBJECTS, 1, 65535, "objects in a scene", "37 bytes each, 25 without spot and point lights")     \
+    X(max_objects, MAX_OBJECTS, 1, 65535, "objects in a scene", "41 bytes each, 29 without spot and point lights")     \
     X(max_shadow_tiles, MAX_SHADOW_TILES, 1, 16, "tiles of the directional atlas: lights times cascades",              \
       "232 bytes each, 16 less without incremental, 8 less without automatic bias")                                    \
     X(max_other_tiles, MAX_OTHER_TILES, 1, 16, "tiles of the local-light atlas: 1 per spot, 6 per point light",        \
@@ -114,7 +114,7 @@
     X(vertex_values, VERTEX_VALUES, 0, 3, "values of vertices that are interpolated, the sum: 1 normals; 2 colours",   \
       "flash; 1: a reciprocal root per sample; 2: three multiplications per sample")                                   \
     X(vertex_joints, VERTEX_JOINTS, 0, 4, "skins: the most joints that move a vertex; 0: no skins",                    \
-      "flash; vertices of skinned objects are blended once for their box, and each time they are transformed")         \
+      "flash; skinned vertices are blended once a frame, again where records leave no room")                           \
     X(validation, VALIDATION, 0, 2,                                                                                    \
       "1: scenes are checked before they are drawn; 2: errors also name the field that is wrong, gn_detail.field; "    \
       "without, an invalid scene has undefined behaviour",                                                             \
@@ -122,8 +122,7 @@
     X(pictures, PICTURES, 0, 15,                                                                                       \
       "what pictures may be, the sum: 1 of other formats than RGB565: RGB888, grey, one bit; 2 with a background "     \
       "gradient, and drawings of the caller behind and over a screen tile; 4 of orthographic cameras; 8 views of "     \
-      "depth, "                                                                                                        \
-      "normals, shadow and triangle identity, for host tools",                                                         \
+      "depth, normals, shadow and triangle identity, for host tools",                                                  \
       "flash; 4: 48 bytes of RAM")                                                                                     \
     X(many_cascades, MANY_CASCADES, 0, 3,                                                                              \
       "cascades per light: 0 one; 1 up to four; 2 with soft and dithered blending between them; 3 also casters whose " \

@@ -23,8 +23,8 @@ gn_status gn_views_setup(gn_frame *frame, gn_scratch *scratch);
 gn_status gn_atlas_render_tile(gn_frame *frame, gn_casting *casting, uint32_t view_idx, uint32_t *memory,
                                uint32_t n_words);
 
-/* Fills frame->tri from the scene, or frame->group, and counts the triangles of each screen tile. The scratch is used
- * for a vertex cache. */
+/* Fills frame->records.tri from the scene, or frame->group, and counts the triangles of each screen tile. The scratch
+ * is used for a vertex cache. */
 gn_status gn_setup_triangles(gn_frame *frame, gn_scratch *scratch);
 
 /* Sorts the references that gn_setup_triangles counted in tile_first. With groups there are no references: only the

@@ -141,7 +141,7 @@ static void emit(gn_frame *frame, gn_compact_job *job, const gn_compact_view *vi
                  uint32_t object_idx)
 {
     gn_tri *tri = &job->tri;
-    if (!raster && frame->stats.n_triangles < GN_MAX_TRIANGLES) tri = &frame->tri[frame->stats.n_triangles];
+    if (!raster && frame->stats.n_triangles < GN_MAX_TRIANGLES) tri = &frame->records.tri[frame->stats.n_triangles];
     if (!setup(tri, job->corner, view, gn_sides_of(frame->flags[object_idx], view->two_sided))) return;
     if (raster) {
         raster->bias = caster_bias(tri, frame->scene->lights);
@@ -278,7 +278,7 @@ void gn_raster_tile(const gn_frame *frame, gn_scratch *scratch, uint32_t tile_id
     memset(scratch->cell, 0, sizeof scratch->cell);
     for (uint32_t i = 0; i < frame->stats.n_triangles; i++) {
         raster.id = gn_cell_id(frame, i);
-        gn_compact_draw(&raster, &frame->tri[i]);
+        gn_compact_draw(&raster, &frame->records.tri[i]);
     }
 }
 

@@ -123,7 +123,9 @@ typedef struct gn_frame {
     gn_light_state light[GN_MAX_LIGHTS];
     gn_light_view view[1];
     uint8_t flags[GN_MAX_OBJECTS]; /* of each object, as drawn: scene/gn_sides.h */
-    gn_tri tri[GN_MAX_TRIANGLES];
+    struct {
+        gn_tri tri[GN_MAX_TRIANGLES];
+    } records;
     uint16_t atlas[GN_ATLAS_SIZE * GN_ATLAS_SIZE];
 } gn_frame;
 

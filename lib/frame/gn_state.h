@@ -12,6 +12,12 @@
 #else
 #include "shade/gn_shade_types.h"
 
+/* Records of visible triangles; until gn_prepare writes them, vertices that skins moved: gn_posed_vertex. */
+typedef union {
+    gn_tri tri[GN_RECORDS ? GN_MAX_TRIANGLES : 1];
+    int32_t word[(GN_RECORDS ? GN_MAX_TRIANGLES : 1) * (sizeof(gn_tri) / sizeof(int32_t))];
+} gn_records;
+
 typedef struct gn_frame {
 #if GN_RUNTIME_KNOBS
     gn_knobs knobs;
@@ -54,7 +60,7 @@ typedef struct gn_frame {
     gn_object_state object[GN_MAX_OBJECTS];
 #endif
     uint8_t flags[GN_MAX_OBJECTS]; /* of each object, as drawn: scene/gn_sides.h */
-    gn_tri tri[GN_RECORDS ? GN_MAX_TRIANGLES : 1];
+    gn_records records;
     gn_ref_offset tile_first[GN_TILES_MAX + 1]; /* of groups: a tile's number of triangles */
     uint16_t tile_ref[GN_RECORDS ? GN_MAX_TILE_REFS : 1];
 #if GN_GROUPS

@@ -45,6 +45,23 @@ GN_INLINE void gn_position_of(int32_t out[3], const gn_object *object, uint32_t 
     for (int i = 0; i < 3; i++) out[i] = at[i];
 }
 
+/* The same in a frame: what gn_object_boxes left of a skin's vertices in the memory of records, unless records have
+ * been written over it. */
+GN_INLINE void gn_posed_vertex(int32_t out[3], const gn_frame *frame, const gn_object *object, uint32_t object_idx,
+                               uint32_t vertex_idx)
+{
+#if GN_VERTEX_JOINTS && GN_BOXES
+    const int32_t words = (int32_t)(sizeof(gn_tri) / sizeof(int32_t)); /* of a record */
+    const int32_t at = object->skin ? frame->object[object_idx].posed + 3 * (int32_t)vertex_idx : -1;
+    if (at >= 0 && at >= (int32_t)frame->stats.n_triangles * words) {
+        for (int i = 0; i < 3; i++) out[i] = frame->records.word[at + i];
+        return;
+    }
+#endif
+    (void)frame, (void)object_idx;
+    gn_position_of(out, object, vertex_idx);
+}
+
 /* Within +-2^30 */
 GN_INLINE int gn_position_ok(const int32_t p[3])
 {

@@ -7,12 +7,17 @@
 /* Per-object state, computed before its triangles. */
 typedef struct {
     int32_t centre_q16[3], half_q16[3]; /* its box in the world */
+#if GN_VERTEX_JOINTS
+    int32_t posed; /* the word of frame->records where its skin's vertices begin; those below 0 have no room */
+#endif
 #if GN_PUNCTUAL_LIGHTS
     uint8_t n_lights; /* of light[]; GN_OBJECT_LIGHTS_ALL: every light that is on, no list is kept */
     uint8_t light[GN_OBJECT_LIGHTS_MAX];
 #endif
 } gn_object_state;
 #define GN_OBJECT_LIGHTS_ALL 255U
+
+#define GN_POSED_NOWHERE (-(1 << 30))
 
 /* The bounding sphere of a cascade's slice: on the view axis, shared by all lights. */
 typedef struct {

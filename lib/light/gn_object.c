@@ -21,29 +21,29 @@ static void stored_extent(const gn_position *at, uint32_t n, int32_t *lo, int32_
     *hi = most;
 }
 
-/* The same of all coordinates of a mesh that its skin poses. */
-static void posed_extent(const gn_object *object, int32_t lo[3], int32_t hi[3])
+/* The same of all coordinates of a mesh that its skin poses. Vertices whose place is a word of records are kept. */
+static void posed_extent(const gn_object *object, gn_records *records, int32_t place, int32_t lo[3], int32_t hi[3])
 {
     int32_t p[3];
-    gn_position_of(lo, object, 0);
-    for (int k = 0; k < 3; k++) hi[k] = lo[k];
-    for (uint32_t i = 1; i < object->mesh->n_vertices; i++) {
+    for (uint32_t i = 0; i < object->mesh->n_vertices; i++, place += 3) {
         gn_position_of(p, object, i);
+        GN_UNROLL
         for (int k = 0; k < 3; k++) {
-            lo[k] = gn_min32(lo[k], p[k]);
-            hi[k] = gn_max32(hi[k], p[k]);
+            lo[k] = i ? gn_min32(lo[k], p[k]) : p[k];
+            hi[k] = i ? gn_max32(hi[k], p[k]) : p[k];
         }
+        for (int k = 0; place >= 0 && k < 3; k++) records->word[place + k] = p[k];
     }
 }
 
-/* Centre and half extents of the mesh's vertices, posed by the skin if it has one, in the mesh's own format. Returns 0
- * if a position is out of range. */
-static int mesh_box(const gn_object *object, int32_t centre[3], int32_t half[3])
+/* Centre and half extents of the mesh's vertices, posed by the skin if it has one and then kept, in the mesh's own
+ * format. Returns 0 if a position is out of range. */
+static int mesh_box(const gn_object *object, gn_records *records, int32_t place, int32_t centre[3], int32_t half[3])
 {
     const gn_mesh *mesh = object->mesh;
     int32_t lo[3], hi[3];
     GN_COUNT(boxed, mesh->n_vertices);
-    if (GN_SIZE_FIRST || GN_SKIN(object)) posed_extent(object, lo, hi);
+    if (GN_SIZE_FIRST || GN_SKIN(object)) posed_extent(object, records, place, lo, hi);
     else
         for (int k = 0; k < 3; k++) stored_extent(mesh->pos + k, mesh->n_vertices, &lo[k], &hi[k]);
     if (!gn_position_ok(lo) || !gn_position_ok(hi)) return 0;
@@ -54,15 +54,32 @@ static int mesh_box(const gn_object *object, int32_t centre[3], int32_t half[3])
     return 1;
 }
 
+/* The word of records where the vertices of skins begin: they end with the last word, as records are written from the
+ * first on. Below 0: the first vertices have no room. */
+static int64_t posed_begin(const gn_frame *frame)
+{
+    int64_t first = sizeof(gn_records) / sizeof(int32_t);
+    for (uint32_t i = 0; i < frame->scene->n_objects; i++)
+        if (GN_SKIN(&frame->scene->objects[i])) first -= 3 * frame->scene->objects[i].mesh->n_vertices;
+    return first;
+}
+
 gn_status gn_object_boxes(gn_frame *frame)
 {
     static const int32_t world[3][3] = {{1 << 30, 0, 0}, {0, 1 << 30, 0}, {0, 0, 1 << 30}}, origin[3] = {0, 0, 0};
+    int64_t next = posed_begin(frame);
     for (uint32_t i = 0; i < frame->scene->n_objects; i++) {
         const gn_object *object = &frame->scene->objects[i];
         gn_object_state *state = &frame->object[i];
-        int32_t centre[3], half[3];
+        int32_t centre[3], half[3],
+            place = GN_SKIN(object) && next > GN_POSED_NOWHERE ? (int32_t)next : GN_POSED_NOWHERE;
         gn_xform xform;
-        if (!mesh_box(object, centre, half)) return GN_FAIL_AT(frame, GN_ERR_VERTEX_RANGE, i, GN_FIELD_MESH_POS);
+        if (GN_SKIN(object)) next += 3 * object->mesh->n_vertices;
+#if GN_VERTEX_JOINTS
+        state->posed = place;
+#endif
+        if (!mesh_box(object, &frame->records, place, centre, half))
+            return GN_FAIL_AT(frame, GN_ERR_VERTEX_RANGE, i, GN_FIELD_MESH_POS);
         uint64_t farthest = 0; /* OR of the largest coordinates: bit 31 and above tell that one is too large */
         gn_xform_compose(&xform, world, origin, object);
         for (int r = 0; r < 3; r++) {

@@ -87,7 +87,7 @@ typedef struct {
 /* From a mesh's normals to the world, by a joint of the object's skin, Q14. */
 typedef struct {
     uint16_t tag; /* the joint's index + 1, 0: none */
-    int16_t m_q14[9];
+    int32_t m_q14[9];
 } gn_patch_joint;
 enum { GN_PATCH_JOINTS = 16 /* a power of two */ };
 

@@ -79,7 +79,7 @@ GN_COLD static GN_NOINLINE void shrink(const caster_job *job, const uint16_t idx
 static void light_position(int64_t out[3], const caster_job *job, uint32_t vertex_idx)
 {
     int32_t p[3];
-    gn_position_of(p, job->object, vertex_idx);
+    gn_posed_vertex(p, job->frame, job->object, job->object_idx, vertex_idx);
     if (GN_PUNCTUAL_LIGHTS && job->view->perspective) gn_xform_point(out, &job->to_light, p);
     else gn_ortho_point(out, &job->to_light, p);
 }
@@ -120,7 +120,7 @@ static inline int small_position(int32_t out[3], const caster_job *job, uint32_t
 {
     if (!GN_SIZE_FIRST) {
         int32_t p[3];
-        gn_position_of(p, job->object, vertex_idx);
+        gn_posed_vertex(p, job->frame, job->object, job->object_idx, vertex_idx);
         if (gn_xform_fast_inline(out, &job->by.fast, p)) return 1;
         if (GN_LARGE_CASTERS) return 0;
     }

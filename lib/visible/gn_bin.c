@@ -11,7 +11,7 @@
 /* Puts a triangle into the bins of the screen tiles within its bounds. */
 static inline void bin_by_bounds(gn_frame *frame, uint32_t tri_idx)
 {
-    gn_rect px = gn_setup_bounds(frame, &frame->tri[tri_idx]);
+    gn_rect px = gn_setup_bounds(frame, &frame->records.tri[tri_idx]);
     gn_tile_walk tiles = gn_setup_tiles(frame, &px);
     gn_ref_offset *at = frame->tile_first + tiles.first;
     do {

@@ -17,7 +17,7 @@ GN_HOT static inline uint32_t gn_cell_id(const gn_frame *frame, uint32_t tri_idx
 /* The triangle of an identity. */
 GN_HOT static inline const gn_tri *gn_cell_tri(const gn_frame *frame, uint32_t id)
 {
-    return &frame->tri[frame->stats.n_triangles - id];
+    return &frame->records.tri[frame->stats.n_triangles - id];
 }
 
 #if !GN_COMPACT

@@ -355,7 +355,7 @@ GN_HOT static inline void raster_records(const raster_tile *tile, uint32_t tile_
     const gn_frame *frame = tile->frame;
     const uint16_t *none = &frame->tile_ref[frame->tile_first[tile_idx]],
                    *ref = &frame->tile_ref[frame->tile_first[tile_idx + 1]];
-    const gn_tri *first = frame->tri;
+    const gn_tri *first = frame->records.tri;
     uint32_t n_triangles = frame->stats.n_triangles;
     GN_KEEP(first);       /* computed once */
     while (ref != none) { /* backwards: identities ascend */

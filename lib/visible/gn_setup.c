@@ -16,12 +16,10 @@
 #include "visible/gn_screen_rect.h"
 #include "visible/gn_setup.h"
 
-/* View position of a vertex, without a cache. */
-static int view_position(int32_t out_q16[3], const gn_xform *xform, const gn_object *object, uint32_t vertex_idx)
+/* View position of a vertex. */
+static int view_position(int32_t out_q16[3], const gn_xform *xform, const int32_t p[3])
 {
-    int32_t p[3];
     int64_t v[3];
-    gn_position_of(p, object, vertex_idx);
     if (!gn_position_ok(p)) return 0;
     gn_xform_point(v, xform, p);
     for (int i = 0; i < 3; i++) {
@@ -38,7 +36,9 @@ int gn_setup_vertex(int32_t out_q16[3], gn_vertex_entry *cache, const gn_xform *
     uint32_t tag = gn_vertex_tag(object_idx, vertex_idx);
     if (!gn_vertex_hit(entry, tag)) {
         gn_vertex_drop(entry);
-        if (!view_position(entry->v_q16, xform, object, vertex_idx)) return 0;
+        int32_t p[3];
+        gn_position_of(p, object, vertex_idx);
+        if (!view_position(entry->v_q16, xform, p)) return 0;
         GN_COUNT(vertices, 1);
         gn_vertex_claim(entry, tag);
     }
@@ -130,9 +130,11 @@ GN_COLD static GN_NOINLINE void project_cut(const setup_job *job, const int32_t 
 /* Returns 0 if the vertex is out of range. */
 static GN_NOINLINE int fill_corner_small(const setup_job *job, setup_corner *c, uint32_t vertex_idx)
 {
+    int32_t p[3];
     const gn_cam *cam = &job->screen.frame->cam;
     const int32_t *v = c->vertex.v_q16, flat = GN_FLAT_Q16(job->screen.frame);
-    if (!view_position(c->vertex.v_q16, &job->xform, job->screen.object, vertex_idx)) return 0;
+    gn_posed_vertex(p, job->screen.frame, job->screen.object, job->screen.object_idx, vertex_idx);
+    if (!view_position(c->vertex.v_q16, &job->xform, p)) return 0;
     c->out = gn_outcode(v, cam->near_q16, cam->tan_q16, flat) | gn_outcode(v, cam->near_q16, cam->guard_q16, flat) << 8;
     if (!(c->out >> 8)) project_cut(job, v, &c->at); /* nothing is clamped; one projecting function is enough */
     return 1;
@@ -162,9 +164,9 @@ static GN_NOINLINE int fill_far_corner(const setup_job *job, setup_corner *c)
 GN_INLINE int fill_corner_fast(const setup_job *job, setup_corner *c, uint32_t vertex_idx)
 {
     int32_t v[3], p[3];
-    gn_position_of(p, job->screen.object, vertex_idx);
+    gn_posed_vertex(p, job->screen.frame, job->screen.object, job->screen.object_idx, vertex_idx);
     if (!gn_xform_fast_wide(v, &job->fast, p)) {
-        if (!view_position(c->vertex.v_q16, &job->xform, job->screen.object, vertex_idx)) return 0;
+        if (!view_position(c->vertex.v_q16, &job->xform, p)) return 0;
         for (int k = 0; k < 3; k++) v[k] = c->vertex.v_q16[k];
     }
     for (int k = 0; k < 3; k++) c->vertex.v_q16[k] = v[k];
@@ -395,6 +397,15 @@ static gn_status setup_object(setup_job *job, gn_frame *frame, uint32_t first)
     return setup_span(job, 0, job->screen.object->mesh->n_triangles);
 }
 
+/* Records lie over vertices that were kept: gn_prepare has failed before. */
+static void forget_posed(gn_frame *frame)
+{
+#if GN_VERTEX_JOINTS && GN_BOXES
+    for (uint32_t i = 0; i < frame->n_objects; i++) frame->object[i].posed = GN_POSED_NOWHERE;
+#endif
+    (void)frame;
+}
+
 gn_status gn_setup_triangles(gn_frame *frame, gn_scratch *scratch)
 {
     setup_job job;
@@ -404,11 +415,12 @@ gn_status gn_setup_triangles(gn_frame *frame, gn_scratch *scratch)
     job.screen.stats = &frame->stats;
     setup_window(&job, &picture);
     job.screen.tile_first = frame->tile_first;
-    job.screen.tri = frame->tri;
+    job.screen.tri = frame->records.tri;
 #if GN_GROUPS
     job.screen.tile = NULL;
     if (GN_K(frame, triangle_groups)) setup_begin_groups(frame);
 #endif
+    if (frame->stats.n_triangles) forget_posed(frame);
     frame->stats.n_triangles = 0;
     frame->stats.n_clipped = 0;
     for (uint32_t i = 0; i <= (uint32_t)frame->tiles_x * frame->tiles_y; i++) frame->tile_first[i] = 0;

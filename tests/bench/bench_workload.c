@@ -231,11 +231,11 @@ static void count_pixels(const bench_set *set, counts *out)
     for (uint32_t t = 0; t < set->n; t++) {
         outline o;
         for (int i = 0; i < 3; i++) {
-            const int32_t *v = set->triangles[frame->tri[t].source.triangle_idx].v[i];
+            const int32_t *v = set->triangles[frame->records.tri[t].source.triangle_idx].v[i];
             o.x[i] = BENCH_WIDTH / 2 + BENCH_FOCAL_PX * (double)v[0] / v[2];
             o.y[i] = BENCH_HEIGHT / 2 - BENCH_FOCAL_PX * (double)v[1] / v[2];
         }
-        out->covered_px += cover(&frame->tri[t], covered);
+        out->covered_px += cover(&frame->records.tri[t], covered);
         out->exact_px += count_inside(&o, BENCH_WIDTH, BENCH_HEIGHT, covered, slack_px, &n_wrong);
     }
     if (out->exact_px != set->covered_px) fail("the exact coverage is not that of the workload");

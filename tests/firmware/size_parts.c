@@ -7,7 +7,7 @@
 #define OF(member) sizeof(((gn_renderer *)0)->member)
 
 PART(total, sizeof(gn_renderer));
-PART(triangles, OF(frame.tri));
+PART(triangles, OF(frame.records));
 #if !GN_COMPACT
 PART(tiles, OF(frame.tile_first) + OF(frame.tile_ref));
 #endif

@@ -252,7 +252,7 @@ static void shadows(void)
         gn_light sun;
         gn_compact_corner c[3];
         gn_frame *frame = &renderer.frame;
-        gn_tri *tri = &frame->tri[0];
+        gn_tri *tri = &frame->records.tri[0];
         surface s = {0};
         if (setup_frame(&scene, &sun, 160, 120)) continue;
         sun.shadow_strength_uq16 = rnd() % 65537;

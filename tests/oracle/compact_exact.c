@@ -430,7 +430,7 @@ static void surfaces(void)
             scene.ambient_uq16[i] = rnd() >> 8, sun.colour_uq16[i] = rnd() >> 8;
         }
         frame->stats.n_triangles = 1;
-        gn_tri *t = &frame->tri[0];
+        gn_tri *t = &frame->records.tri[0];
         t->object_idx = 0;
         for (int i = 0; i < 3; i++) t->normal_q14[i] = (int16_t)(rnd() % 32769 - 16384);
         const uint32_t id = rnd() % 2;

@@ -237,7 +237,7 @@ EOF_C
 cat >"$tmp/user.c" <<'EOF_C'
 #include "gnomon.h"
 typedef char tiny_tile[GN_TILE_HEIGHT == 16 && GN_DEPTH_BITS == 8 ? 1 : -1];
-typedef char own_capacity[GN_MAX_TRIANGLES == 77 && sizeof(((gn_frame *)0)->tri) == 77 * sizeof(gn_tri) ? 1 : -1];
+typedef char own_capacity[GN_MAX_TRIANGLES == 77 && sizeof(((gn_frame *)0)->records.tri) == 77 * sizeof(gn_tri) ? 1 : -1];
 typedef char no_shadows[GN_SHADOWS == 0 ? 1 : -1];
 EOF_C
 if gcc $strict -I"$tmp" '-DGN_USER_CONFIG="my_config.h"' -fsyntax-only "$tmp/user.c" 2>"$tmp/message"; then pass

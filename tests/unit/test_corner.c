@@ -944,7 +944,7 @@ static void check_scene(const gn_knobs *knobs)
     view_corners(&renderer.frame, view);
     for (uint32_t i = 0; i < GN_VERTEX_CACHE; i++) scratch->vertex[i].tag = 0;
     for (uint32_t t = 0; t < renderer.frame.stats.n_triangles; t++) {
-        const gn_tri *tri = &renderer.frame.tri[t];
+        const gn_tri *tri = &renderer.frame.records.tri[t];
         plane p;
         plane_of(&p, view, tri->source.triangle_idx);
         gn_surface_place(&renderer.frame, scratch, &cache, &surface, &tri->source);

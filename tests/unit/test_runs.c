@@ -81,7 +81,8 @@ static uint32_t wrong_pixels(uint32_t tile_idx, uint32_t n, uint32_t most_px)
     for (int32_t y = 0; y < rect.y1 - rect.y0; y++)
         for (int32_t x = 0; x < width; x++) {
             const uint32_t triangle = expected[y * stride + x];
-            const uint32_t want = triangle ? renderer.frame.tri[triangle - 1].source.object_idx + 1U : BACKGROUND;
+            const uint32_t want =
+                triangle ? renderer.frame.records.tri[triangle - 1].source.object_idx + 1U : BACKGROUND;
             n_wrong += object_at(renderer.scratch.pixel.bytes + 3 * (y * width + x)) != want;
         }
     return n_wrong;

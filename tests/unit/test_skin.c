@@ -4,6 +4,7 @@
 
 #include "geometry/gn_skin.h"
 #include "geometry/gn_xform.h"
+#include "shade/gn_record.h"
 #include "exact.h"
 #include "knobs.h"
 #include "light_scene.h"
@@ -178,6 +179,48 @@ static void test_normals(void)
     CHECK(n_compared > 40000);
 }
 
+#if GN_INTERPOLATES && GN_VERTEX_NORMALS
+/* Matrices of small triangles: joints that turn, mirror, and scale each axis by 1/8 up to 1. [R12] */
+static void test_patch_matrices(void)
+{
+    real farthest = 0, longest = 0;
+    for (int i = 0; i < 20000; i++) {
+        real m[3][3], to_world[3][3], n[3], posed[3], want[3], got[3] = {0};
+        int32_t world[3][3], matrix[9], scale[3];
+        for (int k = 0; k < 3; k++) {
+            scale[k] = (1 << 15) - rng_range(&state, 0, i & 1 ? 28000 : 0);
+            n[k] = rng_range(&state, -99, 99);
+        }
+        gn_affine_rotation(&joint[0], (uint16_t)rng_u32(&state), (uint16_t)rng_u32(&state), (uint16_t)i);
+        gn_affine_rotation(&object.to_world, (uint16_t)rng_u32(&state), (uint16_t)i, 77);
+        gn_xform_normal_matrix(world, object.to_world.m_q30);
+        const int32_t sign = i & 2 ? -1 : 1;
+        for (int k = 0; k < 9; k++) {
+            int32_t *at = &joint[0].m_q30[k / 3][k % 3];
+            *at = (int32_t)((int64_t)*at * scale[k % 3] >> 15) / (i % 7 + 1) * sign;
+            m[k / 3][k % 3] = *at;
+            to_world[k / 3][k % 3] = object.to_world.m_q30[k / 3][k % 3];
+        }
+        gn_patch_normal_matrix(matrix, world, joint[0].m_q30);
+        if (unit(n) < 1) continue;
+        exact_turn(posed, m, n);
+        unit(posed);
+        exact_turn(want, to_world, posed);
+        unit(want);
+        for (int k = 0; k < 9; k++) got[k / 3] += ldexpl(matrix[k], -14) * n[k % 3];
+        const real length = unit(got);
+        if (!(i & 1)) longest = fmaxl(longest, fabsl(length - 1));
+        for (int k = 0; k < 3; k++) farthest = fmaxl(farthest, fabsl(got[k] - want[k]));
+    }
+    printf("normals of patches are off by at most %.5Lf, lengths of turned ones by %.5Lf\n", farthest, longest);
+    CHECK(farthest < 0.002L && longest < 0.001L);
+}
+#else
+static void test_patch_matrices(void)
+{
+}
+#endif
+
 /* ---- Pictures ---------------------------------------------------------------------------------------------------- */
 
 static gn_renderer one, two;
@@ -256,6 +299,73 @@ static void test_pictures(void)
     }
 }
 
+/* Vertices are posed once a frame, in the memory of records: whatever n of these are written over them. [R12] */
+static void test_posed_once(void)
+{
+    const gn_object *ball = &ls.object[2];
+    gn_frame *frame = &one.frame;
+    begin_scene(3);
+    pose(1);
+    ls.object[2].mesh = &rest;
+    ls.object[2].skin = &ball_skin;
+    for (uint32_t n = GN_RECORDS ? GN_MAX_TRIANGLES - 60 : GN_MAX_TRIANGLES + 1; n <= GN_MAX_TRIANGLES; n++) {
+        CHECK_EQ_INT(gn_begin(&one, &ls.scene), GN_OK);
+        frame->stats.n_triangles = n;
+        memset(frame->records.tri, 0x55, n * sizeof(gn_tri));
+        for (uint32_t i = 0; i < DEMO_BALL_VERTICES; i++) {
+            int32_t p[3], want[3];
+            gn_posed_vertex(p, frame, ball, 2, i);
+            gn_position_of(want, ball, i);
+            CHECK(memcmp(p, want, sizeof p) == 0);
+        }
+    }
+    draw(&one, pixels[0], 1);
+    CHECK_EQ_INT(gn_begin(&one, &ls.scene), GN_OK);
+    for (uint32_t i = 0; i < gn_shadow_tile_count(&one); i++) CHECK_EQ_INT(gn_shadow_tile(&one, i), GN_OK);
+    memset(&frame->records, 0x55, sizeof frame->records); /* as gn_prepare leaves them when it fails */
+    frame->stats.n_triangles = GN_MAX_TRIANGLES;
+    CHECK_EQ_INT(gn_prepare(&one), GN_OK);
+    for (uint32_t i = 0; i < gn_screen_tile_count(&one); i++) {
+        ls_canvas canvas = {pixels[1], W, BYTES};
+        CHECK_EQ_INT(gn_screen_tile(&one.frame, &one.scratch, i, ls_flush, &canvas), GN_OK);
+    }
+    CHECK(memcmp(pixels[0], pixels[1], sizeof pixels[0]) == 0);
+    if (!GN_BOXES || !GN_RECORDS) return;
+    int32_t p[3], moved[3];
+    CHECK_EQ_INT(gn_begin(&one, &ls.scene), GN_OK);
+    pose(2);
+    gn_posed_vertex(p, frame, ball, 2, 0);
+    gn_position_of(moved, ball, 0);
+    CHECK(memcmp(p, moved, sizeof p) != 0);
+}
+
+/* More vertices than there is room for: the first ones are posed again. [R12] */
+static void test_posed_without_room(void)
+{
+    enum { N = 60000 };
+    static gn_position many_pos[3 * N];
+    static uint8_t many_joint[N], many_weight[N];
+    static const uint16_t idx[3] = {0, 1, N - 1};
+    const gn_mesh many = {.pos = many_pos, .idx = idx, .n_vertices = N, .n_triangles = 1, .pos_frac_bits = 24};
+    const gn_skin many_skin = {joint, many_joint, many_weight, JOINTS, 1};
+    begin_scene(3);
+    pose(1);
+    for (int i = 0; i < N; i++) {
+        many_joint[i] = (uint8_t)(i % JOINTS), many_weight[i] = 255;
+        for (int k = 0; k < 3; k++) many_pos[3 * i + k] = (gn_position)rng_range(&state, -30000, 30000);
+    }
+    for (int o = 0; o < 3; o++) ls.object[o].mesh = &many, ls.object[o].skin = &many_skin;
+    CHECK_EQ_INT(gn_begin(&one, &ls.scene), GN_OK);
+    long n_wrong = 0;
+    for (uint32_t i = 0; i < 3 * N; i++) {
+        int32_t p[3], want[3];
+        gn_posed_vertex(p, &one.frame, &ls.object[i / N], i / N, i % N);
+        gn_position_of(want, &ls.object[i / N], i % N);
+        n_wrong += memcmp(p, want, sizeof p) != 0;
+    }
+    CHECK_EQ_INT(n_wrong, 0);
+}
+
 /* A renderer that lives on against one just begun: tiles are kept while joints stand still. [A5] */
 static void test_kept(void)
 {
@@ -281,7 +391,10 @@ int main(void)
     test_positions();
     test_too_far();
     test_normals();
+    test_patch_matrices();
     test_pictures();
+    test_posed_once();
+    test_posed_without_room();
     test_kept();
     return check_report();
 }

@@ -72,7 +72,7 @@ static void check_screen(const gn_frame *frame, int32_t view[][3])
 {
     double focal2 = renderer.frame.cam.focal2_px_q16 * LSB16, unit = ldexp(1, -frame->knobs.subpixel_bits);
     for (uint32_t t = 0; frame->stats.n_clipped == 0 && t < frame->stats.n_triangles; t++) {
-        const gn_tri *tri = &frame->tri[t];
+        const gn_tri *tri = &frame->records.tri[t];
         for (int i = 0; i < 3; i++) {
             double best = 1e9; /* two-sided triangles are stored turned round: the nearest of the three */
             for (int k = 0; k < 3; k++) {
@@ -95,11 +95,11 @@ static void check_edges(const gn_frame *frame, int32_t view[][3])
         gn_walk walk;
         outline o = {.n = 3};
         for (int i = 0; i < 3; i++) {
-            const int32_t *v = view[3 * frame->tri[t].source.triangle_idx + i];
+            const int32_t *v = view[3 * frame->records.tri[t].source.triangle_idx + i];
             o.p[i][0] = WIDTH / 2 + focal * v[0] / v[2];
             o.p[i][1] = HEIGHT / 2 - focal * v[1] / v[2];
         }
-        gn_setup_corners(frame, &frame->tri[t], sx, sy);
+        gn_setup_corners(frame, &frame->records.tri[t], sx, sy);
         record(STAGE_EDGE, 0, bound, unit);
         if (!gn_walk_begin(&walk, sx, sy, frame->knobs.subpixel_bits, 0, HEIGHT)) continue;
         while (gn_walk_row(&walk, &row, &from, &to))
@@ -218,7 +218,7 @@ static void check_samples(const gn_frame *frame, int32_t view[][3])
     gn_scratch *scratch = &renderer.scratch;
     for (uint32_t i = 0; i < GN_VERTEX_CACHE; i++) scratch->vertex[i].tag = 0;
     for (uint32_t t = 0; t < frame->stats.n_triangles; t++) {
-        const gn_tri *tri = &frame->tri[t];
+        const gn_tri *tri = &frame->records.tri[t];
         plane p;
         gn_surface surface;
         plane_of(&p, view, tri->source.triangle_idx);

@@ -418,7 +418,7 @@ static void check_owners(tally *t, uint32_t scene_idx)
     const gn_frame *frame = &renderer.frame;
     static uint32_t first[N_TRIANGLES + 1];
     for (uint32_t k = 0, triangle = 0; triangle <= N_TRIANGLES; triangle++) {
-        while (k < frame->stats.n_triangles && frame->tri[k].source.triangle_idx < triangle) k++;
+        while (k < frame->stats.n_triangles && frame->records.tri[k].source.triangle_idx < triangle) k++;
         first[triangle] = k;
     }
     for (int py = 0; py < HEIGHT; py++)
@@ -427,12 +427,12 @@ static void check_owners(tally *t, uint32_t scene_idx)
             if (owner == UINT32_MAX) continue;
             int found = 0;
             for (uint32_t k = owner < N_TRIANGLES ? first[owner] : 0; owner < N_TRIANGLES && k < first[owner + 1]; k++)
-                found = found || tri_covers(&frame->tri[k], px, py);
+                found = found || tri_covers(&frame->records.tri[k], px, py);
             HOLDS(t, found, "scene %u at (%d, %d): triangle %#x", (unsigned)scene_idx, px, py, (unsigned)owner);
         }
     for (uint32_t k = 0; k < frame->stats.n_triangles; k++) {
         int32_t x[3], y[3], bits = GN_K(frame, subpixel_bits);
-        gn_setup_corners(frame, &frame->tri[k], x, y);
+        gn_setup_corners(frame, &frame->records.tri[k], x, y);
         const window box = box_of(x, y, bits), in = {0, 0, WIDTH, HEIGHT};
         const int small = box.x1 - box.x0 <= GN_MASK_WIDTH && box.y1 - box.y0 <= GN_MASK_HEIGHT;
         const int seen = !small || exact_mask(x, y, bits, box, in);
