@@ -77,8 +77,8 @@ static void clip_plane(gn_polygon *polygon, gn_polygon *in, uint32_t plane, int3
 }
 
 /* Cuts at the planes that the polygon crosses, one by one. [R3] */
-void gn_clip(gn_polygon *polygon, gn_polygon *uncut, uint32_t planes, int32_t near_q16, const int32_t side_q16[2],
-             int32_t flat_q16)
+GN_COLD void gn_clip(gn_polygon *polygon, gn_polygon *uncut, uint32_t planes, int32_t near_q16,
+                     const int32_t side_q16[2], int32_t flat_q16)
 {
     for (uint32_t plane = GN_OUT_NEAR; plane <= GN_OUT_TOP && polygon->n >= 3; plane <<= 1)
         if (planes & plane) clip_plane(polygon, uncut, plane, near_q16, side_q16, flat_q16);
