@@ -4,6 +4,7 @@
  * Quality knobs change pixels. On a target they are constants, so that the compiler drops the unused code. With
  * GN_RUNTIME_KNOBS (the host tool) the same expressions read them from the renderer. A test checks that both give the
  * same bits. Columns: name, macro, smallest, largest, meaning, cost.
+ * What knobs stand for in the library, by parts, is at the end.
  */
 #ifndef GN_KNOBS_H
 #define GN_KNOBS_H
@@ -154,5 +155,80 @@ enum { GN_QUALITY_KNOBS(GN_KNOB_CONSTANT_) gn_knob_end };
 #define GN_RECIP_STEPS(frame)  (GN_EXACT_PIXELS(frame) ? 2 : 1)
 #define GN_FILTER_BITS(frame)  (GN_EXACT_PIXELS(frame) ? 12 : 8)
 #define GN_CASTER_BITS(frame)  (GN_EXACT_PIXELS(frame) ? 12 : 10)
+
+/* What knobs stand for, by parts of the library. */
+#define GN_PUNCTUAL_LIGHTS  ((GN_OTHER_LIGHTS) % 2)
+#define GN_MAIN_LIGHT       ((GN_OTHER_LIGHTS) >= 2)
+#define GN_FILTER_MAX       ((GN_SHADOWS) - ((GN_SHADOWS) > 0))
+#define GN_DISK_FILTER      ((GN_FILTER_MAX) >= 5)
+#define GN_BLENDED_CASCADES ((GN_MANY_CASCADES) >= 2)
+#define GN_CASTER_CULLING   ((GN_MANY_CASCADES) >= 3)
+#define GN_FORMATS          ((GN_TEXTURE_FORMATS)&1023)
+#define GN_TEXTURES         (GN_FORMATS != 0)
+#define GN_MIPMAPS          ((GN_TEXTURE_FORMATS) >= 1024)
+#define GN_STATIC_LAYER     ((GN_INCREMENTAL) >= 2)
+#define GN_TILE_IMPORTANCE  ((GN_TILE_SIZES) >= 1)
+#define GN_TIGHT_FIT        ((GN_SHADOWS) && (GN_TILE_SIZES) >= 2)
+#define GN_CASTER_ALPHA     (GN_ALPHA)
+#define GN_VISIBLE_ALPHA    (GN_ALPHA)
+#define GN_MASKS            (GN_BAKED)
+#define GN_BAKED_LIGHT      (GN_BAKED)
+#define GN_SPECULAR         ((GN_MATERIALS) % 2)
+#define GN_EMISSIVE         ((GN_MATERIALS) / 2 % 2)
+#define GN_ALPHA            ((GN_MATERIALS) / 4 % 2)
+#define GN_BAKED            ((GN_MATERIALS) >= 8)
+#define GN_AUTO_BIAS        ((GN_BIASES) % 2)
+#define GN_OTHER_BIASES     ((GN_BIASES) >= 2)
+#define GN_RECEIVER_BIAS    (GN_OTHER_BIASES)
+#define GN_CASTER_BIAS      (GN_OTHER_BIASES)
+#define GN_RECEIVER_PLANE   (GN_OTHER_BIASES)
+#define GN_CASTER_CLIPPING  ((GN_CLIPPING) >= 2)
+#define GN_VERTEX_NORMALS   ((GN_VERTEX_VALUES) % 2)
+#define GN_VERTEX_COLOURS   ((GN_VERTEX_VALUES) >= 2)
+#define GN_TILE_DRAWING     ((GN_PICTURES) / 2 % 2)
+#define GN_ORTHOGRAPHIC     ((GN_PICTURES) / 4 % 2)
+#define GN_RAW_VIEWS        ((GN_PICTURES) >= 8)
+#define GN_OTHER_FORMATS    ((GN_PICTURES) % 2 || GN_RAW_VIEWS)
+#define GN_ERROR_FIELDS     ((GN_VALIDATION) >= 2)
+
+/* Whether the boxes of objects are needed. */
+#define GN_BOXES (GN_PUNCTUAL_LIGHTS || (GN_SHADOWS && (GN_OBJECT_BOXES || GN_CASTER_CULLING || GN_TIGHT_FIT)))
+
+/* Whether light that a surface emits may have to be added after colours of vertices or a texture. */
+#define GN_GLOW_APART (GN_EMISSIVE && (GN_TEXTURES || GN_VERTEX_COLOURS))
+
+/* Whether records of the frame's visible triangles are kept, and whether screen tiles set up triangles again (the host
+ * can do both). */
+#define GN_RECORDS (GN_RUNTIME_KNOBS || !GN_TRIANGLE_GROUPS)
+#define GN_GROUPS  (GN_RUNTIME_KNOBS || GN_TRIANGLE_GROUPS)
+
+/* Entries of the cache of vertices that are shaded: screen tiles of few pixels have few triangles. */
+#if GN_RUNTIME_KNOBS
+#define GN_VERTEX_CACHE 1024
+#else
+#define GN_VERTEX_CACHE ((GN_TILE_WIDTH) * (GN_TILE_HEIGHT) >= 512 ? 32 : 4)
+#endif
+
+/* Layers of transparent surfaces that there is memory for. */
+#if GN_RUNTIME_KNOBS
+#define GN_LAYERS_MAX 3
+#else
+#define GN_LAYERS_MAX (GN_TRANSPARENT_LAYERS)
+#endif
+
+/* Whether edges may be finer than texels. */
+#define GN_EDGE_BUILT (GN_SHADOWS && !GN_COMPACT && (GN_RUNTIME_KNOBS || GN_EDGE))
+
+/* Whether taps may be compared with the receiver's plane. */
+#define GN_PLANES (GN_RECEIVER_PLANE || GN_EDGE_BUILT)
+
+/* Whether textures may say where it is emitted. */
+#define GN_GLOW_TEXTURES (GN_EMISSIVE && GN_TEXTURES)
+
+/* Whether shading interpolates between exact points (gn_lattice.h). Not built where every pixel must be exact. */
+#define GN_INTERPOLATES (!GN_COMPACT && (GN_RUNTIME_KNOBS || GN_PERSP_STEP > 1))
+
+/* Whether alpha's texture coordinates, too, are interpolated between exact samples. */
+#define GN_ALPHA_STEPS (GN_TEXTURES && (GN_CASTER_ALPHA || GN_VISIBLE_ALPHA) && (GN_RUNTIME_KNOBS || GN_PERSP_STEP > 1))
 
 #endif

@@ -23,7 +23,6 @@
 #error "Gnomon needs a core of 32 bits, whose int has 32: AVR (Arduino Uno, Nano, Mega) and MSP430 have 16"
 #endif
 
-#include "gn_config.h"
 #include "gn_knobs.h"
 #ifdef GN_PREFIX
 #include "gn_prefix.h"

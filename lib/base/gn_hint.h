@@ -2,7 +2,7 @@
 #ifndef GN_HINT_H
 #define GN_HINT_H
 
-#include "gn_config.h"
+#include "gn_knobs.h"
 
 #ifdef GN_PORT
 #include GN_PORT

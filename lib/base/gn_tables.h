@@ -4,7 +4,7 @@
 
 #include <stdint.h>
 
-#include "gn_config.h"
+#include "gn_knobs.h"
 #include "base/gn_q.h"
 
 /* Whether colours of RGB565 are packed by tables: three times as fast as by the curve, with the same bits. */
