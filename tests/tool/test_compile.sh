@@ -12,9 +12,9 @@ if gcc -std=c11 -D_POSIX_C_SOURCE=200809L -O2 $warn -Itests -o "$tmp/same" tests
     >"$tmp/log" 2>&1; then pass; else fail "same_pictures: $(grep -m 1 -E 'error|undefined' "$tmp/log")"; fi
 
 # build NAME: the firmware of build/tmp/.../NAME as a program; what was written, without a warning. Clang compiles it in a third of
-# gcc's time; gcc, which keeps functions that nobody calls, the whole scenes.
+# gcc's time; gcc, which keeps functions that nobody calls, two whole scenes, THOROUGH=1: all of them.
 build() {
-    case $1 in *-tiny | *-fast | *-balanced | *-accurate) compiler=gcc ;; *) compiler=clang ;; esac
+    case $THOROUGH$1 in mixed-tiny | avenue-accurate | 1*-tiny | 1*-fast | 1*-balanced | 1*-accurate) compiler=gcc ;; *) compiler=clang ;; esac
     gcc $strict -fsyntax-only -I"$tmp/$1" '-DGN_USER_CONFIG="gn_scene_config.h"' "$tmp/$1/scene.c" 2>"$tmp/$1/log" &&
         $compiler -std=c99 -w -O0 -Ilib -I"$tmp/$1" '-DGN_USER_CONFIG="gn_scene_config.h"' -o "$tmp/$1/run" lib/gnomon.c "$tmp/$1/scene.c" \
             tests/tool/compiled_picture.c 2>"$tmp/$1/log"
@@ -123,7 +123,7 @@ for name in sundial desk room mixed-tiny fence avenue-accurate compact cube-fits
 done
 
 # flash: the scene's data to its alignment, the library's code within a fifth
-for name in sundial mixed-tiny compact ${THOROUGH:+room short unshadowed compact-avenue mixed-fits}; do
+for name in mixed-tiny compact ${THOROUGH:+sundial room short unshadowed compact-avenue mixed-fits}; do
     arm="arm-none-eabi-gcc -mcpu=cortex-m0 -mthumb -std=c99 -Os -ffreestanding -isystem boards/common/include -Ilib -I$tmp/$name"
     $arm '-DGN_USER_CONFIG="gn_scene_config.h"' -c -o "$tmp/data.o" "$tmp/$name/scene.c" 2>"$tmp/log"
     data=$(arm-none-eabi-size -A "$tmp/data.o" | awk '$1 ~ /^\.rodata/ { n += $2 } END { print n + 0 }')
