@@ -266,8 +266,8 @@ static gn_status begin(const gn_picture *picture)
     return status;
 }
 
-/* All variants in one renderer, so that shadow tiles may be kept from one to the next. What is too small is told once, with
- * the most that any of them needs. */
+/* All variants in one renderer, so that shadow tiles may be kept from one to the next. What is too small is told once,
+ * with the most that any of them needs. */
 static int pictures(gn_format format, gn_view view, uint8_t light)
 {
     gn_picture picture = {WIDTH, HEIGHT, format, view, light};

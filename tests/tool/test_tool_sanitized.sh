@@ -16,7 +16,7 @@ fi
 expect() {
     expected=$1
     shift
-    timeout 50 "$dir/gnomon" "$@" >"$tmp/out" 2>"$tmp/err" </dev/null
+    timeout 100 "$dir/gnomon" "$@" >"$tmp/out" 2>"$tmp/err" </dev/null
     status=$?
     found=$(grep -m 1 -E 'runtime error|ERROR: .*Sanitizer' "$tmp/err")
     if [ -n "$found" ]; then fail "gnomon $*: $found"
@@ -50,7 +50,7 @@ expect 0 bake host/scenes/room.gltf -o "$tmp/baked.gltf" $tiny --texels 64
 expect 0 render "$tmp/baked.gltf" -o "$tmp/a.png" $tiny
 expect 0 bake "$tmp/solid.obj" -o "$tmp/baked.glb" $tiny --texels 0
 expect 0 sweep "$tmp/solid.obj" $tiny --quick --csv "$tmp/a.csv" --svg "$tmp/a.svg"
-expect 0 sweep $sundial --size 8x6 --quick --json
+expect 0 sweep $sundial --size 16x12 --quick --json
 expect 0 advise "$tmp/solid.obj" --size 16x12 --ram 20000 --quick
 
 # what is damaged is refused, not read beyond its end
