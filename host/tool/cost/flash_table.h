@@ -1,44 +1,44 @@
 /* Made by host/generate/gen_flash.sh with 12.2.1. Bytes of flash: on Cortex-M0, on Cortex-M4. */
-FLASH(typical, 58972, 53888)               /* shadows 3, vertex_values 1, preset balanced */
-FLASH(no_shadows, -27472, -25904)          /* without shadows, and what is of shadows */
-FLASH(vertex_values_0, -3572, -3244)       /* with 0 */
-FLASH(shadows_1, -2328, -2340)             /* other shadows */
-FLASH(shadows_2, -2228, -2240)             /* other shadows */
-FLASH(shadows_4, 0, 0)                     /* other shadows */
-FLASH(shadows_5, 0, 8)                     /* other shadows */
-FLASH(shadows_6, 2376, 2160)               /* other shadows */
-FLASH(punctual_unshadowed, -18280, -17560) /* spot and point lights, no shadows: above no_shadows too */
-FLASH(other_lights, 18360, 16908)          /* with */
-FLASH(other_lights_2, 368, 336)            /* with 2 */
-FLASH(materials_4, 728, 644)               /* with 4 */
-FLASH(texture_formats, 4420, 4016)         /* with */
-FLASH(texture_formats_1025, 6308, 5812)    /* with 1025 */
-FLASH(materials, 1444, 1592)               /* with */
-FLASH(materials_2, 172, 148)               /* with 2 */
-FLASH(materials_8, 2192, 2008)             /* with 8 */
-FLASH(biases_2, 1812, 1584)                /* with */
-FLASH(biases, 4256, 3924)                  /* with */
-FLASH(incremental, 948, 880)               /* with */
-FLASH(incremental_2, 1104, 1084)           /* with 2 */
-FLASH(vertex_values_3, 1684, 1536)         /* with 3 */
-FLASH(vertex_joints, 1592, 1452)           /* with */
-FLASH(pictures_2, 260, 252)                /* with 2 */
-FLASH(validation, 1484, 1296)              /* with */
-FLASH(pictures, 1016, 992)                 /* with */
-FLASH(many_cascades, 1744, 1520)           /* with */
-FLASH(many_cascades_2, 2908, 2684)         /* with 2 */
-FLASH(many_cascades_3, 4664, 4288)         /* with 3 */
-FLASH(tile_sizes, 308, 400)                /* with */
-FLASH(tile_sizes_2, 9520, 8500)            /* with 2 */
-FLASH(object_boxes, 956, 900)              /* with */
-FLASH(pictures_4, 1672, 1672)              /* with 4 */
-FLASH(clipping, 744, 804)                  /* with */
-FLASH(clipping_2, 1288, 1292)              /* with 2 */
-FLASH(edge, 2316, 2204)                    /* edge 4 */
-FLASH(preset_accurate, -35016, -32352)     /* quality of preset accurate */
-FLASH(accurate_unshadowed, -44360, -41112) /* the same without shadows */
-FLASH(linear, -108, -152)                  /* srgb 0 */
-FLASH(compact, -48364, -44944)             /* compact arithmetic */
-FLASH(compact_validation, 1480, 1304)      /* with */
-FLASH(compact_auto_bias, 420, 448)         /* with */
-FLASH(compact_linear, -172, -231)          /* srgb 0 */
+FLASH(typical, 55776, 50692) /* shadows 3, vertex_values 1, preset balanced */
+FLASH(no_shadows, -26052, -24396) /* without shadows, and what is of shadows */
+FLASH(vertex_values_0, -3548, -3204) /* with 0 */
+FLASH(vertex_values_3, 1676, 1588) /* with 3 */
+FLASH(shadows_1, -2492, -2328) /* other shadows */
+FLASH(shadows_2, -2392, -2268) /* other shadows */
+FLASH(shadows_4, 0, 0) /* other shadows */
+FLASH(shadows_5, 0, 8) /* other shadows */
+FLASH(shadows_6, 2368, 2256) /* other shadows */
+FLASH(punctual_unshadowed, -16708, -15804) /* spot and point lights, no shadows: above no_shadows too */
+FLASH(other_lights, 18516, 17180) /* with */
+FLASH(other_lights_2, 300, 300) /* with 2 */
+FLASH(texture_formats, 4604, 4216) /* with */
+FLASH(materials, 1452, 1604) /* with */
+FLASH(materials_2, 172, 144) /* with 2 */
+FLASH(biases, 4264, 3944) /* with */
+FLASH(biases_2, 1736, 1544) /* with 2 */
+FLASH(incremental, 964, 880) /* with */
+FLASH(incremental_2, 1116, 1092) /* with 2 */
+FLASH(vertex_joints, 1896, 1760) /* with */
+FLASH(validation, 1500, 1296) /* with */
+FLASH(pictures, 664, 640) /* with */
+FLASH(many_cascades, 1688, 1544) /* with */
+FLASH(many_cascades_2, 2848, 2668) /* with 2 */
+FLASH(many_cascades_3, 4592, 4304) /* with 3 */
+FLASH(tile_sizes, 308, 400) /* with */
+FLASH(tile_sizes_2, 9484, 8504) /* with 2 */
+FLASH(object_boxes, 940, 920) /* with */
+FLASH(clipping, 744, 812) /* with */
+FLASH(clipping_2, 1292, 1300) /* with 2 */
+FLASH(pictures_2, 260, 252) /* with 2 */
+FLASH(pictures_4, 1684, 1716) /* with 4 */
+FLASH(materials_4, 728, 632) /* with 4 */
+FLASH(materials_8, 2204, 2000) /* with 8 */
+FLASH(texture_formats_1025, 6464, 5980) /* with 1025 */
+FLASH(edge, 2260, 2192) /* edge 4 */
+FLASH(preset_accurate, -31700, -29040) /* quality of preset accurate */
+FLASH(accurate_unshadowed, -41164, -37892) /* the same without shadows */
+FLASH(linear, -168, -184) /* srgb 0 */
+FLASH(compact, -45176, -41752) /* compact arithmetic */
+FLASH(compact_validation, 1496, 1292) /* with */
+FLASH(compact_auto_bias, 420, 448) /* with */
+FLASH(compact_linear, -172, -231) /* srgb 0 */
