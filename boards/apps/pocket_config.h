@@ -26,4 +26,5 @@
 #define GN_BIASES          0
 #define GN_INCREMENTAL     0
 #define GN_VERTEX_VALUES   0
+#define GN_VERTEX_JOINTS   0
 #define GN_PICTURES        0
