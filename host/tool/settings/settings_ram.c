@@ -123,7 +123,7 @@ static long patch_shared_bytes(const settings *s)
     layout all = {0, 4};
     put(&all, 1, 56, 4); /* of */
     if (s->feature.vertex_values % 2) put(&all, 32, 8, 4);
-    if (s->feature.vertex_values % 2 && s->feature.vertex_joints) put(&all, 16, 20, 4);
+    if (s->feature.vertex_values % 2 && s->feature.vertex_joints) put(&all, 16, 40, 4);
     if (s->feature.shadows && s->feature.biases % 2) put(&all, 1, 72, 4);
     return all.size;
 }
@@ -255,7 +255,8 @@ settings_ram_parts settings_ram(const settings *s)
     if (s->feature.shadows) put_views(&frame, s);
     int boxes = punctual || (s->feature.shadows &&
                              (s->feature.object_boxes || s->feature.many_cascades > 2 || s->feature.tile_sizes > 1));
-    r.objects = boxes ? put(&frame, s->capacity.max_objects, punctual ? 36 : 24, 4) : 0;
+    r.objects =
+        boxes ? put(&frame, s->capacity.max_objects, (punctual ? 36 : 24) + (s->feature.vertex_joints ? 4 : 0), 4) : 0;
     r.objects += put(&frame, s->capacity.max_objects, 1, 1); /* flags */
     r.triangles = put(&frame, groups ? 1 : s->capacity.max_triangles, wide_coordinates(s) ? 44 : 32, 4);
     r.tiles = put(&frame, tiles + 1, offset, offset);
