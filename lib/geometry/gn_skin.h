@@ -51,9 +51,9 @@ GN_INLINE void gn_posed_vertex(int32_t out[3], const gn_frame *frame, const gn_o
                                uint32_t vertex_idx)
 {
 #if GN_VERTEX_JOINTS && GN_BOXES
-    const int32_t words = (int32_t)(sizeof(gn_tri) / sizeof(int32_t)); /* of a record */
+    const uint32_t words = sizeof(gn_tri) / sizeof(int32_t); /* of a record */
     const int32_t at = object->skin ? frame->object[object_idx].posed + 3 * (int32_t)vertex_idx : -1;
-    if (at >= 0 && at >= (int32_t)frame->stats.n_triangles * words) {
+    if (at >= 0 && (uint32_t)at >= frame->stats.n_triangles * words) {
         for (int i = 0; i < 3; i++) out[i] = frame->records.word[at + i];
         return;
     }

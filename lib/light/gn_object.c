@@ -21,7 +21,8 @@ static void stored_extent(const gn_position *at, uint32_t n, int32_t *lo, int32_
     *hi = most;
 }
 
-/* The same of all coordinates of a mesh that its skin poses. Vertices whose place is a word of records are kept. */
+/* The same of all coordinates of a mesh that its skin poses. Vertices whose place is a word of records are kept: the
+ * last one's ends with the records, or all places are below 0, as a mesh of 2^28 vertices would take gigabytes. */
 static void posed_extent(const gn_object *object, gn_records *records, int32_t place, int32_t lo[3], int32_t hi[3])
 {
     int32_t p[3];
@@ -60,7 +61,7 @@ static int64_t posed_begin(const gn_frame *frame)
 {
     int64_t first = sizeof(gn_records) / sizeof(int32_t);
     for (uint32_t i = 0; i < frame->scene->n_objects; i++)
-        if (GN_SKIN(&frame->scene->objects[i])) first -= 3 * frame->scene->objects[i].mesh->n_vertices;
+        if (GN_SKIN(&frame->scene->objects[i])) first -= (int64_t)3 * frame->scene->objects[i].mesh->n_vertices;
     return first;
 }
 
@@ -74,7 +75,7 @@ gn_status gn_object_boxes(gn_frame *frame)
         int32_t centre[3], half[3],
             place = GN_SKIN(object) && next > GN_POSED_NOWHERE ? (int32_t)next : GN_POSED_NOWHERE;
         gn_xform xform;
-        if (GN_SKIN(object)) next += 3 * object->mesh->n_vertices;
+        if (GN_SKIN(object)) next += (int64_t)3 * object->mesh->n_vertices;
 #if GN_VERTEX_JOINTS
         state->posed = place;
 #endif

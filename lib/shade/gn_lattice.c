@@ -217,10 +217,11 @@ GN_HOT static int32_t count_pixels(const gn_lattice *l)
 
 GN_HOT void gn_lattice_begin_tile(gn_shading *s)
 {
-    gn_levels_forget(&s->lattice);
 #if GN_SHADOWS
+    gn_levels_forget(&s->lattice);
     s->lattice.matrix.view = NULL;
 #endif
+    (void)s;
 }
 
 /* Each for itself, as corners or exactly. */

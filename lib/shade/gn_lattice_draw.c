@@ -11,7 +11,6 @@
 #include "shade/gn_lattice_look.h"
 #include "shade/gn_lattice_row.h"
 #include "shade/gn_lattice_texture.h"
-#include "shade/gn_levels.h"
 #include "shade/gn_pixel.h"
 #include "shade/gn_shadow.h"
 #include "shadow/gn_persp.h"
@@ -446,7 +445,6 @@ GN_HOT static void draw_rows(gn_drawing *d)
     d->line =
         (gn_pixel_line){.node = (const int32_t(*)[3])l->by.node, .spacing_log2 = l->look.n_edges ? 0 : d->size_log2};
     for (int32_t below = 0; below < 1 << d->size_log2; below++) draw_row(d, below);
-    gn_levels_forget(l); /* nodes took their place */
 }
 
 GN_HOT void gn_lattice_draw(gn_shading *s, int32_t x, int32_t y, int32_t size_log2)
@@ -455,11 +453,11 @@ GN_HOT void gn_lattice_draw(gn_shading *s, int32_t x, int32_t y, int32_t size_lo
     const gn_lattice_look *look = &l->look;
     gn_drawing *d = &l->drawing;
     uint32_t packed;
-    GN_COUNT(cells_drawn, 1);
     if (!look->n_edges && !s->surface.textured && is_plain(s, (const int32_t(*)[3])look->colour_q24, &packed)) {
         fill_cell(s, x, y, size_log2, packed);
         return;
     }
+    GN_COUNT(cells_drawn, 1);
     d->s = s;
     d->x = x;
     d->y = y;

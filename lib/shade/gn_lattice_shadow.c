@@ -23,7 +23,6 @@ GN_HOT static int find_places(const gn_lattice_cell *cell, uint32_t slot, uint32
     p->view = &cell->frame->view[cell->s->light[slot].state->view_idx + (int32_t)view_idx];
     p->window = NULL;
     p->follows = 0;
-    p->has_slopes = 0;
     p->view_idx = view_idx;
     p->bent = GN_PLACES_BILINEAR;
     GN_UNROLL
@@ -38,17 +37,15 @@ GN_HOT static int find_places(const gn_lattice_cell *cell, uint32_t slot, uint32
     return seen & (seen - 1) ? PLACED_PARTLY : seen & 1U ? PLACED_NOWHERE : PLACED;
 }
 
-/* Sets p->slope_q28, of the window's plane if it has one. */
-GN_HOT static void find_slopes(const gn_lattice_cell *cell, gn_cell_places *p)
+/* Slopes of the receiver's plane: of the window's if it has one. */
+GN_HOT static void find_slopes(const gn_lattice_cell *cell, const gn_cell_places *p, int32_t slope_q28[2])
 {
-    if (p->has_slopes) return;
-    p->has_slopes = 1;
 #if GN_PLANES
     if (p->window && p->window->planar > 0 && gn_shadow_has_plane(cell->frame, p->view))
-        for (int i = 0; i < 2; i++) p->slope_q28[i] = p->window->slope_q30[i] / 4;
+        for (int i = 0; i < 2; i++) slope_q28[i] = p->window->slope_q30[i] / 4;
     else
 #endif
-        gn_corner_slopes(cell->lattice, cell->frame, cell->s, cell->corner[0], p->view, p->slope_q28);
+        gn_corner_slopes(cell->lattice, cell->frame, cell->s, cell->corner[0], p->view, slope_q28);
 }
 
 GN_HOT static void range_of(const int32_t at[4], int32_t *lo, int32_t *hi)
@@ -198,9 +195,7 @@ GN_HOT static int add_edge(const gn_lattice_cell *cell, uint32_t slot, gn_cell_p
     edge->slot = (uint8_t)slot;
     edge->view_idx = (uint8_t)p->view_idx;
     edge->bent = (uint8_t)p->bent;
-    find_slopes(cell, p);
-    edge->slope_q28[0] = p->slope_q28[0];
-    edge->slope_q28[1] = p->slope_q28[1];
+    find_slopes(cell, p, edge->slope_q28);
     if (p->bent != GN_PLACES_LONE) {
         gn_flat_patch_make(&edge->u_q16, p->u, cell->size_log2);
         gn_flat_patch_make(&edge->v_q16, p->v, cell->size_log2);

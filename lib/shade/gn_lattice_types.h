@@ -180,8 +180,6 @@ typedef struct {
     int bent;    /* GN_PLACES_... */
     int outside; /* of the tile, so that bias goes along rays: forms on the screen do not say where */
     int32_t u[4], v[4], depth[4];
-    int has_slopes;
-    int32_t slope_q28[2]; /* of the receiver's plane: find_slopes() */
 } gn_cell_places;
 #endif
 
@@ -354,9 +352,11 @@ typedef struct gn_lattice {
 #if GN_SHADOWS
             gn_cell_places places;
 #endif
-            gn_levels levels; /* from one drawing to the next */
-        } look;               /* before it is drawn, or where it has two colours */
+        } look; /* before it is drawn */
     } by;
+#if GN_SHADOWS
+    gn_levels levels; /* from one drawing to the next */
+#endif
     union {
 #if GN_SHADOWS
         gn_seen_places seen; /* while a window is made */

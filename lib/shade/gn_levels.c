@@ -5,11 +5,11 @@
 #include "shade/gn_exact.h"
 #include "shade/gn_levels.h"
 
-#if GN_INTERPOLATES
+#if GN_INTERPOLATES && GN_SHADOWS
 
 GN_HOT void gn_levels_use(gn_lattice *lattice, const int32_t dark_q24[3], const int32_t more_q24[3])
 {
-    gn_levels *l = &lattice->by.look.levels;
+    gn_levels *l = &lattice->levels;
     uint32_t differs = 0;
     GN_UNROLL
     for (int c = 0; c < 3; c++) {
@@ -22,7 +22,7 @@ GN_HOT void gn_levels_use(gn_lattice *lattice, const int32_t dark_q24[3], const 
 
 GN_HOT GN_NOINLINE uint32_t gn_levels_find(gn_shading *s, uint32_t level)
 {
-    gn_levels *l = &s->lattice.by.look.levels;
+    gn_levels *l = &s->lattice.levels;
     uint32_t q20[3];
     GN_UNROLL
     for (int c = 0; c < 3; c++) {

@@ -338,6 +338,7 @@ GN_HOT static GN_NOINLINE uint32_t pack_sum(gn_shading *s, const gn_part *part, 
     return gn_exact_pack(s, q20);
 }
 
+#if GN_SHADOWS
 /* Sets what rows of two colours need. */
 GN_HOT static GN_NOINLINE void begin_rows(gn_shading *s, const gn_part *part)
 {
@@ -349,7 +350,6 @@ GN_HOT static GN_NOINLINE void begin_rows(gn_shading *s, const gn_part *part)
     gn_levels_use(&s->lattice, dark, more);
 }
 
-#if GN_SHADOWS
 /* Windows of other views may have taken their place. */
 GN_HOT static void drop_windows(gn_part *part)
 {
@@ -367,6 +367,11 @@ GN_HOT static int has_windows(const gn_shading *s, const gn_part *part)
     return any;
 }
 #else
+GN_HOT static void begin_rows(gn_shading *s, const gn_part *part)
+{
+    (void)s, (void)part;
+}
+
 GN_HOT static void drop_windows(gn_part *part)
 {
     (void)part;

@@ -20,10 +20,6 @@ typedef struct {
 #define GN_VIEW_EDGE(frame, view) ((void)(frame), (void)(view), 0)
 #endif
 
-/* Filter index whose texels say as much as all that a lookup reads: with edges, the receiver's and the eight around it.
- */
-#define GN_VIEW_REACH(frame, view) ((view)->filter_idx + (GN_VIEW_EDGE(frame, view) > 0))
-
 /* Attenuation 0 (shadowed) .. 65536 (lit). Texels outside the tile repeat its border, or are lit if the view says so.
  */
 uint32_t gn_filter_attenuation(const gn_frame *frame, const gn_light_view *view, const gn_receiver *receiver);

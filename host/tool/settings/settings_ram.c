@@ -160,7 +160,8 @@ static long lattice_bytes(const settings *s)
     put(&all, 1, 568, 4);                                                                     /* look */
     if (has_levels(s)) put(&all, 1, 4, 4); /* of that: level and level_ends */
     put(&all, 1, drawing_bytes(s), 4);
-    put(&all, 1, s->feature.shadows ? 536 : 448, 8);                                  /* by */
+    put(&all, 1, s->feature.shadows ? 224 : 192, 8);                                  /* by */
+    if (s->feature.shadows) put(&all, 1, 296, 4);                                     /* levels */
     put(&all, 1, s->feature.texture_formats ? 128 : s->feature.shadows ? 72 : 64, 4); /* row */
     if (has_glow(s)) put(&all, 16, 8, 4);                                             /* glow */
     pad(&all, 8);
