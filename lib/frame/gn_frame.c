@@ -1,4 +1,4 @@
-/* A frame, stage by stage. Read this file first: it is the table of contents of the library. gn_stages.h declares the
+/* A frame, stage by stage. Read this file first: it is the table of contents of the library. gn_internal.h declares the
  * stages; lib/README.md says what each folder is for.
  *
  * gn_begin
@@ -32,13 +32,10 @@
 
 #include <string.h>
 
-#include "gn_stages.h"
-#include "base/gn_hint.h"
+#include "base/gn_base_types.h"
 #include "base/gn_q.h"
-#include "base/gn_signature.h"
 #include "frame/gn_check.h"
 #include "scene/gn_scene.h"
-#include "scene/gn_sides.h"
 #include "shade/gn_pixel.h"
 #include "visible/gn_screen_rect.h"
 

@@ -10,7 +10,7 @@
 #if GN_COMPACT
 #include "compact/gn_compact_types.h"
 #else
-#include "shade/gn_shade_types.h"
+#include "shade/gn_lattice_types.h"
 
 /* Records of visible triangles; until gn_prepare writes them, vertices that skins moved: gn_posed_vertex. */
 typedef union {
@@ -28,7 +28,7 @@ typedef struct gn_frame {
     const gn_object *objects; /* the scene's: gn_pick reads these when the scene may be gone */
     uint32_t n_objects;
     gn_picture picture;
-    uint8_t stage;   /* gn_stage in gn_stages.h */
+    uint8_t stage;   /* gn_stage in gn_internal.h */
     uint8_t id_bits; /* of a visibility cell: enough for n_triangles + 2 */
     uint16_t n_views;
     uint16_t tiles_x, tiles_y;
@@ -59,7 +59,7 @@ typedef struct gn_frame {
 #if GN_BOXES
     gn_object_state object[GN_MAX_OBJECTS];
 #endif
-    uint8_t flags[GN_MAX_OBJECTS]; /* of each object, as drawn: scene/gn_sides.h */
+    uint8_t flags[GN_MAX_OBJECTS]; /* of each object, as drawn: scene/gn_scene.h */
     gn_records records;
     gn_ref_offset tile_first[GN_TILES_MAX + 1]; /* of groups: a tile's number of triangles */
     uint16_t tile_ref[GN_RECORDS ? GN_MAX_TILE_REFS : 1];

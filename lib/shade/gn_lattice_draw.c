@@ -2,19 +2,14 @@
  * shadow has an edge or there is a texture. */
 #include "gn_internal.h"
 
+#include "base/gn_base_types.h"
 #include "base/gn_count.h"
-#include "base/gn_hint.h"
 #include "base/gn_q.h"
-#include "shade/gn_arrival.h"
-#include "shade/gn_exact.h"
 #include "shade/gn_lattice.h"
-#include "shade/gn_lattice_look.h"
-#include "shade/gn_lattice_row.h"
-#include "shade/gn_lattice_texture.h"
 #include "shade/gn_pixel.h"
-#include "shade/gn_shadow.h"
-#include "shadow/gn_persp.h"
-#include "shadow/gn_window.h"
+#include "shade/gn_surface.h"
+#include "shadow/gn_filter.h"
+#include "shadow/gn_views.h"
 
 #if GN_INTERPOLATES
 

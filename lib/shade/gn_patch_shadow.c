@@ -3,14 +3,12 @@
 
 #include "base/gn_count.h"
 #include "base/gn_q.h"
-#include "light/gn_bias.h"
+#include "light/gn_lights.h"
 #include "shade/gn_patch.h"
-#include "shade/gn_record.h"
-#include "shade/gn_shadow.h"
+#include "shade/gn_surface.h"
 #include "shadow/gn_filter.h"
-#include "shadow/gn_persp.h"
-#include "shadow/gn_tent.h"
-#include "shadow/gn_texel_rows.h"
+#include "shadow/gn_texel.h"
+#include "shadow/gn_views.h"
 
 #if GN_INTERPOLATES
 

@@ -1,13 +1,11 @@
 /* Shadow of one light at a sample. */
 #include "gn_internal.h"
 
+#include "base/gn_base_types.h"
 #include "base/gn_count.h"
-#include "base/gn_hint.h"
-#include "base/gn_noise.h"
 #include "base/gn_q.h"
 #include "geometry/gn_texture.h"
-#include "shade/gn_arrival.h"
-#include "shade/gn_shadow.h"
+#include "shade/gn_surface.h"
 #include "shadow/gn_filter.h"
 
 #define GN_ONE_UQ16 65536U

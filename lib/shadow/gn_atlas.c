@@ -3,21 +3,16 @@
 
 #include <string.h>
 
-#include "gn_stages.h"
+#include "base/gn_base_types.h"
 #include "base/gn_count.h"
-#include "base/gn_hint.h"
 #include "base/gn_math.h"
 #include "base/gn_q.h"
+#include "geometry/gn_geometry_types.h"
 #include "geometry/gn_skin.h"
-#include "geometry/gn_vertex_cache.h"
 #include "geometry/gn_xform.h"
 #include "scene/gn_scene.h"
-#include "scene/gn_sides.h"
-#include "shadow/gn_blocks.h"
-#include "shadow/gn_caster.h"
-#include "shadow/gn_atlas.h"
-#include "shadow/gn_persp.h"
 #include "shadow/gn_texel.h"
+#include "shadow/gn_views.h"
 
 typedef gn_caster_job caster_job;
 

@@ -2,11 +2,8 @@
 #include "gn_internal.h"
 
 #include "base/gn_count.h"
-#include "base/gn_kernel.h"
 #include "base/gn_q.h"
-#include "shadow/gn_lookup.h"
-#include "shadow/gn_tent.h"
-#include "shadow/gn_window.h"
+#include "shadow/gn_filter.h"
 
 #if GN_INTERPOLATES
 

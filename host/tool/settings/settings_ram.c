@@ -103,7 +103,7 @@ static int has_levels(const settings *s)
 
 static int wide_coordinates(const settings *s);
 
-/* gn_patch of lib/shade/gn_patch_types.h */
+/* gn_patch of lib/shade/gn_surface_types.h */
 static long patch_bytes(const settings *s)
 {
     layout all = {0, 4};
