@@ -17,6 +17,9 @@
 #include "geometry/gn_affine.c"
 #include "scene/gn_pose.c"
 #include "scene/gn_scene.c"
+#if GN_INCREMENTAL
+#include "scene/gn_sign.c"
+#endif
 
 /* Screen tiles and pixels. */
 #include "shade/gn_pixel.c"
@@ -34,7 +37,7 @@
 #include "geometry/gn_texture.c"
 #include "geometry/gn_texture_row.c"
 #endif
-#if GN_MASKS
+#if GN_CASTER_ALPHA || GN_VISIBLE_ALPHA || GN_MASKS
 #include "geometry/gn_alpha.c"
 #endif
 
@@ -105,4 +108,7 @@
 #endif
 
 /* The calls of gnomon.h: a frame, stage by stage. */
+#if GN_CHANGES
+#include "frame/gn_changes.c"
+#endif
 #include "frame/gn_frame.c"

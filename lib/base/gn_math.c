@@ -1,6 +1,8 @@
 /* Number core. Every step states the range that keeps it from overflowing. */
 #include "gn_internal.h"
 
+#include <string.h>
+
 #include "base/gn_base_types.h"
 #include "base/gn_math.h"
 #include "base/gn_q.h"
@@ -334,6 +336,18 @@ GN_HOT GN_NOINLINE uint64_t gn_far_abs64(int64_t v)
 GN_HOT GN_NOINLINE uint64_t gn_far_signature_add(uint64_t signature, uint64_t word)
 {
     return gn_signature_add_inline(signature, word);
+}
+
+GN_HOT uint64_t gn_signature_bytes(uint64_t signature, const void *bytes, size_t n)
+{
+    const uint8_t *at = (const uint8_t *)bytes;
+    uint32_t word[2] = {0, 0};
+    for (; n >= sizeof word; n -= sizeof word, at += sizeof word) {
+        memcpy(&word[0], at, 4), memcpy(&word[1], at + 4, 4); /* one of 8 bytes is a call */
+        signature = gn_signature_add_inline(signature, (uint64_t)word[1] << 32 | word[0]);
+    }
+    for (word[0] = word[1] = 0; n; n--) word[n & 1] = word[n & 1] << 8 | *at++;
+    return gn_signature_add_inline(signature, (uint64_t)word[1] << 32 | word[0]);
 }
 
 /* By halves: what is above the lower product's upper half carries. */

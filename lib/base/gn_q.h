@@ -218,6 +218,9 @@ static inline uint64_t gn_signature_words(uint64_t signature, const int32_t *wor
     return signature;
 }
 
+/* Of n bytes. */
+uint64_t gn_signature_bytes(uint64_t signature, const void *bytes, size_t n);
+
 /* ---- Kernels that a port may replace, and what they must compute, bit for bit ------------------------------------ */
 
 /* The library is portable without a port. With -DGN_PORT='"gn_port_NAME.h"' that header is included (gn_hint.h); for

@@ -18,6 +18,19 @@ typedef union {
     int32_t word[(GN_RECORDS ? GN_MAX_TRIANGLES : 1) * (sizeof(gn_tri) / sizeof(int32_t))];
 } gn_records;
 
+#if GN_CHANGES
+/* Signatures of a frame: what the next one need not draw again. gn_changes.c */
+typedef struct {
+    uint64_t scene;           /* of all that was described; 0: not known */
+    uint64_t settings, every; /* of what is neither object nor light; of what all screen tiles depend on */
+    uint64_t before, now;     /* of all texels of shadow maps, in the frame before and in this one; 0: not known */
+    uint64_t object[GN_MAX_OBJECTS], light[GN_MAX_LIGHTS];
+    uint64_t square[GN_SHADOWS ? GN_SQUARES : 1]; /* of the texels of each */
+    gn_squares changed;                           /* since the frame before */
+    uint32_t n_forgotten;                         /* calls of gn_forget_shadows */
+} gn_frame_sign;
+#endif
+
 typedef struct gn_frame {
 #if GN_RUNTIME_KNOBS
     gn_knobs knobs;
@@ -58,6 +71,9 @@ typedef struct gn_frame {
 #endif
 #if GN_BOXES
     gn_object_state object[GN_MAX_OBJECTS];
+#endif
+#if GN_CHANGES
+    gn_frame_sign sign;
 #endif
     uint8_t flags[GN_MAX_OBJECTS]; /* of each object, as drawn: scene/gn_scene.h */
     gn_records records;
@@ -133,6 +149,9 @@ typedef struct gn_scratch {
     gn_run_idx run_list[GN_RUN_LISTS];         /* first runs, by the low bits of their triangles; see gn_runs.h */
 #if GN_GROUPS
     gn_tri_source drawn[1 + GN_MAX_TRIANGLES]; /* the tile's triangles by their identities: none is 0 */
+#endif
+#if GN_CHANGES
+    gn_squares squares; /* that the tile's lookups read */
 #endif
 #if GN_LAYERS_MAX
     gn_layers layers;

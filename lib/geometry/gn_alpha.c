@@ -1,4 +1,4 @@
-/* Triangles that alpha cuts. */
+/* Triangles that alpha cuts; mask images. */
 #include "gn_internal.h"
 
 #include "base/gn_count.h"
@@ -7,6 +7,7 @@
 #include "geometry/gn_texture.h"
 #include "geometry/gn_xform.h"
 
+#if GN_CASTER_ALPHA || GN_VISIBLE_ALPHA
 GN_HOT void gn_alpha_begin(gn_alpha_cut *cut, const gn_object *object, gn_alpha mode, const uint16_t idx[3])
 {
     cut->object = object;
@@ -245,6 +246,7 @@ GN_HOT int32_t gn_alpha_coords(gn_alpha_cut *cut, int32_t x, gn_texture_curve *c
     }
     return 1;
 }
+#endif
 #endif
 
 /* ---- Mask images ------------------------------------------------------------------------------------------------- */

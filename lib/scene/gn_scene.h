@@ -27,6 +27,14 @@ gn_status gn_fail_capacity(gn_frame *frame, gn_status status, uint32_t needed, u
 /* What a status that a mesh's arrays lead to is about. */
 #define GN_MESH_FIELD(status) ((status) == GN_ERR_MESH_INDEX ? GN_FIELD_MESH_IDX : GN_FIELD_MESH_POS)
 
+/* ---- Signatures of what the caller describes: gn_sign.c [A5] [R13] ----------------------------------------------- */
+
+/* Of what an object's shadow depends on; of all of it; of a light; of what is neither, added to a signature. */
+uint64_t gn_sign_caster(uint64_t signature, const gn_object *object);
+uint64_t gn_sign_object(const gn_object *object);
+uint64_t gn_sign_light(const gn_light *light);
+uint64_t gn_sign_settings(uint64_t signature, const gn_scene *scene);
+
 /* ---- Which objects and which sides of their triangles are drawn -------------------------------------------------- */
 
 /* The one place that knows what mirrors. */

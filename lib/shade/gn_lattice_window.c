@@ -59,6 +59,9 @@ GN_HOT static GN_NOINLINE void begin_window(gn_lattice *l, const gn_frame *frame
     int32_t slope[2];
     int32_t from[3] = {0, 0, 0};
     int on_plane = GN_PLANES && gn_shadow_has_plane(frame, view);
+#if GN_CHANGES
+    window->squares = s->squares;
+#endif
     window->view = view;
     window->planar = 0;
     window->w = 0;

@@ -296,6 +296,10 @@ GN_HOT void gn_shade_tile(const gn_frame *frame, gn_scratch *scratch, uint32_t t
     shading *s = &scratch->work.shading;
     s->frame = frame;
     s->scratch = scratch;
+#if GN_CHANGES
+    scratch->squares = 0;
+    s->surface.squares = &scratch->squares;
+#endif
     s->rect = gn_screen_rect(frame, tile_idx);
     s->rows.pixels = &scratch->pixel;
     s->rows.width = s->rect.x1 - s->rect.x0;

@@ -78,6 +78,9 @@ typedef struct {
 #else
 #define GN_FACE_Q30(surface) ((surface)->normal_q30[0])
 #endif
+#if GN_CHANGES
+    gn_squares *squares; /* of the scratch: what is looked up */
+#endif
     gn_surface_light light[GN_SURFACE_LIGHTS]; /* lights that can affect it */
 } gn_surface;
 

@@ -344,5 +344,8 @@ gn_status gn_atlas_render_tile(gn_frame *frame, gn_casting *casting, uint32_t vi
     else if (GN_HAS_BLOCKS(view)) gn_blocks_build_touched(view);
 #endif
     if (GN_INCREMENTAL) gn_kept_set(frame, view_idx, GN_LAYER_ALL, signature);
+#if GN_CHANGES
+    gn_kept_note_squares(frame, view_idx);
+#endif
     return GN_OK;
 }

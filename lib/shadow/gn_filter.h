@@ -25,6 +25,14 @@ typedef struct {
 #define GN_VIEW_EDGE(frame, view) ((void)(frame), (void)(view), 0)
 #endif
 
+#if GN_CHANGES
+/* Notes the texels that gn_filter_attenuation may read. */
+void gn_note_lookup(gn_squares *squares, const gn_frame *frame, const gn_light_view *view, const gn_receiver *receiver);
+#define GN_NOTE_LOOKUP(squares, frame, view, receiver) gn_note_lookup(squares, frame, view, receiver)
+#else
+#define GN_NOTE_LOOKUP(squares, frame, view, receiver) ((void)0)
+#endif
+
 /* Attenuation 0 (shadowed) .. 65536 (lit). Texels outside the tile repeat its border, or are lit if the view says so.
  */
 uint32_t gn_filter_attenuation(const gn_frame *frame, const gn_light_view *view, const gn_receiver *receiver);

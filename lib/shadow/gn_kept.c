@@ -2,7 +2,8 @@
 #include "gn_internal.h"
 
 #include "base/gn_q.h"
-#include "geometry/gn_skin.h"
+#include "scene/gn_scene.h"
+#include "shadow/gn_filter.h"
 #include "shadow/gn_texel.h"
 #include "shadow/gn_views.h"
 
@@ -27,54 +28,13 @@ static uint64_t view_signature(const gn_frame *frame, const gn_light_view *view)
     return gn_signature_add(s, (uint64_t)fit->inv_texel.mant << 32 | (uint32_t)fit->inv_texel.exp);
 }
 
-/* Where the joints are now: a skinned object has moved when one has. */
-static uint64_t skin_signature(uint64_t s, const gn_skin *skin)
-{
-    s = gn_signature_add(s, (uint64_t)(uintptr_t)skin->joint_idx);
-    s = gn_signature_add(s, (uint64_t)(uintptr_t)skin->weight_u8);
-    s = gn_signature_add(s, (uint64_t)skin->n_joints << 8 | skin->per_vertex);
-    for (uint32_t i = 0; i < skin->n_joints; i++) {
-        const gn_affine *joint = &skin->joint[i];
-        s = gn_signature_words(s, &joint->m_q30[0][0], 9);
-        s = gn_signature_words(s, joint->t_q16, 3);
-        s = gn_signature_add(s, (uint32_t)joint->exp);
-    }
-    return s;
-}
-
-static uint64_t object_signature(uint64_t s, const gn_object *object)
-{
-    const gn_mesh *mesh = object->mesh;
-    s = gn_signature_add(s, (uint64_t)(uintptr_t)mesh->pos);
-    s = gn_signature_add(s, (uint64_t)(uintptr_t)mesh->idx);
-    s = gn_signature_add(s, (uint64_t)(uintptr_t)mesh->nrm_q15);
-    s = gn_signature_add(s, (uint64_t)mesh->n_vertices << 32 | (uint64_t)mesh->n_triangles << 16 |
-                                (uint64_t)mesh->pos_frac_bits << 8 | (uint64_t)object->caster_alpha << 4);
-    s = gn_signature_words(s, &object->to_world.m_q30[0][0], 9);
-    s = gn_signature_words(s, object->to_world.t_q16, 3);
-    s = gn_signature_add(s, (uint64_t)(uint32_t)object->to_world.exp << 32 |
-                                (object->flags & ~(uint32_t)GN_OBJECT_HIDDEN));
-    if (GN_SKIN(object)) s = skin_signature(s, GN_SKIN(object));
-    if (!GN_CASTER_ALPHA || object->caster_alpha == GN_ALPHA_OPAQUE) return s;
-    s = gn_signature_add(s, (uint64_t)object->alpha_uq16 << 32 | object->alpha_cutoff_uq16);
-    if (!object->texture) return s;
-    s = gn_signature_add(s, (uint64_t)(uintptr_t)object->texture->rgba);
-    s = gn_signature_add(s, (uint64_t)(uintptr_t)object->texture->palette);
-    s = gn_signature_add(s, (uint64_t)(uintptr_t)mesh->uv);
-    s = gn_signature_add(s, (uint64_t)object->texture->width_log2 << 24 | (uint64_t)object->texture->height_log2 << 16 |
-                                (uint64_t)object->texture->flags << 8 | mesh->uv_frac_bits |
-                                (uint64_t)object->texture->width << 48 | (uint64_t)object->texture->height << 32);
-    s = gn_signature_add(s, object->texture->format);
-    return s;
-}
-
 /* Everything that the texels of a view's tile depend on. [A5] */
 GN_COLD uint64_t gn_kept_signature(const gn_frame *frame, const gn_light_view *view, gn_layer layer)
 {
     uint64_t s = view_signature(frame, view);
     for (uint32_t o = 0; o < frame->scene->n_objects; o++) {
         int culled;
-        if (gn_cull_draws(frame, view, o, layer, &culled)) s = object_signature(s, &frame->scene->objects[o]);
+        if (gn_cull_draws(frame, view, o, layer, &culled)) s = gn_sign_caster(s, &frame->scene->objects[o]);
     }
     return s ? s : 1;
 }
@@ -123,6 +83,85 @@ void gn_kept_set(gn_frame *frame, uint32_t view_idx, gn_layer layer, uint64_t si
 {
     *signature_of(frame, view_idx, layer) = signature;
 }
+
+/* ---- Squares of shadow maps: which texels changed [R13] ---------------------------------------------------------- */
+
+#if GN_CHANGES
+GN_HOT GN_NOINLINE void gn_note_texels(gn_squares *squares, const gn_light_view *view, int32_t u, int32_t v,
+                                         int32_t w, int32_t h)
+{
+    const int32_t right = view->tile_texels - 1, bottom = GN_TILE_ROWS(view) - 1, log2 = view->square_log2;
+    const uint32_t row = (2U << (gn_max32(0, gn_min32(u + w - 1, right)) >> log2)) -
+                         (1U << (gn_max32(0, gn_min32(u, right)) >> log2));
+    uint64_t all = 0;
+    for (int32_t at = gn_max32(0, gn_min32(v, bottom)) >> log2,
+                 end = gn_max32(0, gn_min32(v + h - 1, bottom)) >> log2;
+         at <= end; at++)
+        all |= (uint64_t)row << (at << view->squares_log2);
+    *squares |= all << view->first_square;
+}
+GN_HOT GN_NOINLINE void gn_note_lookup(gn_squares *squares, const gn_frame *frame, const gn_light_view *view,
+                                         const gn_receiver *receiver)
+{
+    const int32_t reach = view->filter_idx + 2 + GN_VIEW_EDGE(frame, view), n = 2 * reach + 1;
+    gn_note_texels(squares, view, (receiver->u_q16 >> 16) - reach, (receiver->v_q16 >> 16) - reach, n, n);
+}
+GN_COLD void gn_kept_find_squares(gn_frame *frame)
+{
+    const int32_t log2 = frame->n_views <= 1 ? 3 : frame->n_views <= 4 ? 2 : frame->n_views <= 16 ? 1 : 0;
+    for (uint32_t v = 0; v < frame->n_views; v++) {
+        gn_light_view *view = &frame->view[v];
+        view->squares_log2 = (uint8_t)log2;
+        view->square_log2 = 3;
+        while (GN_TILE_SIDE(view) > 1 << (view->square_log2 + log2)) view->square_log2++;
+        view->first_square = (uint8_t)(v << 2 * log2) % GN_SQUARES; /* more than 64 views share them */
+    }
+}
+
+/* Of a square's texels. */
+static uint64_t sign_square(const gn_light_view *view, uint32_t view_idx, int32_t u, int32_t v)
+{
+    const int32_t bits = GN_VIEW_BITS(view), side = 1 << view->square_log2,
+                  w = gn_min32(view->tile_texels - u, side), end = gn_min32(GN_TILE_ROWS(view), v + side);
+    uint64_t s = gn_signature_add(GN_SIGNATURE_SEED, view_idx);
+    for (; v < end; v++) {
+        const gn_texels row = gn_texels_at(view->depth, bits, (size_t)(v * view->tile_texels + u));
+        s = gn_signature_bytes(s,
+                               bits == 8    ? (const void *)row.d8
+                               : bits == 16 ? (const void *)row.d16
+                                            : (const void *)row.d32,
+                               (size_t)(w * (bits / 8)));
+    }
+    return s;
+}
+
+GN_COLD void gn_kept_note_squares(gn_frame *frame, uint32_t view_idx)
+{
+    const gn_light_view *view = &frame->view[view_idx];
+    const int32_t log2 = view->square_log2;
+    for (int32_t v = 0; v < GN_TILE_ROWS(view); v += 1 << log2)
+        for (int32_t u = 0; u < view->tile_texels; u += 1 << log2) {
+            const int32_t at = view->first_square + (v >> log2 << view->squares_log2) + (u >> log2);
+            const uint64_t s = sign_square(view, view_idx, u, v);
+            if (frame->sign.square[at] != s) frame->sign.changed |= (gn_squares)1 << at;
+            frame->sign.square[at] = s;
+        }
+}
+
+GN_COLD uint64_t gn_kept_sign_view(const gn_frame *frame, uint32_t view_idx, uint64_t s)
+{
+    const gn_light_view *view = &frame->view[view_idx];
+    s = gn_signature_add(s, view_signature(frame, view));
+    s = gn_signature_add(s, (uint64_t)(uint32_t)view->offset_q16 << 32 | (uint32_t)view->disk_radius_q16);
+#if GN_AUTO_BIAS
+    s = gn_signature_add(s, (uint64_t)(uint32_t)view->auto_step << 32 | (uint32_t)view->auto_place);
+#endif
+    return gn_signature_add(s, (uint64_t)view_idx << 32 | (uint64_t)view->tile_log2 << 24 |
+                                   (uint64_t)view->cascade_idx << 16 | (uint64_t)view->filter << 12 |
+                                   (uint64_t)view->filter_idx << 4 | (uint64_t)(GN_UNSEEN(view) << 3) |
+                                   (uint64_t)(GN_TIGHT(view) << 2) | (uint64_t)(view->border_lit << 1) | view->empty);
+}
+#endif
 
 /* ---- The static layer -------------------------------------------------------------------------------------------- */
 

@@ -87,6 +87,11 @@ typedef struct {
     uint16_t lo, hi; /* the upper 16 bits of depth, whatever depth_bits */
 } gn_depth_block;    /* see gn_blocks.h */
 
+/* Squares of shadow maps, a bit each: a view's tile has 2^squares_log2 of them along either axis, of 2^square_log2 texels
+ * each way; their bits are those from first_square on, row by row. */
+typedef uint64_t gn_squares;
+enum { GN_SQUARES = 64 };
+
 /* Orthographic: whole texels of a grid that is fixed in the world. */
 typedef struct {
     gn_bfloat inv_texel; /* texels per world unit */
@@ -145,6 +150,9 @@ typedef struct {
     uint8_t tight;  /* beyond the tile, and within a filter's reach of its border, nothing casts */
     uint8_t unseen; /* no visible receiver looks into it: an empty tile of 8 x 8 texels that all such views share */
 #endif
+#if GN_CHANGES
+    uint8_t squares_log2, square_log2, first_square; /* see gn_squares */
+#endif
 #if GN_DISK_FILTER
     gn_depth_block *block; /* (T / 8) * (T / 8), of the disk filter alone: gn_blocks.h */
 #endif
@@ -165,6 +173,9 @@ typedef struct {
     int32_t planar;                       /* 0: of this view there is no window, -1: of single cells alone */
     int32_t slope_q30[2];                 /* change of the plane's depth per texel, a fraction of the range */
     int32_t front_q30, behind_q30;        /* depths so far in front of the plane, and behind it, are in doubt */
+#if GN_CHANGES
+    gn_squares *squares; /* to note what is compared */
+#endif
     int32_t until_x;                      /* gn_lattice: columns of the screen that it was made for */
     int32_t u0, v0, w, h;                 /* texels, w = 0: none yet */
     int32_t plain;                        /* all of them in the tile, of 16 bits */

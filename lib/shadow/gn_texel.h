@@ -7,6 +7,7 @@
 #include <stdint.h>
 
 #include "base/gn_base_types.h"
+#include "base/gn_math.h"
 #include "base/gn_q.h"
 #include "gnomon.h"
 
@@ -59,6 +60,14 @@ GN_HOT static inline int gn_beyond_tile(const gn_light_view *view, int32_t u_lo_
     return GN_TIGHT(view) &&
            ((u_hi_q16 | v_hi_q16) < 0 || u_lo_q16 >> 16 >= view->tile_texels || v_lo_q16 >> 16 >= GN_TILE_ROWS(view));
 }
+
+#if GN_CHANGES
+/* Notes the squares of w x h texels from (u, v) on, which may lie outside the tile: those at its border, then. [R13] */
+void gn_note_texels(gn_squares *squares, const gn_light_view *view, int32_t u, int32_t v, int32_t w, int32_t h);
+#define GN_NOTE_TEXELS(squares, view, u, v, w, h) gn_note_texels(squares, view, u, v, w, h)
+#else
+#define GN_NOTE_TEXELS(squares, view, u, v, w, h) ((void)0)
+#endif
 
 /* ---- Rows of texels of 16 bits that are compared at once --------------------------------------------------------- */
 

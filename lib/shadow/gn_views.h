@@ -134,6 +134,14 @@ void gn_kept_set(gn_frame *frame, uint32_t view_idx, gn_layer layer, uint64_t si
 /* Whether the tile of view `view_idx` is kept from an earlier frame. */
 int gn_kept_holds(const gn_frame *frame, uint32_t view_idx);
 
+/* ---- Squares of shadow maps [R13] -------------------------------------------------------------------------------- */
+
+/* Sets where the squares of all views lie; adds what lookups in a view depend on beside texels to a signature; notes
+ * which squares of a view's tile, which has been drawn, have changed. */
+void gn_kept_find_squares(gn_frame *frame);
+uint64_t gn_kept_sign_view(const gn_frame *frame, uint32_t view_idx, uint64_t signature);
+void gn_kept_note_squares(gn_frame *frame, uint32_t view_idx);
+
 /* ---- The static layer: static casters, kept apart from moving ones from frame to frame --------------------------- */
 
 /* The view's texels in the static layer. */

@@ -24,7 +24,7 @@ static long put(layout *l, long n, long size, long align)
 static long put_atlas(layout *l, const settings *s, long side, long texels, long depth_bits)
 {
     if (!texels) texels = side * side;
-    long bytes = 0, layers = s->feature.incremental > 1 ? 2 : 1;
+    long bytes = 0, layers = s->feature.incremental > 2 ? 2 : 1;
     for (long i = 0; i < layers; i++) bytes += put(l, texels * depth_bits / 8, 1, 4);
     if (s->feature.shadows > 5) bytes += put(l, texels / 64, 4, 2);
     return bytes;
