@@ -78,13 +78,14 @@ void gn_shade_tile(const gn_frame *frame, gn_scratch *scratch, uint32_t tile_idx
 /* Signs a valid scene, before its frame begins. Returns 1 if the frame that is prepared shows it. */
 int gn_changes_sign(gn_frame *frame, const gn_scene *scene);
 
-/* A frame begins: after gn_changes_sign (`is_signed`), or of a caller who does not ask for changes. Then: once views are
- * set up; once all shadow tiles are drawn, and triangles counted. */
+/* A frame begins: after gn_changes_sign (`is_signed`), or of a caller who does not ask for changes. Then: once views
+ * are set up; once all shadow tiles are drawn, and triangles counted. */
 void gn_changes_begin(gn_frame *frame, int is_signed);
 void gn_changes_views(gn_frame *frame);
 void gn_changes_prepare(gn_frame *frame);
 
-/* Whether the panel shows the tile as the frame has it. If not, it is to be drawn, and the panel is noted to show it. */
+/* Whether the panel shows the tile as the frame has it. If not, it is to be drawn, and the panel is noted to show it.
+ */
 int gn_changes_shown(const gn_frame *frame, uint32_t tile_idx, gn_panel *panel);
 
 /* Whether the panel shows all of the frame that is prepared, of a scene that gn_changes_sign has found again. */

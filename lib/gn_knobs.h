@@ -111,8 +111,9 @@
     X(incremental, INCREMENTAL, 0, 3,                                                                                  \
       "what is kept from frame to frame while nothing in it changes: 1 shadow tiles; 2 also screen tiles, by "         \
       "gn_render_changes; 3 also static casters apart from moving ones; a single picture does not show it",            \
-      "16 bytes per shadow tile; 2: 16 per screen tile in gn_panel, 8 per object and per light, 0.6 KB; 3: the RAM of " \
-      "the atlases twice; the same picture with and without")                         \
+      "16 bytes per shadow tile; 2: 40 per screen tile in gn_panel, 8 per object and per light, 2.1 KB; 3: the RAM "   \
+      "of "                                                                                                            \
+      "the atlases twice; the same picture with and without")                                                          \
     X(vertex_values, VERTEX_VALUES, 0, 3, "values of vertices that are interpolated, the sum: 1 normals; 2 colours",   \
       "flash; 1: a reciprocal root per sample; 2: three multiplications per sample")                                   \
     X(vertex_joints, VERTEX_JOINTS, 0, 4, "skins: the most joints that move a vertex; 0: no skins",                    \

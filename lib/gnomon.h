@@ -335,8 +335,8 @@ gn_status gn_pick(gn_renderer *r, uint32_t x, uint32_t y, uint32_t *object_idx, 
 /* Forgets what is kept from earlier frames: call it after changing mesh or texture data in place. */
 void gn_forget_shadows(gn_renderer *r);
 
-/* What the panel shows: signatures of each screen tile, by which only what differs is sent. Clear it (memset 0) when the
- * panel's content is unknown. Two different tiles have the same signature with probability 2^-64.
+/* What the panel shows: signatures of each screen tile, by which only what differs is sent. Clear it (memset 0) when
+ * the panel's content is unknown. Two different tiles have the same signature with probability 2^-64.
  *
  * With GN_INCREMENTAL 2 a tile is not even drawn if nothing changed that it depends on: camera, settings, its objects
  * and their joints, lights, texels of shadow maps that it looked up. That nothing changed at all takes less than 3 % of

@@ -45,6 +45,8 @@ typedef struct {
 #define GN_KEEP(v) __asm__ volatile("" : "+r"(v))
 /* For a function that is seldom called from a hot one: inlined, it would take registers. */
 #define GN_NOINLINE __attribute__((noinline))
+/* Bytes to words: a load or two each, where memcpy would be called (-ffreestanding). */
+#define GN_COPY_WORDS(to, from, n) __builtin_memcpy(to, from, n)
 /* For a function that runs a few times in a frame, and what it alone calls: few bytes before few instructions. */
 #define GN_COLD __attribute__((cold))
 /* Intended fall-through from one case into the next. */
@@ -54,6 +56,7 @@ typedef struct {
 #else
 #define GN_KEEP(v) ((void)0)
 #define GN_NOINLINE
+#define GN_COPY_WORDS(to, from, n) memcpy(to, from, n)
 #define GN_COLD
 #define GN_GOES_ON   ((void)0)
 #define GN_SELDOM(c) (c)

@@ -341,13 +341,14 @@ GN_HOT GN_NOINLINE uint64_t gn_far_signature_add(uint64_t signature, uint64_t wo
 GN_HOT uint64_t gn_signature_bytes(uint64_t signature, const void *bytes, size_t n)
 {
     const uint8_t *at = (const uint8_t *)bytes;
-    uint32_t word[2] = {0, 0};
-    for (; n >= sizeof word; n -= sizeof word, at += sizeof word) {
-        memcpy(&word[0], at, 4), memcpy(&word[1], at + 4, 4); /* one of 8 bytes is a call */
+    for (; n >= 8; n -= 8, at += 8) {
+        uint32_t word[2];
+        GN_COPY_WORDS(word, at, sizeof word);
         signature = gn_signature_add_inline(signature, (uint64_t)word[1] << 32 | word[0]);
     }
-    for (word[0] = word[1] = 0; n; n--) word[n & 1] = word[n & 1] << 8 | *at++;
-    return gn_signature_add_inline(signature, (uint64_t)word[1] << 32 | word[0]);
+    uint64_t rest = n;
+    for (; n; n--) rest = rest << 8 | *at++;
+    return gn_signature_add_inline(signature, rest);
 }
 
 /* By halves: what is above the lower product's upper half carries. */

@@ -41,8 +41,7 @@ GN_COLD int gn_changes_sign(gn_frame *frame, const gn_scene *scene)
     s = gn_signature_add(s, (uint64_t)scene->n_objects << 32 | scene->n_lights);
     for (uint32_t i = 0; i < scene->n_objects; i++)
         s = gn_signature_add(s, sign->object[i] = gn_sign_object(&scene->objects[i]));
-    for (uint32_t i = 0; i < scene->n_lights; i++)
-        s = gn_signature_add(s, gn_sign_light(&scene->lights[i]));
+    for (uint32_t i = 0; i < scene->n_lights; i++) s = gn_signature_add(s, gn_sign_light(&scene->lights[i]));
     sign->scene = not_0(s);
     return frame->stage == GN_STAGE_PREPARED && sign->scene == before;
 }
@@ -53,14 +52,14 @@ void gn_changes_begin(gn_frame *frame, int is_signed)
     if (!is_signed) sign->scene = 0;
     sign->before = frame->stage == GN_STAGE_PREPARED ? sign->now : 0;
     sign->now = 0;
-    sign->changed = 0;
+    memset(&sign->changed, 0, sizeof sign->changed);
 }
 
 /* A light's, and how its shadow maps lie. */
 GN_COLD void gn_changes_views(gn_frame *frame)
 {
     gn_frame_sign *sign = &frame->sign;
-    uint64_t s = gn_signature_add(sign->settings, frame->n_views);
+    uint64_t s = sign->settings;
 #if GN_SHADOWS
     gn_kept_find_squares(frame);
 #endif
@@ -153,7 +152,10 @@ GN_COLD int gn_changes_shown(const gn_frame *frame, uint32_t tile_idx, gn_panel 
     if (!sign->now) return 0;
     *shown = not_0(gn_signature_add(s, sign->now));
     if (was == *shown) return 1;
-    return sign->before && was == not_0(gn_signature_add(s, sign->before)) && !(panel->squares[tile_idx] & sign->changed);
+    if (!sign->before || was != not_0(gn_signature_add(s, sign->before))) return 0;
+    uint32_t seen = 0;
+    for (int i = 0; i < GN_SQUARES / 32; i++) seen |= panel->squares[tile_idx].word[i] & sign->changed.word[i];
+    return !seen;
 }
 
 GN_COLD int gn_changes_none(gn_frame *frame, const gn_scene *scene, const gn_panel *panel)

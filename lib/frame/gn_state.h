@@ -151,7 +151,7 @@ typedef struct gn_scratch {
     gn_tri_source drawn[1 + GN_MAX_TRIANGLES]; /* the tile's triangles by their identities: none is 0 */
 #endif
 #if GN_CHANGES
-    gn_squares squares; /* that the tile's lookups read */
+    gn_squares squares;                        /* that the tile's lookups read */
 #endif
 #if GN_LAYERS_MAX
     gn_layers layers;

@@ -69,8 +69,8 @@ GN_COLD uint64_t gn_sign_object(const gn_object *object)
     s = gn_signature_add(sign_pointer(s, mesh->uv), mesh->uv_frac_bits);
     s = sign_pointer(s, mesh->rgb_uq16);
     s = sign_pointer(s, mesh->mask_uv_uq16);
-    s = gn_signature_add(s, (uint64_t)object->flags << 32 | (uint64_t)object->visible_alpha << 8 |
-                                object->shininess_log2);
+    s = gn_signature_add(s,
+                         (uint64_t)object->flags << 32 | (uint64_t)object->visible_alpha << 8 | object->shininess_log2);
     s = SIGN_FIELDS(s, object, albedo_uq16, albedo_uq16);
     s = SIGN_FIELDS(s, object, alpha_uq16, specular_uq16);
     s = SIGN_FIELDS(s, object, emissive_uq16, emissive_uq16);

@@ -87,42 +87,58 @@ void gn_kept_set(gn_frame *frame, uint32_t view_idx, gn_layer layer, uint64_t si
 /* ---- Squares of shadow maps: which texels changed [R13] ---------------------------------------------------------- */
 
 #if GN_CHANGES
-GN_HOT GN_NOINLINE void gn_note_texels(gn_squares *squares, const gn_light_view *view, int32_t u, int32_t v,
-                                         int32_t w, int32_t h)
+GN_HOT GN_NOINLINE void gn_note_texels(gn_squares *squares, const gn_light_view *view, int32_t u, int32_t v, int32_t w,
+                                       int32_t h)
 {
     const int32_t right = view->tile_texels - 1, bottom = GN_TILE_ROWS(view) - 1, log2 = view->square_log2;
-    const uint32_t row = (2U << (gn_max32(0, gn_min32(u + w - 1, right)) >> log2)) -
-                         (1U << (gn_max32(0, gn_min32(u, right)) >> log2));
-    uint64_t all = 0;
-    for (int32_t at = gn_max32(0, gn_min32(v, bottom)) >> log2,
-                 end = gn_max32(0, gn_min32(v + h - 1, bottom)) >> log2;
-         at <= end; at++)
-        all |= (uint64_t)row << (at << view->squares_log2);
-    *squares |= all << view->first_square;
+    const int32_t left = gn_max32(0, gn_min32(u, right)) >> log2, top = gn_max32(0, gn_min32(v, bottom)) >> log2;
+    const int32_t n = (gn_max32(0, gn_min32(u + w - 1, right)) >> log2) - left + 1;
+    int32_t n_rows = (gn_max32(0, gn_min32(v + h - 1, bottom)) >> log2) - top + 1;
+    for (uint32_t at = view->first_square + (uint32_t)(top * view->n_columns + left); n_rows--; at += view->n_columns)
+        for (uint32_t bit = at; bit < at + (uint32_t)n; bit++)
+            squares->word[bit / 32 % (GN_SQUARES / 32)] |= 1U << bit % 32;
 }
+
 GN_HOT GN_NOINLINE void gn_note_lookup(gn_squares *squares, const gn_frame *frame, const gn_light_view *view,
-                                         const gn_receiver *receiver)
+                                       const gn_receiver *receiver)
 {
     const int32_t reach = view->filter_idx + 2 + GN_VIEW_EDGE(frame, view), n = 2 * reach + 1;
     gn_note_texels(squares, view, (receiver->u_q16 >> 16) - reach, (receiver->v_q16 >> 16) - reach, n, n);
 }
+static int32_t columns_of(const gn_light_view *view, int32_t square_log2)
+{
+    return (view->tile_texels + (1 << square_log2) - 1) >> square_log2;
+}
+
+static int32_t rows_of(const gn_light_view *view, int32_t square_log2)
+{
+    return (GN_TILE_ROWS(view) + (1 << square_log2) - 1) >> square_log2;
+}
+
+/* Squares are as large in all views, and as small as their number allows. */
 GN_COLD void gn_kept_find_squares(gn_frame *frame)
 {
-    const int32_t log2 = frame->n_views <= 1 ? 3 : frame->n_views <= 4 ? 2 : frame->n_views <= 16 ? 1 : 0;
+    int32_t log2 = 2, n = GN_SQUARES + 1;
+    while (n > GN_SQUARES && log2 < 10) {
+        log2++, n = 0;
+        for (uint32_t v = 0; v < frame->n_views; v++)
+            n += columns_of(&frame->view[v], log2) * rows_of(&frame->view[v], log2);
+    }
+    n = 0;
     for (uint32_t v = 0; v < frame->n_views; v++) {
         gn_light_view *view = &frame->view[v];
-        view->squares_log2 = (uint8_t)log2;
-        view->square_log2 = 3;
-        while (GN_TILE_SIDE(view) > 1 << (view->square_log2 + log2)) view->square_log2++;
-        view->first_square = (uint8_t)(v << 2 * log2) % GN_SQUARES; /* more than 64 views share them */
+        view->square_log2 = (uint8_t)log2;
+        view->n_columns = (uint8_t)columns_of(view, log2);
+        view->first_square = (uint8_t)(n % GN_SQUARES); /* more views than squares share them */
+        n += view->n_columns * rows_of(view, log2);
     }
 }
 
 /* Of a square's texels. */
 static uint64_t sign_square(const gn_light_view *view, uint32_t view_idx, int32_t u, int32_t v)
 {
-    const int32_t bits = GN_VIEW_BITS(view), side = 1 << view->square_log2,
-                  w = gn_min32(view->tile_texels - u, side), end = gn_min32(GN_TILE_ROWS(view), v + side);
+    const int32_t bits = GN_VIEW_BITS(view), side = 1 << view->square_log2, w = gn_min32(view->tile_texels - u, side),
+                  end = gn_min32(GN_TILE_ROWS(view), v + side);
     uint64_t s = gn_signature_add(GN_SIGNATURE_SEED, view_idx);
     for (; v < end; v++) {
         const gn_texels row = gn_texels_at(view->depth, bits, (size_t)(v * view->tile_texels + u));
@@ -141,9 +157,9 @@ GN_COLD void gn_kept_note_squares(gn_frame *frame, uint32_t view_idx)
     const int32_t log2 = view->square_log2;
     for (int32_t v = 0; v < GN_TILE_ROWS(view); v += 1 << log2)
         for (int32_t u = 0; u < view->tile_texels; u += 1 << log2) {
-            const int32_t at = view->first_square + (v >> log2 << view->squares_log2) + (u >> log2);
+            const int32_t at = (view->first_square + (v >> log2) * view->n_columns + (u >> log2)) % GN_SQUARES;
             const uint64_t s = sign_square(view, view_idx, u, v);
-            if (frame->sign.square[at] != s) frame->sign.changed |= (gn_squares)1 << at;
+            if (frame->sign.square[at] != s) frame->sign.changed.word[at / 32] |= 1U << at % 32;
             frame->sign.square[at] = s;
         }
 }
@@ -156,7 +172,8 @@ GN_COLD uint64_t gn_kept_sign_view(const gn_frame *frame, uint32_t view_idx, uin
 #if GN_AUTO_BIAS
     s = gn_signature_add(s, (uint64_t)(uint32_t)view->auto_step << 32 | (uint32_t)view->auto_place);
 #endif
-    return gn_signature_add(s, (uint64_t)view_idx << 32 | (uint64_t)view->tile_log2 << 24 |
+    return gn_signature_add(s, (uint64_t)view_idx << 48 | (uint64_t)view->first_square << 40 |
+                                   (uint64_t)view->square_log2 << 32 | (uint64_t)view->tile_log2 << 24 |
                                    (uint64_t)view->cascade_idx << 16 | (uint64_t)view->filter << 12 |
                                    (uint64_t)view->filter_idx << 4 | (uint64_t)(GN_UNSEEN(view) << 3) |
                                    (uint64_t)(GN_TIGHT(view) << 2) | (uint64_t)(view->border_lit << 1) | view->empty);

@@ -87,10 +87,12 @@ typedef struct {
     uint16_t lo, hi; /* the upper 16 bits of depth, whatever depth_bits */
 } gn_depth_block;    /* see gn_blocks.h */
 
-/* Squares of shadow maps, a bit each: a view's tile has 2^squares_log2 of them along either axis, of 2^square_log2 texels
- * each way; their bits are those from first_square on, row by row. */
-typedef uint64_t gn_squares;
-enum { GN_SQUARES = 64 };
+/* Squares of shadow maps, a bit each: those of a view's tile, of 2^square_log2 texels each way, are the ones from
+ * first_square on, row by row, n_columns in a row. */
+enum { GN_SQUARES = 256 };
+typedef struct {
+    uint32_t word[GN_SQUARES / 32];
+} gn_squares;
 
 /* Orthographic: whole texels of a grid that is fixed in the world. */
 typedef struct {
@@ -151,7 +153,7 @@ typedef struct {
     uint8_t unseen; /* no visible receiver looks into it: an empty tile of 8 x 8 texels that all such views share */
 #endif
 #if GN_CHANGES
-    uint8_t squares_log2, square_log2, first_square; /* see gn_squares */
+    uint8_t square_log2, n_columns, first_square; /* see gn_squares */
 #endif
 #if GN_DISK_FILTER
     gn_depth_block *block; /* (T / 8) * (T / 8), of the disk filter alone: gn_blocks.h */
@@ -169,10 +171,10 @@ enum { GN_WINDOW_TEXELS = 32, GN_WINDOWS = GN_VIEWS_MAX >= 4 ? 4 : GN_VIEWS_MAX 
 enum { GN_WINDOW_LIT, GN_WINDOW_DARK, GN_WINDOW_MIXED, GN_WINDOW_MISSED };
 
 typedef struct {
-    const gn_light_view *view;            /* NULL: none */
-    int32_t planar;                       /* 0: of this view there is no window, -1: of single cells alone */
-    int32_t slope_q30[2];                 /* change of the plane's depth per texel, a fraction of the range */
-    int32_t front_q30, behind_q30;        /* depths so far in front of the plane, and behind it, are in doubt */
+    const gn_light_view *view;     /* NULL: none */
+    int32_t planar;                /* 0: of this view there is no window, -1: of single cells alone */
+    int32_t slope_q30[2];          /* change of the plane's depth per texel, a fraction of the range */
+    int32_t front_q30, behind_q30; /* depths so far in front of the plane, and behind it, are in doubt */
 #if GN_CHANGES
     gn_squares *squares; /* to note what is compared */
 #endif
