@@ -20,7 +20,7 @@ OWN_SCENES := $(foreach s,cube sundial avenue desk room fence mixed,host/scenes/
 WERROR ?=
 WARN := -Wall -Wextra -Wconversion -Wsign-conversion -Wdouble-promotion -Wshadow -Wundef $(WERROR)
 # Room for any scene.
-ROOM := -DGN_SEPARATE_FILES -DGN_PICTURES=15 -DGN_VALIDATION=2 -DGN_INCREMENTAL=2 -DGN_MANY_CASCADES=3 -DGN_MAX_WIDTH=2048 -DGN_MAX_HEIGHT=2048 -DGN_MAX_TRIANGLES=65534 \
+ROOM := -DGN_SEPARATE_FILES -DGN_PICTURES=15 -DGN_VALIDATION=2 -DGN_INCREMENTAL=3 -DGN_MANY_CASCADES=3 -DGN_MAX_WIDTH=2048 -DGN_MAX_HEIGHT=2048 -DGN_MAX_TRIANGLES=65534 \
   -DGN_MAX_TILE_REFS=1000000 -DGN_MAX_LIGHTS=64 -DGN_SURFACE_LIGHTS=64 -DGN_MAX_OBJECTS=65535 -DGN_MAX_SHADOW_TILES=16 \
   -DGN_MAX_OTHER_TILES=16
 # The host build of the library: every knob at run time. The pixels are the target's, bit for bit. For the tests alone: CONSTANTS.

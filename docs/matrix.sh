@@ -27,7 +27,8 @@ most() {
     MANY_CASCADES | BIASES | OTHER_LIGHTS | VERTEX_VALUES) echo 3 ;;
     PICTURES) echo 7 ;;
     MATERIALS) echo 15 ;;
-    INCREMENTAL | TILE_SIZES | CLIPPING) echo 2 ;;
+    INCREMENTAL) echo 3 ;;
+    TILE_SIZES | CLIPPING) echo 2 ;;
     *) echo 1 ;;
     esac
 }
@@ -81,7 +82,7 @@ scene() {
     "$tool" compile "$file" -o "$work/full-$1" --size 160x120 --set output=rgb565 --set preset=$preset --simplify none >"$work/log"
     for feature in $features; do
         value=$(most "$feature")
-        [ $feature != INCREMENTAL ] || value=1 # 2: twice the RAM, of no use to most
+        [ $feature != INCREMENTAL ] || value=1 # 3: twice the RAM, of no use to most
         sed "s/^\(#define GN_$feature\)  *[0-9]*/\1 $value/" "$work/full-$1/gn_scene_config.h" >"$work/config.h"
         mv "$work/config.h" "$work/full-$1/gn_scene_config.h"
     done

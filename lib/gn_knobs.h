@@ -108,10 +108,12 @@
       "biases beside constant, slope and normal ones, their sum: 1 automatic; 2 of the receiver, in four terms, "      \
       "casters shrunk along their normals, the receiver's plane per tap",                                              \
       "flash")                                                                                                         \
-    X(incremental, INCREMENTAL, 0, 2,                                                                                  \
-      "1: shadow tiles are kept from frame to frame while nothing in them changes; 2: also static casters apart from " \
-      "moving ones; a single picture does not show it",                                                                \
-      "16 bytes per tile; 2: the RAM of the atlases twice; the same picture with and without")                         \
+    X(incremental, INCREMENTAL, 0, 3,                                                                                  \
+      "what is kept from frame to frame while nothing in it changes: 1 shadow tiles; 2 also screen tiles, by "         \
+      "gn_render_changes; 3 also static casters apart from moving ones; a single picture does not show it",            \
+      "16 bytes per shadow tile; 2: 40 per screen tile in gn_panel, 8 per object and per light, 2.1 KB; 3: the RAM "   \
+      "of "                                                                                                            \
+      "the atlases twice; the same picture with and without")                                                          \
     X(vertex_values, VERTEX_VALUES, 0, 3, "values of vertices that are interpolated, the sum: 1 normals; 2 colours",   \
       "flash; 1: a reciprocal root per sample; 2: three multiplications per sample")                                   \
     X(vertex_joints, VERTEX_JOINTS, 0, 4, "skins: the most joints that move a vertex; 0: no skins",                    \
@@ -166,7 +168,8 @@ enum { GN_QUALITY_KNOBS(GN_KNOB_CONSTANT_) gn_knob_end };
 #define GN_FORMATS          ((GN_TEXTURE_FORMATS)&1023)
 #define GN_TEXTURES         (GN_FORMATS != 0)
 #define GN_MIPMAPS          ((GN_TEXTURE_FORMATS) >= 1024)
-#define GN_STATIC_LAYER     ((GN_INCREMENTAL) >= 2)
+#define GN_CHANGES          ((GN_INCREMENTAL) >= 2)
+#define GN_STATIC_LAYER     ((GN_INCREMENTAL) >= 3)
 #define GN_TILE_IMPORTANCE  ((GN_TILE_SIZES) >= 1)
 #define GN_TIGHT_FIT        ((GN_SHADOWS) && (GN_TILE_SIZES) >= 2)
 #define GN_CASTER_ALPHA     (GN_ALPHA)

@@ -86,7 +86,7 @@ enum {
     GN_OBJECT_UNLIT = 8,
     GN_OBJECT_HIDDEN = 16,          /* casts, but is not seen */
     GN_OBJECT_CASTS_TWO_SIDED = 32, /* two-sided as a caster only */
-    GN_OBJECT_MOVING = 64,          /* with GN_INCREMENTAL 2 its shadow is drawn over a kept one of the others */
+    GN_OBJECT_MOVING = 64,          /* with GN_INCREMENTAL 3 its shadow is drawn over a kept one of the others */
     GN_OBJECT_DEFAULT = GN_OBJECT_CASTS | GN_OBJECT_RECEIVES
 };
 

@@ -10,22 +10,15 @@
 #include "gnomon.h"
 
 /* Fixed-point arithmetic and tables. */
-#include "base/gn_curves.c"
 #include "base/gn_math.c"
-#include "base/gn_q.c"
 #include "base/gn_tables.c"
 
 /* Transforms; validation of the caller's scene. */
 #include "geometry/gn_affine.c"
-#include "scene/gn_defaults.c"
 #include "scene/gn_pose.c"
 #include "scene/gn_scene.c"
-#include "scene/gn_sides.c"
-#if GN_ERROR_FIELDS
-#include "scene/gn_field.c"
-#endif
-#if GN_VERTEX_JOINTS
-#include "scene/gn_scene_skin.c"
+#if GN_INCREMENTAL
+#include "scene/gn_sign.c"
 #endif
 
 /* Screen tiles and pixels. */
@@ -33,44 +26,24 @@
 #include "visible/gn_screen_rect.c"
 
 #if GN_COMPACT
-#include "compact/gn_compact_clip.c"
-#include "compact/gn_compact_point.c"
-#include "compact/gn_compact_shade.c"
 #include "compact/gn_compact_triangle.c"
+#include "compact/gn_compact_shade.c"
 #include "compact/gn_compact_views.c"
 #else
 /* Triangles: planes, clipping, edge walks, textures. */
-#include "geometry/gn_clip.c"
 #include "geometry/gn_plane.c"
-#include "geometry/gn_walk.c"
 #include "geometry/gn_xform.c"
-#if GN_VERTEX_JOINTS
-#include "geometry/gn_skin.c"
-#endif
 #if GN_TEXTURES
 #include "geometry/gn_texture.c"
 #include "geometry/gn_texture_row.c"
 #endif
-#if GN_MIPMAPS
-#include "geometry/gn_texture_level.c"
-#endif
-#if GN_MASKS
-#include "geometry/gn_mask.c"
-#endif
-#if GN_CASTER_ALPHA || GN_VISIBLE_ALPHA
+#if GN_CASTER_ALPHA || GN_VISIBLE_ALPHA || GN_MASKS
 #include "geometry/gn_alpha.c"
-#if GN_TEXTURES
-#include "geometry/gn_alpha_coords.c"
-#endif
 #endif
 
 /* Lights: which light affects which object, cascades, falloff, bias. */
 #include "light/gn_lights.c"
-#if GN_BOXES
-#include "light/gn_object.c"
-#endif
 #if GN_PUNCTUAL_LIGHTS
-#include "light/gn_light_list.c"
 #include "light/gn_punctual.c"
 #endif
 
@@ -78,21 +51,12 @@
 #include "shadow/gn_views.c"
 #if GN_SHADOWS
 #include "light/gn_bias.c"
-#include "light/gn_cascade.c"
 #include "shadow/gn_atlas.c"
 #include "shadow/gn_caster.c"
-#include "shadow/gn_cull.c"
-#include "shadow/gn_edge.c"
 #include "shadow/gn_filter.c"
-#include "shadow/gn_light_views.c"
-#include "shadow/gn_lookup.c"
 #include "shadow/gn_ortho.c"
 #include "shadow/gn_ortho_fit.c"
 #include "shadow/gn_tiles.c"
-#if GN_AUTO_BIAS
-#include "light/gn_auto_bias.c"
-#include "light/gn_auto_bias_view.c"
-#endif
 #if GN_PUNCTUAL_LIGHTS
 #include "shadow/gn_persp.c"
 #endif
@@ -100,76 +64,51 @@
 #include "shadow/gn_seen.c"
 #include "shadow/gn_seen_directions.c"
 #endif
-#if GN_OBJECT_BOXES
-#include "shadow/gn_cull_boxes.c"
-#endif
-#if GN_CASTER_CULLING
-#include "shadow/gn_cull_cascades.c"
-#endif
-#if GN_FILTER_MAX >= 2
-#include "shadow/gn_tent.c"
-#endif
 #if GN_DISK_FILTER
 #include "shadow/gn_disk.c"
 #endif
 #if GN_INTERPOLATES
 #include "shadow/gn_window.c"
 #endif
-#if GN_DISK_FILTER
-#include "shadow/gn_blocks.c"
-#endif
 #if GN_INCREMENTAL
 #include "shadow/gn_kept.c"
-#endif
-#if GN_STATIC_LAYER
-#include "shadow/gn_static_layer.c"
 #endif
 #endif
 
 /* Visible surfaces of a screen tile. */
-#include "visible/gn_bin.c"
-#include "visible/gn_raster.c"
 #include "visible/gn_runs.c"
+#include "visible/gn_raster.c"
 #include "visible/gn_screen_triangle.c"
 #include "visible/gn_setup.c"
 
 /* Their colours. */
-#include "shade/gn_arrival.c"
-#include "shade/gn_exact.c"
-#include "shade/gn_join.c"
+#include "shade/gn_light.c"
+#include "shade/gn_shade.c"
+#include "shade/gn_surface_lights.c"
 #if GN_INTERPOLATES
 #include "shade/gn_corner.c"
-#include "shade/gn_corner_cascade.c"
-#include "shade/gn_corner_pixel.c"
 #include "shade/gn_corner_place.c"
-#include "shade/gn_corner_punctual.c"
 #include "shade/gn_corner_screen.c"
 #include "shade/gn_lattice.c"
-#include "shade/gn_lattice_border.c"
+#include "shade/gn_lattice_window.c"
 #include "shade/gn_lattice_draw.c"
 #include "shade/gn_lattice_even.c"
 #include "shade/gn_lattice_texture.c"
 #include "shade/gn_lattice_look.c"
 #include "shade/gn_lattice_shadow.c"
-#include "shade/gn_lattice_window.c"
-#include "shade/gn_levels.c"
 #include "shade/gn_part.c"
 #include "shade/gn_patch.c"
 #include "shade/gn_patch_light.c"
 #include "shade/gn_patch_shadow.c"
-#include "shade/gn_patch_texture.c"
 #include "shade/gn_record.c"
 #endif
-#include "shade/gn_light.c"
 #include "shade/gn_sample.c"
-#include "shade/gn_shade.c"
 #include "shade/gn_shadow.c"
 #include "shade/gn_surface.c"
-#include "shade/gn_surface_lights.c"
-#include "visible/gn_layers.c"
-#include "shade/gn_mix.c"
-#include "visible/gn_pick.c"
 #endif
 
 /* The calls of gnomon.h: a frame, stage by stage. */
+#if GN_CHANGES
+#include "frame/gn_changes.c"
+#endif
 #include "frame/gn_frame.c"

@@ -52,7 +52,7 @@ void gn_port_before_dma(const void *bytes, size_t n_bytes);
  *
  * Replaced by name, in the port's header:
  *   #define gn_kernel_dark_texels16 gn_port_dark_texels16
- *                     16-bit shadow texels under a tent; lib/base/gn_kernel.h defines it
+ *                     16-bit shadow texels under a tent; lib/base/gn_q.h defines it
  *
  * Replaced by linking:
  *   memset            clears screen tiles and shadow tiles: many whole words. The C library defines its behaviour

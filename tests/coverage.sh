@@ -23,7 +23,7 @@ shipped() {
         SCENES=25000 "$build/shipped/$name" 20000 >/dev/null || echo "$name failed"
 }
 shipped tiny tests/property/test_random.c -DGN_PRESET=GN_PRESET_TINY
-shipped accurate tests/property/test_random.c -DGN_PRESET=GN_PRESET_ACCURATE -DGN_ATLAS_SIZE=128 -DGN_OTHER_ATLAS_SIZE=64 -DGN_INCREMENTAL=2 -DGN_MANY_CASCADES=3
+shipped accurate tests/property/test_random.c -DGN_PRESET=GN_PRESET_ACCURATE -DGN_ATLAS_SIZE=128 -DGN_OTHER_ATLAS_SIZE=64 -DGN_INCREMENTAL=3 -DGN_MANY_CASCADES=3
 shipped accurate-defaults tests/unit/test_defaults.c -DGN_PRESET=GN_PRESET_ACCURATE -DGN_ATLAS_SIZE=128 -DGN_OTHER_ATLAS_SIZE=128
 shipped fast tests/property/test_random.c -DGN_CORE_DIVIDES=1 -DGN_PRESET=GN_PRESET_FAST -DGN_ATLAS_SIZE=32 -DGN_OTHER_ATLAS_SIZE=128
 shipped least tests/property/test_random.c -DGN_PRESET=GN_PRESET_TINY -DGN_OTHER_LIGHTS=2 -DGN_MATERIALS=3 -DGN_BIASES=1 \

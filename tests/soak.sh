@@ -3,6 +3,7 @@
 # goes to build/soak.log: date, commit, campaign, seed, scenes, result. usage: [SEED=n] [SCENES=n] [MODELS="a.obj b.glb"] [MINUTES=n] [CAMPAIGNS="random census"] soak.sh
 #
 # random    10^6 random scenes: nothing undefined, nothing changed that was kept (tests/property/test_random.c), some minutes
+# unchanged 10^6 frames in which little changes, against fresh renderers (tests/property/test_unchanged.c), an hour
 # shipped   10^5 random scenes of each configuration that ships, and with poisoned gaps in the state (tests/property/test_shipped.sh), half an hour
 # fuzz      scenes and files by coverage, where Clang has libFuzzer (tests/property/test_random.c, tests/tool/test_fuzz.c), MINUTES=60 each
 # extremes  20000 random scenes against the reference (tests/oracle/test_extremes_many.c), about an hour
@@ -19,7 +20,7 @@
 # suite     make test with THOROUGH=1: also the combinations whose parts it tests each, and every program under the sanitizers of both compilers, an hour
 cd "$(dirname "$0")/.." || exit 1
 build=build/soak
-: "${SEED:=$(date +%Y%m%d)}" "${CAMPAIGNS:=random shipped fuzz files panels math culling fit valley census accuracy rows seams views machines suite ${MODELS:+models }extremes}"
+: "${SEED:=$(date +%Y%m%d)}" "${CAMPAIGNS:=random unchanged shipped fuzz files panels math culling fit valley census accuracy rows seams views machines suite ${MODELS:+models }extremes}"
 asked=$SCENES
 passed=0 failed=0
 
@@ -117,7 +118,7 @@ record() { # record STATUS NAME: what its last line counts
 mkdir -p $build
 for name in $CAMPAIGNS; do
     case $name in
-    random) campaign random 1000000 ;;
+    random | unchanged) campaign $name 1000000 ;;
     files | panels) campaign $name 1000000 ;;
     extremes) campaign extremes 20000 ;;
     fit) campaign fit 1000 ;;

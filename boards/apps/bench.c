@@ -4,6 +4,9 @@
  *   make emulate BOARD=... APP=bench SCENE=FILE ARGS=N   frame N of a scene, configured for it
  *   make emulate BOARD=... APP=bench SCENE=FILE ARGS="N M"
  *                                                        from frame N to M, shadow tiles kept; then still
+ *   ... ARGS="N M K"                                     and the last one K times more
+ *
+ * With SCENE_FLAGS="--set incremental=2" by gn_render_changes, which draws only what changed.
  *
  * Prints by what the instructions are divided. With CYCLES=1, the default of boards that QEMU does not run, also the
  * cycles of each picture.
@@ -38,15 +41,25 @@ static void print_count(const char *name, uint32_t n)
     board_print("\n");
 }
 
+static gn_status render(const gn_scene *scene)
+{
+#if GN_CHANGES
+    static gn_panel shown;
+    return gn_render_changes(&renderer, scene, &shown, bench_flush, NULL, NULL);
+#else
+    return gn_render(&renderer, scene, bench_flush, NULL);
+#endif
+}
+
 static gn_status draw(const gn_scene *scene)
 {
 #ifdef BENCH_CYCLES
     cycles_start();
-    gn_status status = gn_render(&renderer, scene, bench_flush, NULL);
+    gn_status status = render(scene);
     print_count("cycles", cycles_now());
     return status;
 #else
-    return gn_render(&renderer, scene, bench_flush, NULL);
+    return render(scene);
 #endif
 }
 
@@ -83,11 +96,12 @@ int app_main(void)
     static scene_state state;
     const gn_picture picture = {SCENE_WIDTH, SCENE_HEIGHT, GN_FORMAT_RGB565, GN_VIEW_COLOUR, 0};
     const char *args = board_args();
-    int32_t frame = read_number(&args), last = read_number(&args);
+    int32_t frame = read_number(&args), last = read_number(&args), more = read_number(&args);
     const gn_scene *scene = scene_frame(&state, frame < 0 ? 0 : (uint32_t)frame);
     gn_status status = gn_init(&renderer, &picture);
     if (!status) status = draw(scene);
     while (!status && ++frame <= last) status = draw(scene_frame(&state, (uint32_t)frame));
+    while (!status && more-- > 0) status = draw(scene_frame(&state, (uint32_t)last));
     return report(status, picture);
 }
 

@@ -5,7 +5,7 @@
 #include <string.h>
 
 #include "board.h"
-#include "base/gn_kernel.h"
+#include "base/gn_q.h"
 
 static uint32_t state = 1;
 static uint32_t n_checked, n_wrong;

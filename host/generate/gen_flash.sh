@@ -51,7 +51,7 @@ row() { # row NAME COMMENT FLAGS...: more than the typical build
     shift 2
     echo "FLASH($name, $(($(size cortex-m0 "$@") - m0)), $(($(size cortex-m4 "$@") - m4))) /* $comment */"
 }
-levels() { case $1 in MANY_CASCADES) echo 3 ;; OTHER_LIGHTS | BIASES | MATERIALS | INCREMENTAL | TILE_SIZES | CLIPPING) echo 2 ;; *) echo 1 ;; esac; }
+levels() { case $1 in MANY_CASCADES | INCREMENTAL) echo 3 ;; OTHER_LIGHTS | BIASES | MATERIALS | TILE_SIZES | CLIPPING) echo 2 ;; *) echo 1 ;; esac; }
 
 m0=$(size cortex-m0 $(flags $typical)) m4=$(size cortex-m4 $(flags $typical))
 echo "/* Made by host/generate/gen_flash.sh with $(arm-none-eabi-gcc -dumpversion). Bytes of flash: on Cortex-M0, on Cortex-M4. */"

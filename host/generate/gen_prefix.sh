@@ -4,7 +4,7 @@ cd "$(dirname "$0")/../.." || exit 1
 work=$(mktemp -d) || exit 1
 trap 'rm -rf "$work"' EXIT
 
-for flags in "" "-DGN_VALIDATION=2" "-DGN_SIZE_FIRST=1" "-DGN_COMPACT=1" "-DGN_SIZE_FIRST=1 -DGN_COMPACT=1" "-DGN_RUNTIME_KNOBS=1 -DGN_PICTURES=15 -DGN_INCREMENTAL=2 -DGN_MANY_CASCADES=3" \
+for flags in "" "-DGN_VALIDATION=2" "-DGN_SIZE_FIRST=1" "-DGN_COMPACT=1" "-DGN_SIZE_FIRST=1 -DGN_COMPACT=1" "-DGN_RUNTIME_KNOBS=1 -DGN_PICTURES=15 -DGN_INCREMENTAL=3 -DGN_MANY_CASCADES=3" \
     "-DGN_PERSP_STEP=1"; do
     ${CC:-gcc} -std=c99 -w -O0 -Ilib $flags -c lib/gnomon.c -o "$work/gnomon.o" || exit 1
     nm -g --defined-only "$work/gnomon.o" | awk '{ print $NF }'

@@ -1,10 +1,11 @@
 /* Number core. Every step states the range that keeps it from overflowing. */
 #include "gn_internal.h"
 
-#include "base/gn_hint.h"
+#include <string.h>
+
+#include "base/gn_base_types.h"
 #include "base/gn_math.h"
 #include "base/gn_q.h"
-#include "base/gn_tables.h"
 
 GN_HOT int64_t gn_far_dot64(const int32_t a[3], const int32_t b[3])
 {
@@ -276,4 +277,143 @@ GN_HOT void gn_length_unit(gn_length length, const int32_t n_q30[3], int32_t out
         int64_t v = gn_scale64((int64_t)n_q30[i] * (int64_t)length.root, 63 - 30 - length.shift / 2);
         out_q30[i] = (int32_t)gn_clamp64(v, -(1 << 30), 1 << 30);
     }
+}
+
+/* ---- Functions in place of inline code --------------------------------------------------------------------------- */
+
+/* gn_scale64; with GN_SIZE_FIRST or without long products the others, see gn_q.h. The linker drops unused ones. */
+
+GN_HOT GN_NOINLINE int64_t gn_far_clamp64(int64_t v, int64_t lo, int64_t hi)
+{
+    return gn_clamp64_inline(v, lo, hi);
+}
+
+GN_HOT GN_NOINLINE int32_t gn_far_clamp32(int64_t v, int32_t lo, int32_t hi)
+{
+    return (int32_t)gn_clamp64_inline(v, lo, hi);
+}
+
+GN_HOT GN_NOINLINE int32_t gn_far_sat32(int64_t v)
+{
+    return v == (int32_t)v ? (int32_t)v : v < 0 ? INT32_MIN : INT32_MAX;
+}
+
+GN_HOT GN_NOINLINE int64_t gn_far_shr64(int64_t v, int32_t s)
+{
+    return gn_shr64_inline(v, s);
+}
+
+GN_HOT GN_NOINLINE int64_t gn_far_shr30(int64_t v)
+{
+    return gn_shr64_inline(v, 30);
+}
+
+GN_HOT GN_NOINLINE int64_t gn_scale64(int64_t v, int32_t s)
+{
+    if (s > 63) return 0;
+    if (s > 0) return (v >> s) + ((v >> (s - 1)) & 1); /* no addition that could overflow */
+    if (s == 0) return v;
+    if (v == 0) return 0;
+    if (gn_clz64(gn_abs64_inline(v)) - 3 < -s) return v < 0 ? -GN_SATURATED : GN_SATURATED;
+    return gn_shl64(v, -s);
+}
+
+GN_HOT GN_NOINLINE int32_t gn_far_mul_shr(int32_t a, int32_t b, int32_t s)
+{
+    return gn_mul_shr_inline(a, b, s);
+}
+
+GN_HOT GN_NOINLINE int32_t gn_far_mul_q30(int32_t a, int32_t b)
+{
+    return gn_mul_q30_inline(a, b);
+}
+
+GN_HOT GN_NOINLINE uint64_t gn_far_abs64(int64_t v)
+{
+    return gn_abs64_inline(v);
+}
+
+GN_HOT GN_NOINLINE uint64_t gn_far_signature_add(uint64_t signature, uint64_t word)
+{
+    return gn_signature_add_inline(signature, word);
+}
+
+GN_HOT uint64_t gn_signature_bytes(uint64_t signature, const void *bytes, size_t n)
+{
+    const uint8_t *at = (const uint8_t *)bytes;
+    for (; n >= 8; n -= 8, at += 8) {
+        uint32_t word[2];
+        GN_COPY_WORDS(word, at, sizeof word);
+        signature = gn_signature_add_inline(signature, (uint64_t)word[1] << 32 | word[0]);
+    }
+    uint64_t rest = n;
+    for (; n; n--) rest = rest << 8 | *at++;
+    return gn_signature_add_inline(signature, rest);
+}
+
+/* By halves: what is above the lower product's upper half carries. */
+GN_HOT GN_NOINLINE int32_t gn_far_mul_high(int32_t a, int32_t b)
+{
+    const int32_t a_low = a & 0xFFFF, b_low = b & 0xFFFF, a_high = a >> 16, b_high = b >> 16;
+    const int32_t one = a_high * b_low + (int32_t)((uint32_t)a_low * (uint32_t)b_low >> 16),
+                  other = (one & 0xFFFF) + a_low * b_high;
+    return a_high * b_high + (one >> 16) + (other >> 16);
+}
+
+GN_HOT GN_NOINLINE uint32_t gn_far_umul_high(uint32_t a, uint32_t b)
+{
+    const uint32_t a_low = a & 0xFFFFU, b_low = b & 0xFFFFU, a_high = a >> 16, b_high = b >> 16;
+    const uint32_t one = a_high * b_low + (a_low * b_low >> 16), other = (one & 0xFFFFU) + a_low * b_high;
+    return a_high * b_high + (one >> 16) + (other >> 16);
+}
+
+/* ---- The tables of gn_tables.c as polynomials -------------------------------------------------------------------- */
+
+/* For GN_SIZE_FIRST: the same values, entry by entry (a test compares each with its table). Coefficients are a
+ * least-squares fit of the curve at the table's entries, weighted to minimise the largest error, and adjusted in
+ * their last bits until every entry rounds to the table's value. */
+
+/* c[0] + c[1] x + ... + c[n] x^n, rounded down at every step; |x| <= 1 in Q30, and |sums| < 2^31. */
+GN_HOT static int32_t polynomial(const int32_t *c, int32_t n, int32_t x_q30)
+{
+    int32_t v = c[n];
+    while (n-- > 0) v = c[n] + (int32_t)(((int64_t)v * x_q30) >> 30);
+    return v;
+}
+
+GN_HOT uint32_t gn_far_recip_entry(uint32_t i)
+{
+    /* 1 / 2x, Q30 */
+    static const int32_t c[10] = {714896980, -237989530, 79224729, -26371872, 8792698,
+                                  -2932873,  939692,     -304578,  143127,    -51760};
+    return (uint32_t)(polynomial(c, 9, ((int32_t)i - 128) * (1 << 23)) + (1 << 13)) >> 14;
+}
+
+GN_HOT uint32_t gn_far_rsqrt_entry(uint32_t i)
+{
+    /* 1 / 2 sqrt(x), Q30 */
+    static const int32_t c[12] = {678035878, -270366371, 161764520, -107673755, 74082433, -51468802,
+                                  45948855,  -41149281,  1286127,   12044016,   38854416, -38223736};
+    return (uint32_t)(polynomial(c, 11, ((int32_t)i - 96) * (1 << 23)) + (1 << 13)) >> 14;
+}
+
+GN_HOT uint32_t gn_far_srgb_entry(uint32_t i)
+{
+    /* (1 + j/64)^(1/2.4), Q30; 65535 * 1.055 * 2^((k - 9)/2.4), Q15 */
+    static const int32_t root[8] = {1073741852, 447388474, -130398815, 68064408,
+                                    -40847001,  22387561,  -8709680,   1646608};
+    static const uint32_t octave[10] = {168388805, 224772088, 300034741,  400498330,  534601132,
+                                        713606897, 952550927, 1271502940, 1697252799, 2265560678};
+    if (i < 39) return ((64 + i) * 1693424U + 0x8000U) >> 16; /* 12.92 * 65535 / 2^15 */
+    int64_t v_q29 = (int64_t)polynomial(root, 7, (int32_t)(i & 63U) << 24) * octave[i >> 6] >> 16; /* 2^31 * 2^31 */
+    return (uint32_t)((v_q29 - 1935110936986 + (1 << 28)) >> 29);                                  /* 65535 * 0.055 */
+}
+
+GN_HOT uint32_t gn_far_srgb_decode_entry(uint32_t i)
+{
+    /* ((v + 0.055) / 1.055)^2.4, Q29 */
+    static const int32_t c[10] = {115889053, 250668534, 158145895, 18998604, -2610766,
+                                  771687,    -175232,   57710,     -185463,  112925};
+    if (i < 11) return (i * 1303619U + 0x8000U) >> 16; /* 257 / 12.92 */
+    return (uint32_t)(((int64_t)polynomial(c, 9, ((int32_t)i - 128) * (1 << 23)) * 65535 + (1 << 28)) >> 29);
 }

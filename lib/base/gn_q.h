@@ -7,9 +7,10 @@
 #ifndef GN_Q_H
 #define GN_Q_H
 
+#include <stddef.h>
 #include <stdint.h>
 
-#include "base/gn_hint.h"
+#include "base/gn_base_types.h"
 
 typedef char gn_assert_arithmetic_shift[((-5) >> 1) == -3 ? 1 : -1];
 
@@ -180,5 +181,92 @@ GN_HOT static inline int32_t gn_mul_half_share(int32_t v, uint32_t share_uq16)
     if (GN_CORE_LONG_PRODUCTS) return gn_mul_high(v, (int32_t)(share_uq16 << 15));
     return ((v >> 16) * (int32_t)share_uq16 + (int32_t)(((uint32_t)v & 0xFFFFU) * share_uq16 >> 16)) >> 1;
 }
+
+/* ---- Interleaved gradient noise, for all dithering --------------------------------------------------------------- */
+
+/* frac(52.9829189 * frac(0.06711056 x + 0.00583715 y)) at a pixel's centre, Q0.16: both fractions are wraps of 32 bits.
+ * [D7] */
+GN_HOT static inline uint32_t gn_noise_uq16(int32_t x, int32_t y)
+{
+    uint32_t inner =
+        (2U * (uint32_t)x + 1) * 144118830U + (2U * (uint32_t)y + 1) * 12535184U; /* 2^31 times the factors */
+    return (uint32_t)(((uint64_t)inner * 3555623499U) >> 26) >> 16;               /* 52.9829189 * 2^26 */
+}
+
+/* ---- 64-bit signatures of the inputs of a shadow tile, or the pixels of a screen tile [A5] [R6] ------------------ */
+
+/* Two different inputs have the same signature with probability 2^-64. Not secure against adversaries. */
+
+#define GN_SIGNATURE_SEED 0x9E3779B97F4A7C15U
+
+/* Every step is a bijection of the signature for a given word, so that a difference cancels only by chance. */
+static inline uint64_t gn_signature_add_inline(uint64_t signature, uint64_t word)
+{
+    signature = (signature ^ word) * 0xFF51AFD7ED558CCDU;
+    return signature ^ signature >> 32;
+}
+
+uint64_t gn_far_signature_add(uint64_t signature, uint64_t word);
+GN_INLINE uint64_t gn_signature_add(uint64_t signature, uint64_t word)
+{
+    return GN_SIZE_FIRST ? gn_far_signature_add(signature, word) : gn_signature_add_inline(signature, word);
+}
+
+static inline uint64_t gn_signature_words(uint64_t signature, const int32_t *words, size_t n)
+{
+    for (size_t i = 0; i < n; i++) signature = gn_signature_add(signature, (uint32_t)words[i]);
+    return signature;
+}
+
+/* Of n bytes. */
+uint64_t gn_signature_bytes(uint64_t signature, const void *bytes, size_t n);
+
+/* ---- Kernels that a port may replace, and what they must compute, bit for bit ------------------------------------ */
+
+/* The library is portable without a port. With -DGN_PORT='"gn_port_NAME.h"' that header is included (gn_hint.h); for
+ * each kernel that the port has, it defines gn_kernel_X as the function that replaces gn_portable_X, under the same
+ * preconditions: port/gn_port.h is the contract, docs/FIRMWARE.md explains it. */
+
+/* The next lower bit: whether a texel is below a level. */
+GN_HOT static inline uint32_t gn_borrow(uint32_t bits, uint32_t texel, uint32_t level)
+{
+    return bits << 1 | (texel - level) >> 31;
+}
+
+/* Four texels of a row. */
+GN_HOT static inline uint32_t gn_four_below(const uint16_t *texel, uint32_t level)
+{
+    return gn_borrow(gn_borrow(gn_borrow(gn_borrow(0, texel[3], level), texel[2], level), texel[1], level), texel[0],
+                     level);
+}
+
+/* Which of n x n texels, in rows `pitch` apart, shadow a receiver: their depth, as the upper 16 of 32 bits, is below
+ * `least`. Bit i of dark[j] is for texel i of row j. Returns the OR of all rows, plus, 16 bits up, their AND. n = 4, 6
+ * or 8; least <= 0xFFFF0000. `texel` is aligned to two bytes, not to four. */
+GN_HOT static inline uint32_t gn_portable_dark_texels16(const uint16_t *texel, size_t pitch, uint32_t least, int32_t n,
+                                                        uint8_t *dark)
+{
+    uint32_t level = (least + 0xFFFFU) >> 16, any = 0, all = 255;
+    if (!GN_SIZE_FIRST && n == 4) { /* without a loop callers keep them in registers */
+        uint32_t a = gn_four_below(texel, level), b = gn_four_below(texel + pitch, level),
+                 c = gn_four_below(texel + 2 * pitch, level), d = gn_four_below(texel + 3 * pitch, level);
+        dark[0] = (uint8_t)a, dark[1] = (uint8_t)b, dark[2] = (uint8_t)c, dark[3] = (uint8_t)d;
+        return a | b | c | d | (a & b & c & d) << 16;
+    }
+    for (uint8_t *end = dark + n; dark < end; dark++, texel += pitch) {
+        uint32_t row = 0;
+        if (n == 8) row = gn_borrow(gn_borrow(row, texel[7], level), texel[6], level);
+        if (n >= 6) row = gn_borrow(gn_borrow(row, texel[5], level), texel[4], level);
+        row = row << 4 | gn_four_below(texel, level);
+        *dark = (uint8_t)row;
+        any |= row;
+        all &= row;
+    }
+    return any | all << 16;
+}
+
+#ifndef gn_kernel_dark_texels16
+#define gn_kernel_dark_texels16 gn_portable_dark_texels16
+#endif
 
 #endif

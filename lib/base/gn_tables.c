@@ -2,7 +2,7 @@
 /* clang-format off */
 #include "gn_internal.h"
 
-#include "base/gn_tables.h"
+#include "base/gn_math.h"
 
 const uint16_t gn_recip_table[256] = {
     65408U, 65154U, 64902U, 64652U, 64404U, 64158U, 63913U, 63671U, 63430U, 63191U, 62954U, 62719U,

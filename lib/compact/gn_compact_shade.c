@@ -1,8 +1,7 @@
 /* Compact arithmetic: shading of a screen tile, flat colours under one light. */
 #include "gn_internal.h"
 
-#include "gn_stages.h"
-#include "base/gn_hint.h"
+#include "base/gn_base_types.h"
 #include "base/gn_math.h"
 #include "base/gn_q.h"
 #include "compact/gn_compact.h"

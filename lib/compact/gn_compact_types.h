@@ -105,7 +105,7 @@ typedef struct gn_frame {
 #endif
     const gn_scene *scene;
     gn_picture picture;
-    uint8_t stage;   /* gn_stage in gn_stages.h */
+    uint8_t stage;   /* gn_stage in gn_internal.h */
     uint8_t id_bits; /* of a visibility cell: enough for n_triangles + 2 */
     uint8_t n_views;
     uint8_t n_lights; /* of the scene, which may be gone when gn_get_light_shadow is called */
@@ -122,7 +122,7 @@ typedef struct gn_frame {
     gn_detail detail;
     gn_light_state light[GN_MAX_LIGHTS];
     gn_light_view view[1];
-    uint8_t flags[GN_MAX_OBJECTS]; /* of each object, as drawn: scene/gn_sides.h */
+    uint8_t flags[GN_MAX_OBJECTS]; /* of each object, as drawn: scene/gn_scene.h */
     struct {
         gn_tri tri[GN_MAX_TRIANGLES];
     } records;

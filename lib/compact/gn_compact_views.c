@@ -1,8 +1,7 @@
 /* Compact arithmetic: the camera, and where the light's tile lies in the world (MODEL 4). */
 #include "gn_internal.h"
 
-#include "gn_stages.h"
-#include "base/gn_hint.h"
+#include "base/gn_base_types.h"
 #include "base/gn_math.h"
 #include "base/gn_q.h"
 #include "compact/gn_compact.h"

@@ -1,4 +1,4 @@
-/* A frame, stage by stage. Read this file first: it is the table of contents of the library. gn_stages.h declares the
+/* A frame, stage by stage. Read this file first: it is the table of contents of the library. gn_internal.h declares the
  * stages; lib/README.md says what each folder is for.
  *
  * gn_begin
@@ -32,13 +32,10 @@
 
 #include <string.h>
 
-#include "gn_stages.h"
-#include "base/gn_hint.h"
+#include "base/gn_base_types.h"
 #include "base/gn_q.h"
-#include "base/gn_signature.h"
 #include "frame/gn_check.h"
 #include "scene/gn_scene.h"
-#include "scene/gn_sides.h"
 #include "shade/gn_pixel.h"
 #include "visible/gn_screen_rect.h"
 
@@ -97,28 +94,51 @@ gn_status gn_init_as(gn_renderer *r, const gn_picture *picture, size_t renderer_
     return GN_OK;
 }
 
-gn_status gn_begin(gn_renderer *r, const gn_scene *scene)
+static gn_status count_screen_tiles(gn_frame *frame)
 {
-    if (!r) return GN_ERR_NULL;
-    gn_frame *frame = &r->frame;
-    if (frame->stage == GN_STAGE_NONE || frame->stage == GN_STAGE_DRAWING)
-        return gn_fail(frame, gn_wrong_stage(frame), 0);
-    frame->stage = GN_STAGE_INIT;
-    frame->n_views = 0;
+    frame->tiles_x = (uint16_t)((frame->picture.width + GN_K(frame, tile_width) - 1) / GN_K(frame, tile_width));
+    frame->tiles_y = (uint16_t)((frame->picture.height + GN_K(frame, tile_height) - 1) / GN_K(frame, tile_height));
+    return (uint32_t)frame->tiles_x * frame->tiles_y > GN_TILES_MAX ? gn_fail(frame, GN_ERR_KNOB, 0) : GN_OK;
+}
+
+static gn_status check_scene(gn_frame *frame, const gn_scene *scene)
+{
     if (!scene) return GN_FAIL_AT(frame, GN_ERR_NULL, 0, GN_FIELD_SCENE);
 #if GN_RUNTIME_KNOBS
     if (!knobs_ok(frame)) return gn_fail(frame, GN_ERR_KNOB, 0);
 #endif
+    gn_status status = count_screen_tiles(frame);
+#if GN_VALIDATION
+    if (!status) status = gn_scene_validate(frame, scene);
+#endif
+    return status;
+}
+
+/* Whether a frame of the scene may begin. If so, a frame that is prepared is left as it is. */
+static gn_status check_frame(gn_frame *frame, const gn_scene *scene)
+{
+    if (frame->stage == GN_STAGE_NONE || frame->stage == GN_STAGE_DRAWING)
+        return gn_fail(frame, gn_wrong_stage(frame), 0);
+    const gn_status status = check_scene(frame, scene);
+    if (!status) return GN_OK;
+    frame->stage = GN_STAGE_INIT;
+    frame->n_views = 0;
+    return status;
+}
+
+/* is_signed: gn_changes_sign has been called. */
+static gn_status begin_frame(gn_renderer *r, const gn_scene *scene, int is_signed)
+{
+    gn_frame *frame = &r->frame;
+#if GN_CHANGES
+    gn_changes_begin(frame, is_signed);
+#else
+    (void)is_signed;
+#endif
+    frame->stage = GN_STAGE_INIT;
+    frame->n_views = 0;
     memset(&frame->stats, 0, sizeof frame->stats);
     memset(&frame->detail, 0, sizeof frame->detail);
-    frame->tiles_x = (uint16_t)((frame->picture.width + GN_K(frame, tile_width) - 1) / GN_K(frame, tile_width));
-    frame->tiles_y = (uint16_t)((frame->picture.height + GN_K(frame, tile_height) - 1) / GN_K(frame, tile_height));
-    if ((uint32_t)frame->tiles_x * frame->tiles_y > GN_TILES_MAX) return gn_fail(frame, GN_ERR_KNOB, 0);
-    gn_status status = GN_OK;
-#if GN_VALIDATION
-    status = gn_scene_validate(frame, scene);
-    if (status) return status;
-#endif
     frame->scene = scene;
 #if !GN_COMPACT
     frame->objects = scene->objects;
@@ -129,10 +149,24 @@ gn_status gn_begin(gn_renderer *r, const gn_scene *scene)
 #endif
     gn_sides_setup(frame);
     gn_cam_setup(frame);
-    status = gn_views_setup(frame, &r->scratch);
+    const gn_status status = gn_views_setup(frame, &r->scratch);
     if (status) return status;
+#if GN_CHANGES
+    gn_changes_views(frame);
+#endif
     frame->stage = GN_STAGE_BEGUN;
     return GN_OK;
+}
+
+gn_status gn_begin(gn_renderer *r, const gn_scene *scene)
+{
+    if (!r) return GN_ERR_NULL;
+    const gn_status status = check_frame(&r->frame, scene);
+    if (status) return status;
+#if GN_CHANGES
+    gn_changes_sign(&r->frame, scene);
+#endif
+    return begin_frame(r, scene, 1);
 }
 
 uint32_t gn_shadow_tile_count(const gn_renderer *r)
@@ -173,6 +207,9 @@ gn_status gn_prepare(gn_renderer *r)
     frame->id_bits = (uint8_t)(32 - gn_clz32(n_identities));
     status = gn_bin_triangles(frame);
     if (status) return status;
+#if GN_CHANGES
+    gn_changes_prepare(frame);
+#endif
     frame->stage = GN_STAGE_PREPARED;
     return GN_OK;
 }
@@ -182,15 +219,12 @@ uint32_t gn_screen_tile_count(const gn_renderer *r)
     return r ? (uint32_t)r->frame.tiles_x * r->frame.tiles_y : 0;
 }
 
-/* What is visible. */
-static gn_status begin_tile(const gn_frame *frame, gn_scratch *scratch, uint32_t tile_idx, gn_flush_fn flush,
+static gn_status check_tile(const gn_frame *frame, const gn_scratch *scratch, uint32_t tile_idx, gn_flush_fn flush,
                             enum gn_stage stage)
 {
     if (!frame || !scratch || !flush) return GN_ERR_NULL;
     if (frame->stage != stage) return gn_wrong_stage(frame);
-    if (tile_idx >= (uint32_t)frame->tiles_x * frame->tiles_y) return GN_ERR_INDEX;
-    gn_raster_tile(frame, scratch, tile_idx);
-    return GN_OK;
+    return tile_idx < (uint32_t)frame->tiles_x * frame->tiles_y ? GN_OK : GN_ERR_INDEX;
 }
 
 /* A function of its own, so that its stack frame is gone before drawing. Another stage afterwards: the callback has
@@ -216,9 +250,10 @@ static GN_NOINLINE void draw_over(const gn_frame *frame, gn_scratch *scratch, ui
 }
 #endif
 
-/* The finished tile, with that. */
+/* What is visible, its colours, and that. */
 static void draw_tile(const gn_frame *frame, gn_scratch *scratch, uint32_t tile_idx)
 {
+    gn_raster_tile(frame, scratch, tile_idx);
     gn_shade_tile(frame, scratch, tile_idx);
 #if GN_TILE_DRAWING
     draw_over(frame, scratch, tile_idx);
@@ -229,7 +264,7 @@ static void draw_tile(const gn_frame *frame, gn_scratch *scratch, uint32_t tile_
 static gn_status screen_tile(const gn_frame *frame, gn_scratch *scratch, uint32_t tile_idx, gn_flush_fn flush,
                              void *user, enum gn_stage stage)
 {
-    gn_status status = begin_tile(frame, scratch, tile_idx, flush, stage);
+    gn_status status = check_tile(frame, scratch, tile_idx, flush, stage);
     if (status) return status;
     draw_tile(frame, scratch, tile_idx);
     return flush_tile(frame, scratch, tile_idx, flush, user);
@@ -244,44 +279,47 @@ gn_status gn_screen_tile(const gn_frame *frame, gn_scratch *scratch, uint32_t ti
 static uint64_t tile_signature(const gn_frame *frame, const gn_scratch *scratch, uint32_t tile_idx)
 {
     gn_rect rect = gn_screen_rect(frame, tile_idx);
-    uint64_t signature = GN_SIGNATURE_SEED;
-    size_t n = gn_pixel_bytes(frame, rect.x1 - rect.x0, rect.y1 - rect.y0), i = 0;
-    const uint8_t *bytes = scratch->pixel.bytes;
-    for (; i + 4 <= n; i += 4) {
-        uint32_t word;
-        memcpy(&word, bytes + i, 4);
-        signature = gn_signature_add(signature, word);
-    }
-    for (; i < n; i++) signature = gn_signature_add(signature, bytes[i]);
+    const size_t n = gn_pixel_bytes(frame, rect.x1 - rect.x0, rect.y1 - rect.y0);
+    const uint64_t signature = gn_signature_bytes(GN_SIGNATURE_SEED, scratch->pixel.bytes, n);
     return signature ? signature : 1;
 }
 
-/* Flushes a tile only if its bytes differ from the panel's. [R6] */
+/* Draws a tile only if what it depends on changed, flushes it only if its bytes differ from the panel's; counts both.
+ * [R6] [R13] */
 static gn_status screen_tile_if_changed(const gn_frame *frame, gn_scratch *scratch, uint32_t tile_idx, gn_panel *panel,
-                                        gn_flush_fn flush, void *user, uint32_t *flushed, enum gn_stage stage)
+                                        gn_flush_fn flush, void *user, uint32_t n[2], enum gn_stage stage)
 {
-    if (flushed) *flushed = 0;
     if (!panel) return GN_ERR_NULL;
-    gn_status status = begin_tile(frame, scratch, tile_idx, flush, stage);
+    gn_status status = check_tile(frame, scratch, tile_idx, flush, stage);
     if (status) return status;
+#if GN_CHANGES
+    if (gn_changes_shown(frame, tile_idx, panel)) return GN_OK;
+#endif
+    n[0]++;
     draw_tile(frame, scratch, tile_idx);
+#if GN_CHANGES
+    panel->squares[tile_idx] = scratch->squares;
+#endif
     uint64_t signature = tile_signature(frame, scratch, tile_idx);
     if (panel->signature[tile_idx] == signature) return GN_OK;
     panel->signature[tile_idx] = signature;
-    if (flushed) *flushed = 1;
+    n[1]++;
     return flush_tile(frame, scratch, tile_idx, flush, user);
 }
 
 gn_status gn_screen_tile_if_changed(const gn_frame *frame, gn_scratch *scratch, uint32_t tile_idx, gn_panel *panel,
                                     gn_flush_fn flush, void *user, uint32_t *flushed)
 {
-    return screen_tile_if_changed(frame, scratch, tile_idx, panel, flush, user, flushed, GN_STAGE_PREPARED);
+    uint32_t n[2] = {0, 0};
+    const gn_status status = screen_tile_if_changed(frame, scratch, tile_idx, panel, flush, user, n, GN_STAGE_PREPARED);
+    if (flushed) *flushed = n[1];
+    return status;
 }
 
 /* All stages of a frame before its screen tiles. */
-static gn_status prepare_frame(gn_renderer *r, const gn_scene *scene)
+static gn_status prepare_frame(gn_renderer *r, const gn_scene *scene, int is_signed)
 {
-    gn_status status = gn_begin(r, scene);
+    gn_status status = begin_frame(r, scene, is_signed);
     for (uint32_t i = 0; !status && i < gn_shadow_tile_count(r); i++) status = gn_shadow_tile(r, i);
     if (!status) status = gn_prepare(r);
     if (!status) r->frame.stage = GN_STAGE_DRAWING;
@@ -299,18 +337,25 @@ static gn_status end_frame(gn_frame *frame, gn_status status)
 gn_status gn_render_changes(gn_renderer *r, const gn_scene *scene, gn_panel *panel, gn_flush_fn flush, void *user,
                             uint32_t *n_flushed)
 {
-    uint32_t n = 0, one;
+    uint32_t n[2] = {0, 0};
     if (n_flushed) *n_flushed = 0;
     if (!r) return GN_ERR_NULL;
     if (!flush) return GN_FAIL_AT(&r->frame, GN_ERR_NULL, 0, GN_FIELD_FLUSH);
     if (!panel) return GN_FAIL_AT(&r->frame, GN_ERR_NULL, 0, GN_FIELD_PANEL);
-    gn_status status = prepare_frame(r, scene);
+    gn_status status = check_frame(&r->frame, scene);
     if (status) return status;
-    for (uint32_t i = 0; !status && i < gn_screen_tile_count(r); i++) {
-        status = screen_tile_if_changed(&r->frame, &r->scratch, i, panel, flush, user, &one, GN_STAGE_DRAWING);
-        n += one;
-    }
-    if (n_flushed) *n_flushed = n;
+#if GN_CHANGES
+    if (gn_changes_sign(&r->frame, scene) && gn_changes_none(&r->frame, scene, panel)) return GN_OK;
+#endif
+    status = prepare_frame(r, scene, 1);
+    if (status) return status;
+    for (uint32_t i = 0; !status && i < gn_screen_tile_count(r); i++)
+        status = screen_tile_if_changed(&r->frame, &r->scratch, i, panel, flush, user, n, GN_STAGE_DRAWING);
+    if (n_flushed) *n_flushed = n[1];
+#if GN_CHANGES
+    r->frame.stats.n_screen_tiles_drawn = n[0];
+    r->frame.stats.n_screen_tiles_flushed = n[1];
+#endif
     return end_frame(&r->frame, status);
 }
 
@@ -318,7 +363,8 @@ gn_status gn_render(gn_renderer *r, const gn_scene *scene, gn_flush_fn flush, vo
 {
     if (!r) return GN_ERR_NULL;
     if (!flush) return GN_FAIL_AT(&r->frame, GN_ERR_NULL, 0, GN_FIELD_FLUSH);
-    gn_status status = prepare_frame(r, scene);
+    gn_status status = check_frame(&r->frame, scene);
+    if (!status) status = prepare_frame(r, scene, 0);
     if (status) return status;
     for (uint32_t i = 0; !status && i < gn_screen_tile_count(r); i++)
         status = screen_tile(&r->frame, &r->scratch, i, flush, user, GN_STAGE_DRAWING);
@@ -393,9 +439,11 @@ void gn_forget_shadows(gn_renderer *r)
 {
 #if GN_SHADOWS && GN_INCREMENTAL
     if (r) memset(r->frame.memory, 0, sizeof r->frame.memory);
-#else
-    (void)r;
 #endif
+#if GN_CHANGES
+    if (r) r->frame.sign.n_forgotten++;
+#endif
+    (void)r;
 }
 
 const char *gn_status_text(gn_status status)

@@ -10,13 +10,26 @@
 #if GN_COMPACT
 #include "compact/gn_compact_types.h"
 #else
-#include "shade/gn_shade_types.h"
+#include "shade/gn_lattice_types.h"
 
 /* Records of visible triangles; until gn_prepare writes them, vertices that skins moved: gn_posed_vertex. */
 typedef union {
     gn_tri tri[GN_RECORDS ? GN_MAX_TRIANGLES : 1];
     int32_t word[(GN_RECORDS ? GN_MAX_TRIANGLES : 1) * (sizeof(gn_tri) / sizeof(int32_t))];
 } gn_records;
+
+#if GN_CHANGES
+/* Signatures of a frame: what the next one need not draw again. gn_changes.c */
+typedef struct {
+    uint64_t scene;           /* of all that was described; 0: not known */
+    uint64_t settings, every; /* of what is neither object nor light; of what all screen tiles depend on */
+    uint64_t before, now;     /* of all texels of shadow maps, in the frame before and in this one; 0: not known */
+    uint64_t object[GN_MAX_OBJECTS], light[GN_MAX_LIGHTS];
+    uint64_t square[GN_SHADOWS ? GN_SQUARES : 1]; /* of the texels of each */
+    gn_squares changed;                           /* since the frame before */
+    uint32_t n_forgotten;                         /* calls of gn_forget_shadows */
+} gn_frame_sign;
+#endif
 
 typedef struct gn_frame {
 #if GN_RUNTIME_KNOBS
@@ -28,7 +41,7 @@ typedef struct gn_frame {
     const gn_object *objects; /* the scene's: gn_pick reads these when the scene may be gone */
     uint32_t n_objects;
     gn_picture picture;
-    uint8_t stage;   /* gn_stage in gn_stages.h */
+    uint8_t stage;   /* gn_stage in gn_internal.h */
     uint8_t id_bits; /* of a visibility cell: enough for n_triangles + 2 */
     uint16_t n_views;
     uint16_t tiles_x, tiles_y;
@@ -59,7 +72,10 @@ typedef struct gn_frame {
 #if GN_BOXES
     gn_object_state object[GN_MAX_OBJECTS];
 #endif
-    uint8_t flags[GN_MAX_OBJECTS]; /* of each object, as drawn: scene/gn_sides.h */
+#if GN_CHANGES
+    gn_frame_sign sign;
+#endif
+    uint8_t flags[GN_MAX_OBJECTS]; /* of each object, as drawn: scene/gn_scene.h */
     gn_records records;
     gn_ref_offset tile_first[GN_TILES_MAX + 1]; /* of groups: a tile's number of triangles */
     uint16_t tile_ref[GN_RECORDS ? GN_MAX_TILE_REFS : 1];
@@ -133,6 +149,9 @@ typedef struct gn_scratch {
     gn_run_idx run_list[GN_RUN_LISTS];         /* first runs, by the low bits of their triangles; see gn_runs.h */
 #if GN_GROUPS
     gn_tri_source drawn[1 + GN_MAX_TRIANGLES]; /* the tile's triangles by their identities: none is 0 */
+#endif
+#if GN_CHANGES
+    gn_squares squares;                        /* that the tile's lookups read */
 #endif
 #if GN_LAYERS_MAX
     gn_layers layers;

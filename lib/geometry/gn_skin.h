@@ -2,7 +2,7 @@
 #ifndef GN_SKIN_H
 #define GN_SKIN_H
 
-#include "base/gn_hint.h"
+#include "base/gn_base_types.h"
 #include "base/gn_math.h"
 #include "gnomon.h"
 

@@ -1,10 +1,9 @@
 /* Textures. Positions are exact: coordinates have 20 fraction bits, and so have texels. */
 #include "gn_internal.h"
 
-#include "base/gn_hint.h"
+#include "base/gn_base_types.h"
+#include "base/gn_math.h"
 #include "base/gn_q.h"
-#include "base/gn_tables.h"
-#include "geometry/gn_texel_formats.h"
 #include "geometry/gn_texture.h"
 
 /* Texels of an axis of `size` <= 4096 at a coordinate. */

@@ -2,7 +2,7 @@
 #ifndef GN_TEXTURE_H
 #define GN_TEXTURE_H
 
-#include "base/gn_noise.h"
+#include "base/gn_math.h"
 #include "base/gn_q.h"
 #include "gnomon.h"
 
@@ -139,5 +139,105 @@ GN_HOT static inline int gn_alpha_passes(const gn_alpha_test *test, int32_t i, u
 
 /* A texel's colour in linear light, 65535: 1. */
 void gn_texture_texel(const gn_texture *texture, uint32_t x, uint32_t y, uint16_t rgb[3]);
+
+/* ---- Texels of each format --------------------------------------------------------------------------------------- */
+
+/* Whether a texture has a format. Of formats that are not built the compiler drops what asks; where one is built alone
+ * nothing is asked. */
+#define GN_TEXEL_IS(t, of) (GN_FORMATS == 1 << (of) || (GN_FORMATS >> (of)&1 && (t)->format == (of)))
+
+/* The same of formats that are decoded alike; 565, palettes and greys are neighbours. */
+#define GN_TEXEL_AMONG(t, first, last)                                                                                 \
+    ((GN_FORMATS & ((2 << (last)) - (1 << (first)))) != 0 && (t)->format >= (first) && (t)->format <= (last))
+#define GN_TEXEL_IS_565(t)     GN_TEXEL_AMONG(t, GN_TEXTURE_RGB565, GN_TEXTURE_RGB565A1)
+#define GN_TEXEL_IS_PALETTE(t) GN_TEXEL_AMONG(t, GN_TEXTURE_PALETTE8, GN_TEXTURE_PALETTE1)
+#define GN_TEXEL_IS_GREY(t)    GN_TEXEL_AMONG(t, GN_TEXTURE_GREY8, GN_TEXTURE_GREY4)
+
+#define GN_TEXEL_565S (GN_FORMATS & 6)
+
+/* Bits of a texel, as a power of two. */
+GN_HOT static inline uint32_t gn_texel_bits_log2(const gn_texture *t)
+{
+    static const uint8_t log2[GN_TEXTURE_FORMAT_COUNT] = {5, 4, 4, 3, 2, 0, 3, 2, 3, 2};
+    return GN_FORMATS == 1 ? 5 : log2[t->format];
+}
+
+/* Bytes of a row. */
+GN_HOT static inline uint32_t gn_texel_stride(const gn_texture *t)
+{
+    return ((gn_texture_size(t, 0) << gn_texel_bits_log2(t)) + 7) >> 3;
+}
+
+/* A texel of 8, 4 or 1 bits. */
+GN_HOT static inline uint32_t gn_texel_index(const uint8_t *row, uint32_t x, uint32_t bits_log2)
+{
+    uint32_t bit = x << bits_log2, n = 1U << bits_log2;
+    return (uint32_t)row[bit >> 3] >> (8 - n - (bit & 7U)) & ((1U << n) - 1);
+}
+
+/* Red, green, blue, alpha from the lowest byte on. */
+GN_HOT static inline uint32_t gn_texel_word(const uint8_t *p)
+{
+    return (uint32_t)p[0] | (uint32_t)p[1] << 8 | (uint32_t)p[2] << 16 | (uint32_t)p[3] << 24;
+}
+
+GN_HOT static inline void gn_texel_decode_rgba(uint32_t word, uint16_t rgb[3])
+{
+    rgb[0] = (uint16_t)gn_srgb_decode_entry(word & 255U);
+    rgb[1] = (uint16_t)gn_srgb_decode_entry(word >> 8 & 255U);
+    rgb[2] = (uint16_t)gn_srgb_decode_entry(word >> 16 & 255U);
+}
+
+GN_HOT static inline void gn_texel_decode_565(uint32_t texel, int has_alpha, uint16_t rgb[3])
+{
+    rgb[0] = gn_linear_31_table[texel >> 11 & 31U];
+    rgb[1] = has_alpha ? gn_linear_31_table[texel >> 6 & 31U] : gn_linear_63_table[texel >> 5 & 63U];
+    rgb[2] = gn_linear_31_table[texel & 31U];
+}
+
+GN_HOT static inline uint16_t gn_texel_decode_grey(uint32_t value, uint32_t bits_log2)
+{
+    return (uint16_t)gn_srgb_decode_entry(bits_log2 == 2 ? value * 17U : value);
+}
+
+/* ---- Triangles that alpha cuts ----------------------------------------------------------------------------------- */
+
+/* Clip and dither (MODEL 6, 8), as the camera or a light sees them, along the rows that are walked. */
+
+/* A triangle of an object. If it has a texture, cut->textured, gn_alpha_plane comes next. */
+void gn_alpha_begin(gn_alpha_cut *cut, const gn_object *object, gn_alpha mode, const uint16_t idx[3]);
+
+/* Its corners, as gn_plane_setup takes them, in a picture `width` pixels wide. */
+void gn_alpha_plane(gn_alpha_cut *cut, const gn_frame *frame, int32_t (*v)[3], uint32_t focal2_px_q16, int32_t width,
+                    int32_t newton_steps);
+
+/* Row y, seen along the ray py, of which the triangle covers x_begin <= x < x_end, inside the screen tile or not. */
+GN_HOT static inline void gn_alpha_row(gn_alpha_cut *cut, int32_t y, int32_t py, int32_t x_begin, int32_t x_end)
+{
+    cut->y = y;
+    cut->py = py;
+#if GN_TEXTURES
+    cut->x_begin = x_begin;
+    cut->x_end = x_end;
+    cut->steps.end = x_begin; /* none yet */
+    cut->steps.bent = INT32_MIN;
+    cut->exact.x = x_end; /* nor this: never the first column of a row */
+#else
+    (void)x_begin, (void)x_end;
+#endif
+}
+
+/* Of pixels x .. x + 31 of the row those of `asked` that are not cut: the lowest bit is pixel x, and all that are asked
+ * are of x_begin .. x_end - 1. (x, y) picks the noise of the dither. */
+uint32_t gn_alpha_keeps(gn_alpha_cut *cut, int32_t x, uint32_t asked);
+
+/* ---- Textured ones: gn_alpha_coords.c ---------------------------------------------------------------------------- */
+
+/* Texture coordinates of the triangle's corners. */
+void gn_alpha_corners(gn_alpha_cut *cut, const uint16_t idx[3]);
+
+/* Texture coordinates from pixel x >= 0 of the row on. Returns for how many pixels: with persp_step > 1 they are
+ * interpolated between exact ones, up to 32 pixels apart; error below 2^-8 texel (NUMERICS 4.9). */
+int32_t gn_alpha_coords(gn_alpha_cut *cut, int32_t x, gn_texture_curve *curve);
 
 #endif

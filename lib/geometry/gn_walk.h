@@ -4,7 +4,7 @@
 
 #include <stdint.h>
 
-#include "base/gn_hint.h"
+#include "base/gn_base_types.h"
 #include "base/gn_q.h"
 
 /* Walks the pixels of a triangle row by row, by the top-left rule, exactly.

@@ -2,10 +2,10 @@
  * 2^64. */
 #include "gn_internal.h"
 
-#include "base/gn_hint.h"
+#include "base/gn_base_types.h"
 #include "base/gn_math.h"
 #include "base/gn_q.h"
-#include "light/gn_punctual.h"
+#include "light/gn_lights.h"
 
 #define GN_ONE_Q30 (1 << 30)
 

@@ -4,8 +4,12 @@
  * of at most 1: the tool gives every node a frame, scaled by a power of two, in which that is so. */
 #include "gn_internal.h"
 
+#include <string.h>
+
 #include "base/gn_math.h"
 #include "base/gn_q.h"
+#include "geometry/gn_skin.h"
+#include "scene/gn_scene.h"
 
 #define GN_ONE_Q30 (1 << 30)
 
@@ -155,3 +159,209 @@ GN_COLD void gn_pose(const gn_rig *rig, uint32_t clip_idx, uint32_t time_q16, gn
         else place_camera(&cameras[link->idx], node);
     }
 }
+
+/* ---- Default values ---------------------------------------------------------------------------------------------- */
+
+#define ONE_UQ16       65536U
+#define TENTH_UQ16     6554U /* 0.1 */
+#define EIGHTH_TURN    8192U /* 45 degrees */
+#define INTENSITY_UQ16 (16U * ONE_UQ16)
+
+static void set3(uint32_t out[3], uint32_t r, uint32_t g, uint32_t b)
+{
+    out[0] = r, out[1] = g, out[2] = b;
+}
+
+gn_object gn_object_default(const gn_mesh *mesh)
+{
+    gn_object object;
+    memset(&object, 0, sizeof object);
+    object.mesh = mesh;
+    gn_affine_identity(&object.to_world);
+    set3(object.albedo_uq16, 52429, 52429, 52429); /* 0.8 */
+    object.flags = GN_OBJECT_DEFAULT;
+    object.alpha_uq16 = ONE_UQ16;
+    object.alpha_cutoff_uq16 = ONE_UQ16 / 2;
+    return object;
+}
+
+static gn_light default_light(gn_light_kind kind, uint32_t intensity_uq16)
+{
+    gn_light light;
+    memset(&light, 0, sizeof light);
+    light.kind = kind;
+    set3(light.colour_uq16, intensity_uq16, intensity_uq16, intensity_uq16);
+    light.near_q16 = TENTH_UQ16;
+    light.shadow_strength_uq16 = ONE_UQ16;
+    light.mask_channel = -1;
+    if (!GN_AUTO_BIAS && !GN_RECORDED) light.bias_normal_q16 = ONE_UQ16;
+    return light;
+}
+
+gn_light gn_light_sun(int32_t x, int32_t y, int32_t z)
+{
+    gn_light light = default_light(GN_LIGHT_DIRECTIONAL, ONE_UQ16);
+    light.direction[0] = x, light.direction[1] = y, light.direction[2] = z;
+    return light;
+}
+
+gn_light gn_light_point(const int32_t position_q16[3])
+{
+    gn_light light = default_light(GN_LIGHT_POINT, INTENSITY_UQ16);
+    memcpy(light.position_q16, position_q16, sizeof light.position_q16);
+    return light;
+}
+
+gn_light gn_light_spot(const int32_t position_q16[3], const int32_t target_q16[3], uint16_t outer_turn)
+{
+    gn_light light = gn_light_point(position_q16);
+    light.kind = GN_LIGHT_SPOT;
+    for (int i = 0; i < 3; i++) light.direction[i] = target_q16[i] / 2 - position_q16[i] / 2; /* cannot overflow */
+    light.outer_turn = outer_turn;
+    light.inner_turn = (uint16_t)(outer_turn / 2);
+    return light;
+}
+
+gn_camera gn_camera_default(const int32_t eye_q16[3], const int32_t target_q16[3])
+{
+    gn_camera camera;
+    memset(&camera, 0, sizeof camera);
+    gn_camera_look_at(&camera.to_world, eye_q16, target_q16);
+    camera.focal_q24 = gn_focal_from_fov_q24(EIGHTH_TURN);
+    camera.near_q16 = TENTH_UQ16;
+    camera.far_q16 = 100 * (int32_t)ONE_UQ16;
+    return camera;
+}
+
+/* Whether every sun can have four tiles: of all of the atlas, and not too small. */
+static int four_cascades_fit(const gn_light *lights, uint32_t n_lights)
+{
+    uint32_t n_suns = 0;
+    for (uint32_t i = 0; i < n_lights; i++) n_suns += lights[i].kind == GN_LIGHT_DIRECTIONAL;
+    return (GN_RECORDED || (GN_SHADOWS && GN_MANY_CASCADES > 0)) && GN_ATLAS_SIZE >= 64 &&
+           GN_ATLAS_TEXELS == GN_ATLAS_SIZE * GN_ATLAS_SIZE && 4 * n_suns <= GN_MAX_SHADOW_TILES;
+}
+
+gn_scene gn_scene_default(const gn_camera *camera, const gn_object *objects, uint32_t n_objects, const gn_light *lights,
+                          uint32_t n_lights)
+{
+    gn_scene scene;
+    memset(&scene, 0, sizeof scene);
+    scene.camera = *camera;
+    scene.objects = objects, scene.n_objects = n_objects;
+    scene.lights = lights, scene.n_lights = n_lights;
+    set3(scene.ambient_uq16, 9830, 9830, 9830);       /* 0.15 */
+    set3(scene.background_uq20, 20972, 31457, 52429); /* 0.02, 0.03, 0.05 */
+    gn_shadow_settings *shadow = &scene.shadow;
+    shadow->max_distance_q16 = 100 * (int32_t)ONE_UQ16;
+    shadow->distance_fade_uq16 = TENTH_UQ16;
+    shadow->cascade_fade_uq16 = TENTH_UQ16;
+    shadow->filter = shadow->other_filter = GN_FILTER_MAX >= 1 || GN_RECORDED ? GN_FILTER_2X2 : GN_FILTER_HARD;
+    shadow->penumbra_uq16 = ONE_UQ16;
+    shadow->disk_samples = 16;
+    shadow->caster_culling = GN_CASTER_CULLING;
+    shadow->object_lights = GN_PUNCTUAL_LIGHTS ? GN_OBJECT_LIGHTS_MAX : 0;
+    int exact = !(GN_TIGHT_FIT || GN_RECORDED) || GN_PRESET == GN_PRESET_ACCURATE;
+    shadow->fit = exact ? GN_FIT_STABLE : GN_FIT_TIGHT;
+    shadow->tile_sizes = exact ? GN_TILES_EQUAL : GN_TILES_WORTH;
+    shadow->n_cascades = four_cascades_fit(lights, n_lights) ? 4 : 1;
+    set3(shadow->cascade_ratio_uq16, TENTH_UQ16, ONE_UQ16 / 4, ONE_UQ16 / 2);
+    return scene;
+}
+
+/* ---- Determinants of transforms ---------------------------------------------------------------------------------- */
+
+/* What mirrors, and what is flat. [R8] [R12] */
+
+/* Sign of the determinant of the first joint that has an inverse; 1: none has. */
+static int skin_sign(const gn_skin *skin)
+{
+    for (uint32_t i = 0; i < skin->n_joints; i++) {
+        const int sign = gn_det_sign(skin->joint[i].m_q30);
+        if (sign) return sign;
+    }
+    return 1;
+}
+
+static uint8_t flags_of(const gn_object *object)
+{
+    const uint32_t flags = object->flags & (GN_OBJECT_MIRRORED - 1);
+    int sign = gn_det_sign(object->to_world.m_q30);
+    if (!sign) return (uint8_t)((flags | GN_OBJECT_HIDDEN) & ~(uint32_t)(GN_OBJECT_CASTS | GN_OBJECT_RECEIVES));
+    if (GN_SKIN(object)) sign *= skin_sign(GN_SKIN(object));
+    return (uint8_t)(sign < 0 ? flags | GN_OBJECT_MIRRORED : flags);
+}
+
+void gn_sides_setup(gn_frame *frame)
+{
+    for (uint32_t i = 0; i < frame->scene->n_objects; i++) frame->flags[i] = flags_of(&frame->scene->objects[i]);
+}
+
+/* ---- Validation of skins ----------------------------------------------------------------------------------------- */
+
+/* [R12] */
+
+#if GN_VERTEX_JOINTS
+#if GN_VALIDATION
+#define GN_JOINT_LIMIT_Q16 (1 << 30)
+
+/* Unlike an object's, it may flatten: parts of a model are hidden so. */
+static int joint_ok(const gn_affine *a)
+{
+    uint32_t most = 0;
+    for (int r = 0; r < 3; r++) {
+        if (gn_abs32(a->t_q16[r]) > GN_JOINT_LIMIT_Q16) return 0;
+        for (int c = 0; c < 3; c++) most = gn_abs32(a->m_q30[r][c]) > most ? gn_abs32(a->m_q30[r][c]) : most;
+    }
+    return a->exp >= 0 && a->exp <= 14 && most <= 1U << 30;
+}
+
+static gn_status check_vertex(const gn_skin *skin, const uint8_t *joint_idx, const uint8_t *weight_u8)
+{
+    uint32_t sum = 0;
+    for (uint32_t i = 0; i < skin->per_vertex; i++) {
+        if (joint_idx[i] >= skin->n_joints) return GN_ERR_SKIN_JOINT;
+        sum += weight_u8[i];
+    }
+    return sum == 255 ? GN_OK : GN_ERR_SKIN_WEIGHTS;
+}
+
+static gn_field wrong_skin(const gn_skin *skin)
+{
+    if (!skin->joint) return GN_AT(GN_FIELD_SKIN_JOINT);
+    if (!skin->joint_idx) return GN_AT(GN_FIELD_SKIN_JOINT_IDX);
+    if (!skin->weight_u8) return GN_AT(GN_FIELD_SKIN_WEIGHT);
+    if (!skin->n_joints) return GN_AT(GN_FIELD_SKIN_N_JOINTS);
+    if (!skin->per_vertex || skin->per_vertex > GN_VERTEX_JOINTS) return GN_AT(GN_FIELD_SKIN_PER_VERTEX);
+    for (uint32_t i = 0; i < skin->n_joints; i++)
+        if (!joint_ok(&skin->joint[i])) return GN_AT(GN_FIELD_SKIN_JOINT);
+    return GN_FIELD_NONE;
+}
+
+GN_COLD gn_status gn_scene_skin_check(gn_frame *frame, const gn_object *object, uint32_t object_idx)
+{
+    const gn_skin *skin = object->skin;
+    gn_field wrong = wrong_skin(skin);
+    if (wrong) return GN_FAIL_AT(frame, GN_ERR_SKIN, object_idx, wrong);
+    for (uint32_t i = 0; i < object->mesh->n_vertices; i++) {
+        const size_t at = (size_t)skin->per_vertex * i;
+        gn_status status = check_vertex(skin, skin->joint_idx + at, skin->weight_u8 + at);
+        if (status)
+            return GN_FAIL_AT(frame, status, object_idx,
+                              status == GN_ERR_SKIN_JOINT ? GN_FIELD_SKIN_JOINT_IDX : GN_FIELD_SKIN_WEIGHT);
+    }
+    return GN_OK;
+}
+#endif
+#endif
+
+/* ---- Errors that name a field ------------------------------------------------------------------------------------ */
+
+#if GN_ERROR_FIELDS
+gn_status gn_fail_field(gn_frame *frame, gn_status status, uint32_t index, gn_field field)
+{
+    gn_fail(frame, status, index);
+    frame->detail.field = field;
+    return status;
+}
+#endif

@@ -1,7 +1,6 @@
 /* Validation: every precondition of the later stages is checked here, once a frame, so that they need not. */
 #include "gn_internal.h"
 
-#include "gn_stages.h"
 #include "base/gn_math.h"
 #include "base/gn_q.h"
 #include "geometry/gn_skin.h"

@@ -5,14 +5,11 @@
 #include "base/gn_math.h"
 #include "base/gn_q.h"
 #include "geometry/gn_texture.h"
-#include "light/gn_bias.h"
-#include "light/gn_punctual.h"
-#include "shade/gn_arrival.h"
+#include "light/gn_lights.h"
 #include "shade/gn_corner.h"
-#include "shade/gn_light.h"
-#include "shade/gn_shadow.h"
+#include "shade/gn_surface.h"
 #include "shadow/gn_filter.h"
-#include "shadow/gn_persp.h"
+#include "shadow/gn_views.h"
 
 #if GN_INTERPOLATES
 

@@ -4,8 +4,8 @@
 #define GN_CORNER_H
 
 #include "base/gn_count.h"
-#include "light/gn_bias.h"
-#include "shade/gn_sample.h"
+#include "light/gn_lights.h"
+#include "shade/gn_surface.h"
 
 #if GN_INTERPOLATES
 

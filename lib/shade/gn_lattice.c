@@ -5,13 +5,9 @@
 
 #include "base/gn_count.h"
 #include "base/gn_q.h"
-#include "shade/gn_corner_pixel.h"
-#include "shade/gn_exact.h"
 #include "shade/gn_lattice.h"
-#include "shade/gn_lattice_window.h"
-#include "shade/gn_levels.h"
-#include "shade/gn_mix.h"
-#include "shade/gn_part.h"
+#include "shade/gn_pixel.h"
+#include "shade/gn_surface.h"
 
 #if GN_INTERPOLATES
 

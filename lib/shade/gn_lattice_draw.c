@@ -2,19 +2,14 @@
  * shadow has an edge or there is a texture. */
 #include "gn_internal.h"
 
+#include "base/gn_base_types.h"
 #include "base/gn_count.h"
-#include "base/gn_hint.h"
 #include "base/gn_q.h"
-#include "shade/gn_arrival.h"
-#include "shade/gn_exact.h"
 #include "shade/gn_lattice.h"
-#include "shade/gn_lattice_look.h"
-#include "shade/gn_lattice_row.h"
-#include "shade/gn_lattice_texture.h"
 #include "shade/gn_pixel.h"
-#include "shade/gn_shadow.h"
-#include "shadow/gn_persp.h"
-#include "shadow/gn_window.h"
+#include "shade/gn_surface.h"
+#include "shadow/gn_filter.h"
+#include "shadow/gn_views.h"
 
 #if GN_INTERPOLATES
 
@@ -64,6 +59,7 @@ GN_HOT static uint32_t lookup(const gn_drawing *d, const gn_light_view *view, co
 {
     int32_t depth_q30 = gn_max32(0, gn_min32(at->depth_q31, (1 << 30) - 1));
     gn_receiver r = {at->u_q16, at->v_q16, (uint32_t)depth_q30 << 2, {slope_q28[0], slope_q28[1]}, x, y};
+    GN_NOTE_LOOKUP(d->s->surface.squares, d->s->frame, view, &r);
     return gn_filter_attenuation(d->s->frame, view, &r);
 }
 

@@ -3,7 +3,7 @@
 
 #include "base/gn_math.h"
 #include "base/gn_q.h"
-#include "shade/gn_lattice_cell.h"
+#include "shade/gn_lattice.h"
 
 #if GN_INTERPOLATES
 

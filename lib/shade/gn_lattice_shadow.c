@@ -4,9 +4,8 @@
 #include "base/gn_count.h"
 #include "base/gn_math.h"
 #include "base/gn_q.h"
-#include "shade/gn_lattice_cell.h"
-#include "shade/gn_lattice_window.h"
-#include "shade/gn_shadow.h"
+#include "shade/gn_lattice.h"
+#include "shade/gn_surface.h"
 #include "shadow/gn_filter.h"
 #include "shadow/gn_texel.h"
 

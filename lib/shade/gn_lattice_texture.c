@@ -3,8 +3,7 @@
 
 #include "base/gn_math.h"
 #include "base/gn_q.h"
-#include "shade/gn_lattice_look.h"
-#include "shade/gn_lattice_texture.h"
+#include "shade/gn_lattice.h"
 
 #if GN_INTERPOLATES && GN_TEXTURES
 

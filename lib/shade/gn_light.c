@@ -1,13 +1,15 @@
 /* Lighting of one surface point. */
 #include "gn_internal.h"
 
+#include "base/gn_base_types.h"
 #include "base/gn_count.h"
-#include "base/gn_hint.h"
+#include "base/gn_math.h"
 #include "base/gn_q.h"
 #include "geometry/gn_texture.h"
-#include "light/gn_punctual.h"
-#include "shade/gn_light.h"
-#include "shade/gn_shadow.h"
+#include "light/gn_lights.h"
+#include "shade/gn_pixel.h"
+#include "shade/gn_surface.h"
+#include "shadow/gn_views.h"
 
 #if GN_SPECULAR
 /* max(0, n . h)^(2^k), Q30, and h - n. [M3] */
@@ -184,3 +186,239 @@ GN_HOT void gn_light_radiance(const gn_frame *frame, const gn_surface *surface, 
         radiance_q20[c] = sum[c] > UINT32_MAX ? UINT32_MAX : (uint32_t)sum[c];
     }
 }
+
+/* ---- What arrives from spot and point lights --------------------------------------------------------------------- */
+
+#if GN_PUNCTUAL_LIGHTS
+
+/* ---- At a point -------------------------------------------------------------------------------------------------- */
+
+#if GN_SHADOWS
+/* B2 and B3 have moved the point before; B6 does it here, in one of its forms, face by face of a point light. Returns
+ * what is to be taken off its depth, Q32. */
+GN_HOT static int64_t move_point(const gn_surface *surface, int32_t z_q16, const gn_light_view *view,
+                                 gn_auto_bias *form, const int32_t from_q16[3], const int32_t offset_q16[3],
+                                 int32_t out_q16[3])
+{
+#if GN_AUTO_BIAS
+    if (*form) return gn_bias_auto_persp(view, form, surface->face_q30, z_q16, from_q16, out_q16);
+#endif
+    (void)surface, (void)z_q16, (void)view, (void)form;
+    for (int i = 0; i < 3; i++) out_q16[i] = gn_sat32((int64_t)from_q16[i] + offset_q16[i]);
+    return 0;
+}
+
+/* Where the view sees the point in that form. Returns 0 if it is nearer than its near plane. */
+GN_HOT static int place_in(const gn_frame *frame, const gn_surface *surface, int32_t z_q16, const gn_light_view *view,
+                           gn_auto_bias form, const int32_t from_q16[3], const int32_t offset_q16[3], gn_arrival *out)
+{
+    int32_t moved[3];
+    const int64_t less_q32 = move_point(surface, z_q16 + GN_FLAT_Q16(frame), view, &form, from_q16, offset_q16, moved);
+    gn_persp_place at;
+    if (!gn_persp_find_place(frame, view, moved, less_q32, &at)) return 0;
+    out->u_q16 = at.u_q16;
+    out->v_q16 = at.v_q16;
+    out->depth_q32 = at.depth_q32;
+    return 1;
+}
+
+/* B6 along the normal would move what is at a spot's rim out of its tile, whose border says nothing of it: there it
+ * goes along the ray. */
+GN_HOT int gn_arrival_place(const gn_frame *frame, const gn_surface *surface, const gn_light_view *view, int32_t z_q16,
+                            const int32_t from_q16[3], const int32_t offset_q16[3], gn_arrival *out)
+{
+    const gn_auto_bias form =
+        GN_AUTO_BIAS ? (gn_auto_bias)frame->light[view->light_idx].auto_bias : GN_AUTO_BIAS_DEFAULT; /* none */
+    int seen = place_in(frame, surface, z_q16, view, form, from_q16, offset_q16, out);
+    const uint32_t end = (uint32_t)view->tile_texels << 16;
+    if (GN_AUTO_BIAS && seen && form == GN_AUTO_BIAS_NORMAL &&
+        ((uint32_t)out->u_q16 > end || (uint32_t)out->v_q16 > end))
+        seen = GN_SEEN_OUTSIDE * place_in(frame, surface, z_q16, view, GN_AUTO_BIAS_DEPTH, from_q16, offset_q16, out);
+    return seen;
+}
+
+/* P5: the face of the unmoved point; the moved one stays in it. */
+GN_HOT static void light_space_point(const gn_frame *frame, const gn_surface *surface, const gn_light_state *light,
+                                     int32_t z_q16, const int32_t *value, gn_arrival *out)
+{
+    const int32_t *from = value + GN_LIGHT_POINT_AT;
+    uint8_t face = light->kind == GN_LIGHT_POINT ? (uint8_t)gn_persp_face(from) : 0;
+    const gn_light_view *view = &frame->view[light->view_idx + face];
+    out->face = gn_arrival_place(frame, surface, view, z_q16, from, value + GN_LIGHT_OFFSET, out) ? face : GN_FACE_NONE;
+}
+#endif
+
+GN_HOT uint32_t gn_arrival_irradiance_q24(const gn_frame *frame, const gn_light_state *light, const int32_t *value,
+                                          int *arrives)
+{
+    gn_punctual_point point;
+    *arrives = GN_ARRIVES_NOT;
+    if (value[GN_LIGHT_FACING] <= 0 || !gn_punctual_at(frame, light, value + GN_LIGHT_POINT_AT, &point)) return 0;
+    GN_COUNT(lights_punctual, 1);
+    *arrives = light->kind == GN_LIGHT_SPOT && !point.within_inner ? GN_ARRIVES_RIM : GN_ARRIVES_FULLY;
+    return gn_punctual_irradiance_q24(&point, gn_punctual_cosine_q30(&point, value[GN_LIGHT_FACING]));
+}
+
+/* `value` is the light's slot of a sample, z the view depth. [P10] */
+GN_HOT static void arrive(const gn_frame *frame, const gn_surface *surface, const gn_light_state *light, int32_t z_q16,
+                          const int32_t *value, gn_arrival *out)
+{
+    int arrives;
+    out->irradiance_q24 = gn_arrival_irradiance_q24(frame, light, value, &arrives);
+    out->reaches = arrives != GN_ARRIVES_NOT;
+#if GN_SHADOWS
+    out->face = GN_FACE_NONE;
+    if (arrives && surface->shadowed && light->view_idx >= 0)
+        light_space_point(frame, surface, light, z_q16, value, out);
+#else
+    (void)surface, (void)z_q16;
+#endif
+}
+
+GN_HOT void gn_arrivals_at(const gn_frame *frame, const gn_surface *surface, gn_sample *sample)
+{
+    for (uint32_t i = surface->n_lights - surface->n_punctual; i < surface->n_lights; i++)
+        arrive(frame, surface, surface->light[i].state, sample->value[GN_VALUE_Z],
+               &sample->value[GN_VALUE_LIGHT + GN_VALUES_PER_LIGHT * i], &sample->arrival[i]);
+}
+
+#endif
+
+/* ---- Pixels of transparent surfaces ------------------------------------------------------------------------------ */
+
+#if GN_LAYERS_MAX
+
+/* A stored pixel, in the low bits. */
+GN_HOT static uint32_t load(const gn_frame *frame, const gn_pixel_rows *rows, int32_t x, int32_t y)
+{
+    int32_t at = x - rows->x0, row = y - rows->y0, i = row * rows->width + at;
+    const uint8_t *bytes = rows->pixels->bytes;
+    if (!GN_OTHER_FORMATS || frame->picture.format == GN_FORMAT_RGB565) return rows->pixels->rgb565[i];
+    switch (frame->picture.format) {
+    case GN_FORMAT_RGB565_SWAPPED:
+        return rows->pixels->rgb565[i];
+    case GN_FORMAT_GREY8:
+        return bytes[i];
+    case GN_FORMAT_GREY4:
+        return (uint32_t)bytes[row * ((rows->width + 1) >> 1) + (at >> 1)] >> (at & 1 ? 0 : 4) & 15U;
+    case GN_FORMAT_MONO1:
+        return (uint32_t)bytes[row * ((rows->width + 7) >> 3) + (at >> 3)] >> (7 - (at & 7)) & 1U;
+    default:
+        return (uint32_t)bytes[3 * i] | (uint32_t)bytes[3 * i + 1] << 8 | (uint32_t)bytes[3 * i + 2] << 16;
+    }
+}
+
+/* Linear light of a level of 8 bits, 65535: 1. */
+GN_HOT static uint32_t decode_8(const gn_frame *frame, uint32_t level)
+{
+    return GN_K(frame, srgb) ? gn_srgb_decode_entry(level) : level * 257U;
+}
+
+GN_HOT static void decode_565(const gn_frame *frame, uint32_t stored, uint32_t rgb[3])
+{
+    uint32_t v = frame->picture.format == GN_FORMAT_RGB565_SWAPPED ? stored >> 8 | (stored & 255U) << 8 : stored;
+    uint32_t r = v >> 11, g = v >> 5 & 63U, b = v & 31U;
+    if (GN_K(frame, srgb)) {
+        rgb[0] = gn_linear_31_table[r];
+        rgb[1] = gn_linear_63_table[g];
+        rgb[2] = gn_linear_31_table[b];
+        return;
+    }
+    rgb[0] = (r * 65535U + 15U) / 31U;
+    rgb[1] = (g * 65535U + 31U) / 63U;
+    rgb[2] = (b * 65535U + 15U) / 31U;
+}
+
+/* A stored pixel's colour in linear light, 65535: 1; of greys three times the luminance. */
+GN_HOT static void decode(const gn_frame *frame, uint32_t stored, uint32_t rgb[3])
+{
+    if (!GN_OTHER_FORMATS) {
+        decode_565(frame, stored, rgb);
+        return;
+    }
+    switch (frame->picture.format) {
+    case GN_FORMAT_RGB565:
+    case GN_FORMAT_RGB565_SWAPPED:
+        decode_565(frame, stored, rgb);
+        return;
+    case GN_FORMAT_GREY8:
+        rgb[0] = rgb[1] = rgb[2] = decode_8(frame, stored);
+        return;
+    case GN_FORMAT_GREY4:
+        rgb[0] = rgb[1] = rgb[2] = decode_8(frame, 17U * stored);
+        return;
+    default:
+        for (int c = 0; c < 3; c++) rgb[c] = decode_8(frame, stored >> 8 * c & 255U);
+    }
+}
+
+/* The mixture, packed: alpha front + (1 - alpha) behind. 65535 * 65536 < 2^32, and with its 2^16th part, too. */
+GN_HOT static GN_NOINLINE uint32_t mix(const gn_frame *frame, uint32_t front, uint32_t behind, uint32_t alpha_uq16)
+{
+    uint32_t a[3], b[3], q20[3];
+    decode(frame, front, a);
+    decode(frame, behind, b);
+    for (int c = 0; c < 3; c++) {
+        uint32_t sum = a[c] * alpha_uq16 + b[c] * (65536U - alpha_uq16);
+        sum += sum >> 16; /* 65536: 1 */
+        q20[c] = (sum >> 12) + (sum >> 11 & 1U);
+    }
+    return gn_pixel_pack(frame, q20);
+}
+
+#if GN_TEXTURES
+/* Alpha of the triangle at hand, which has a texture. */
+GN_HOT static uint32_t alpha_at(gn_shading *s, int32_t x, int32_t y)
+{
+    const gn_object *object = s->surface.object;
+    const uint16_t n_lights = s->surface.n_lights;
+    s->surface.n_lights = 0; /* nothing but texture coordinates is needed */
+    gn_sample_at(s->frame, &s->surface, x, y, &s->sample);
+    s->surface.n_lights = n_lights;
+    const int32_t *uv = &s->sample.value[GN_VALUE_UV];
+    return gn_mul_uq16(object->alpha_uq16, gn_texture_alpha(object->texture, uv[0], uv[1]));
+}
+#else
+GN_HOT static uint32_t alpha_at(const gn_shading *s, int32_t x, int32_t y)
+{
+    (void)x, (void)y;
+    return s->surface.object->alpha_uq16;
+}
+#endif
+
+/* A bit cannot be mixed: as many pixels show what is in front as alpha says. [M8] */
+GN_HOT static uint32_t choose(uint32_t front, uint32_t behind, uint32_t alpha_uq16, int32_t x, int32_t y)
+{
+    return alpha_uq16 >= gn_noise_uq16(x, y) ? front : behind;
+}
+
+GN_HOT void gn_mix_begin(gn_shading *s)
+{
+    s->mixture.front = UINT32_MAX; /* of no pixel */
+}
+
+GN_HOT void gn_mix_run(gn_shading *s, int32_t x, int32_t y, int32_t n)
+{
+    const gn_object *object = s->surface.object;
+    gn_mixture *known = &s->mixture;
+    gn_pixel_rows tile = s->rows;
+    uint32_t alpha = object->alpha_uq16;
+    tile.pixels = &s->scratch->pixel;
+    for (; n > 0; n--, x++) {
+        uint32_t front = load(s->frame, &s->rows, x, y), behind = load(s->frame, &tile, x, y);
+        if (GN_TEXTURES && object->texture) alpha = alpha_at(s, x, y);
+        if (GN_OTHER_FORMATS && s->frame->picture.format == GN_FORMAT_MONO1) {
+            gn_pixel_store(s->frame, &tile, x, y, 65535U * choose(front, behind, alpha, x, y));
+            continue;
+        }
+        if (front != known->front || behind != known->behind || alpha != known->alpha_uq16) {
+            known->front = front;
+            known->behind = behind;
+            known->alpha_uq16 = alpha;
+            known->packed = mix(s->frame, front, behind, alpha);
+        }
+        gn_pixel_store(s->frame, &tile, x, y, known->packed);
+    }
+}
+
+#endif

@@ -6,10 +6,9 @@
 #include "base/gn_q.h"
 #include "geometry/gn_skin.h"
 #include "geometry/gn_xform.h"
-#include "light/gn_punctual.h"
+#include "light/gn_lights.h"
 #include "shade/gn_patch.h"
-#include "shade/gn_record.h"
-#include "visible/gn_layers.h"
+#include "visible/gn_runs.h"
 
 #if GN_INTERPOLATES
 

@@ -2,9 +2,9 @@
  * levels 0..31 or 0..63 of a channel of RGB565. */
 #include "gn_internal.h"
 
-#include "base/gn_q.h"
 #include "base/gn_count.h"
-#include "base/gn_tables.h"
+#include "base/gn_math.h"
+#include "base/gn_q.h"
 #include "shade/gn_pixel.h"
 
 #define GN_ONE_Q20 (1U << 20)

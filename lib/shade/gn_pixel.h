@@ -65,4 +65,32 @@ GN_HOT static inline void gn_pixel_store(const gn_frame *frame, const gn_pixel_r
     else gn_pixel_fill(frame, rows, x, y, 1, packed);
 }
 
+/* ---- Pixels between two colours, in steps of 1 / 64, each encoded once ------------------------------------------- */
+
+#if GN_INTERPOLATES && GN_SHADOWS
+
+/* Sets the two ends: the colour in shadow, and what the light adds to it. */
+void gn_levels_use(gn_lattice *lattice, const int32_t dark_q24[3], const int32_t more_q24[3]);
+
+/* Forgets the encoded levels: of another picture. */
+GN_HOT static inline void gn_levels_forget(gn_lattice *lattice)
+{
+    gn_levels *l = &lattice->levels;
+    l->known[0] = l->known[1] = l->known[2] = 0;
+}
+
+/* Encodes a level. */
+uint32_t gn_levels_find(gn_shading *s, uint32_t level);
+
+/* The pixel of an attenuation, 0 .. 65536. */
+GN_HOT static inline uint32_t gn_levels_pixel(gn_shading *s, uint32_t attenuation)
+{
+    uint32_t level = (attenuation + 512) >> 10;
+    const gn_levels *l = &s->lattice.levels;
+    if (l->known[level >> 5] >> (level & 31) & 1U) return l->pixel[level];
+    return gn_levels_find(s, level);
+}
+
+#endif
+
 #endif

@@ -3,9 +3,8 @@
 
 #include "base/gn_math.h"
 #include "base/gn_q.h"
-#include "base/gn_tables.h"
-#include "scene/gn_sides.h"
-#include "shade/gn_record.h"
+#include "scene/gn_scene.h"
+#include "shade/gn_patch.h"
 
 #if GN_INTERPOLATES
 

@@ -4,8 +4,8 @@
 #include "base/gn_count.h"
 #include "base/gn_q.h"
 #include "geometry/gn_texture.h"
-#include "light/gn_bias.h"
-#include "shade/gn_sample.h"
+#include "light/gn_lights.h"
+#include "shade/gn_surface.h"
 
 #define GN_ONE_Q30 (1 << 30)
 

@@ -3,21 +3,15 @@
 
 #include <string.h>
 
-#include "gn_stages.h"
+#include "base/gn_base_types.h"
 #include "base/gn_count.h"
-#include "base/gn_hint.h"
 #include "base/gn_q.h"
-#include "light/gn_punctual.h"
-#include "shade/gn_exact.h"
-#include "shade/gn_join.h"
+#include "light/gn_lights.h"
 #include "shade/gn_lattice.h"
-#include "shade/gn_light.h"
-#include "shade/gn_mix.h"
-#include "shade/gn_part.h"
 #include "shade/gn_patch.h"
 #include "shade/gn_pixel.h"
+#include "shade/gn_surface.h"
 #include "visible/gn_cell.h"
-#include "visible/gn_layers.h"
 #include "visible/gn_runs.h"
 #include "visible/gn_screen_rect.h"
 
@@ -302,6 +296,10 @@ GN_HOT void gn_shade_tile(const gn_frame *frame, gn_scratch *scratch, uint32_t t
     shading *s = &scratch->work.shading;
     s->frame = frame;
     s->scratch = scratch;
+#if GN_CHANGES
+    memset(&scratch->squares, 0, sizeof scratch->squares);
+    s->surface.squares = &scratch->squares;
+#endif
     s->rect = gn_screen_rect(frame, tile_idx);
     s->rows.pixels = &scratch->pixel;
     s->rows.width = s->rect.x1 - s->rect.x0;
@@ -320,3 +318,103 @@ GN_HOT void gn_shade_tile(const gn_frame *frame, gn_scratch *scratch, uint32_t t
     if (links) shade_triangles(s, tile_idx);
     if (GN_LAYERS(frame) && coloured) shade_layers(s, tile_idx);
 }
+
+/* ---- Pixels, each for itself ------------------------------------------------------------------------------------- */
+
+/* Q1.30 to 10 bits, offset 512 */
+GN_HOT static uint32_t pack_axis(int64_t v_q30)
+{
+    return (uint32_t)(512 + gn_clamp64(gn_shr64(v_q30 * 511, 30), -511, 511));
+}
+
+GN_HOT static uint32_t raw_normal(const gn_shading *s, int32_t x, int32_t y)
+{
+    int32_t n[3], unit[3];
+    gn_sample_normal(s->frame, &s->surface, x, y, n);
+    int64_t wide[3] = {n[0], n[1], n[2]};
+    if (!gn_normalise_q30(unit, wide)) return 512U << 20 | 512U << 10 | 512U;
+    return pack_axis(unit[0]) << 20 | pack_axis(unit[1]) << 10 | pack_axis(unit[2]);
+}
+
+/* A raw view's value of the surface. [A6] */
+GN_HOT static uint32_t raw_value(const gn_shading *s, int32_t x, int32_t y)
+{
+    const gn_picture *picture = &s->frame->picture;
+    switch (picture->view) {
+    case GN_VIEW_SHADOW:
+        return gn_light_shadow(s->frame, &s->surface, &s->sample, picture->view_light);
+    case GN_VIEW_DEPTH:
+        return (uint32_t)s->sample.value[GN_VALUE_Z];
+    case GN_VIEW_CASCADE:
+        return gn_sample_cascade(s->frame, &s->surface, x, y);
+    case GN_VIEW_NORMAL:
+        return raw_normal(s, x, y);
+    default:
+        return (uint32_t)s->tri->object_idx << 16 | s->tri->triangle_idx;
+    }
+}
+
+GN_HOT uint32_t gn_exact_pack(gn_shading *s, const uint32_t q20[3])
+{
+    uint32_t *last = s->last_q20;
+    if (q20[0] != last[0] || q20[1] != last[1] || q20[2] != last[2]) {
+        last[0] = q20[0];
+        last[1] = q20[1];
+        last[2] = q20[2];
+        GN_COUNT(packed, 1);
+        s->last_pixel = gn_pixel_pack(s->frame, q20);
+    }
+    return s->last_pixel;
+}
+
+GN_HOT void gn_exact_pixel(gn_shading *s, int32_t x, int32_t y)
+{
+    gn_sample *sample = &s->sample;
+    gn_sample_at(s->frame, &s->surface, x, y, sample);
+    if (GN_PUNCTUAL_LIGHTS) gn_arrivals_at(s->frame, &s->surface, sample);
+    sample->x = x;
+    sample->y = y;
+    if (GN_RAW_VIEWS && s->frame->picture.format == GN_FORMAT_RAW32) {
+        s->scratch->pixel.raw[(y - s->rect.y0) * s->rows.width + x - s->rect.x0] = raw_value(s, x, y);
+        return;
+    }
+    uint32_t radiance_q20[3];
+    GN_COUNT(shaded, 1);
+    gn_light_radiance(s->frame, &s->surface, sample, radiance_q20);
+    gn_pixel_store(s->frame, &s->rows, x, y, gn_exact_pack(s, radiance_q20));
+}
+
+/* ---- Pixels between two colours ---------------------------------------------------------------------------------- */
+
+#if GN_INTERPOLATES
+#if GN_INTERPOLATES && GN_SHADOWS
+
+GN_HOT void gn_levels_use(gn_lattice *lattice, const int32_t dark_q24[3], const int32_t more_q24[3])
+{
+    gn_levels *l = &lattice->levels;
+    uint32_t differs = 0;
+    GN_UNROLL
+    for (int c = 0; c < 3; c++) {
+        differs |= (uint32_t)(l->two_q24[0][c] ^ dark_q24[c]) | (uint32_t)(l->two_q24[1][c] ^ more_q24[c]);
+        l->two_q24[0][c] = dark_q24[c];
+        l->two_q24[1][c] = more_q24[c];
+    }
+    if (differs) l->known[0] = l->known[1] = l->known[2] = 0;
+}
+
+GN_HOT GN_NOINLINE uint32_t gn_levels_find(gn_shading *s, uint32_t level)
+{
+    gn_levels *l = &s->lattice.levels;
+    uint32_t q20[3];
+    GN_UNROLL
+    for (int c = 0; c < 3; c++) {
+        int32_t dark = l->two_q24[0][c], more = (int32_t)((int64_t)l->two_q24[1][c] * (int32_t)level >> 6);
+        q20[c] = (uint32_t)gn_max32(dark + more, 0) >> 4;
+    }
+    l->known[level >> 5] |= 1U << (level & 31);
+    l->pixel[level] = gn_exact_pack(s, q20);
+    return l->pixel[level];
+}
+
+#endif
+#endif

@@ -1,13 +1,11 @@
 /* Shadow of one light at a sample. */
 #include "gn_internal.h"
 
+#include "base/gn_base_types.h"
 #include "base/gn_count.h"
-#include "base/gn_hint.h"
-#include "base/gn_noise.h"
 #include "base/gn_q.h"
 #include "geometry/gn_texture.h"
-#include "shade/gn_arrival.h"
-#include "shade/gn_shadow.h"
+#include "shade/gn_surface.h"
 #include "shadow/gn_filter.h"
 
 #define GN_ONE_UQ16 65536U
@@ -117,6 +115,7 @@ GN_HOT static uint32_t ortho_attenuation(const gn_frame *frame, const gn_surface
         r.depth_q32 = share > UINT32_MAX ? UINT32_MAX : (uint32_t)share;
     }
     gn_shadow_slopes(frame, surface, view, NULL, r.slope_q28);
+    GN_NOTE_LOOKUP(surface->squares, frame, view, &r);
     return gn_filter_attenuation(frame, view, &r);
 }
 
@@ -149,6 +148,7 @@ GN_HOT static GN_NOINLINE uint32_t persp_attenuation(const gn_frame *frame, cons
     gn_receiver r = {at->u_q16, at->v_q16, at->depth_q32, {0, 0}, sample->x, sample->y};
     const int32_t *from = &sample->value[GN_VALUE_LIGHT + GN_VALUES_PER_LIGHT * slot + GN_LIGHT_POINT_AT];
     gn_shadow_slopes(frame, surface, view, from, r.slope_q28);
+    GN_NOTE_LOOKUP(surface->squares, frame, view, &r);
     return gn_filter_attenuation(frame, view, &r);
 }
 #else

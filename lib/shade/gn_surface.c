@@ -1,16 +1,15 @@
 /* A visible triangle as a surface. */
 #include "gn_internal.h"
 
+#include "base/gn_base_types.h"
 #include "base/gn_count.h"
-#include "base/gn_hint.h"
 #include "base/gn_q.h"
+#include "geometry/gn_geometry_types.h"
 #include "geometry/gn_skin.h"
 #include "geometry/gn_texture.h"
-#include "geometry/gn_vertex_cache.h"
 #include "geometry/gn_xform.h"
-#include "light/gn_bias.h"
-#include "scene/gn_sides.h"
-#include "shade/gn_sample.h"
+#include "light/gn_lights.h"
+#include "scene/gn_scene.h"
 #include "shade/gn_surface.h"
 #include "visible/gn_setup.h"
 

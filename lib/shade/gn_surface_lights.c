@@ -1,8 +1,10 @@
 /* Lights that can affect a surface, and the bias of their shadows. */
 #include "gn_internal.h"
 
+#include "base/gn_math.h"
 #include "base/gn_q.h"
-#include "light/gn_bias.h"
+#include "geometry/gn_skin.h"
+#include "light/gn_lights.h"
 #include "shade/gn_surface.h"
 #include "shadow/gn_filter.h"
 
@@ -144,4 +146,171 @@ void gn_surface_shadows(const gn_frame *frame, gn_surface *s)
 {
     (void)frame, (void)s;
 }
+#endif
+
+/* ---- Whether triangles are of one plane, by the positions of a mesh ---------------------------------------------- */
+
+/* NUMERICS 4.18. */
+
+#if GN_INTERPOLATES
+
+/* ---- Parallelograms ---------------------------------------------------------------------------------------------- */
+
+/* Four vertices: a + b is to be c + d. */
+typedef struct {
+    size_t a, b, c, d;
+} corners;
+
+/* Whether n values per vertex are those of a parallelogram. */
+#define HOLDS_(name, type)                                                                                             \
+    static int name(const type *at, size_t n, const corners *v)                                                        \
+    {                                                                                                                  \
+        for (size_t i = 0; at && i < n; i++)                                                                           \
+            if ((int64_t)at[n * v->a + i] + at[n * v->b + i] != (int64_t)at[n * v->c + i] + at[n * v->d + i])          \
+                return 0;                                                                                              \
+        return 1;                                                                                                      \
+    }
+HOLDS_(positions_hold, gn_position)
+HOLDS_(holds_u16, uint16_t)
+#if GN_TEXTURES
+HOLDS_(holds_i16, int16_t)
+#endif
+#if GN_MASKS
+HOLDS_(holds_u8, uint8_t)
+#endif
+#undef HOLDS_
+
+/* Whether all that vertices have goes on linearly. */
+static int is_parallelogram(const gn_object *object, const corners *v)
+{
+    const gn_mesh *mesh = object->mesh;
+    int holds = positions_hold(mesh->pos, 3, v);
+#if GN_TEXTURES
+    if (object->texture || object->emissive_texture) holds = holds && holds_i16(mesh->uv, 2, v);
+#endif
+    if (GN_VERTEX_COLOURS) holds = holds && holds_u16(mesh->rgb_uq16, 3, v);
+#if GN_MASKS
+    if (object->mask_image) holds = holds && holds_u16(mesh->mask_uv_uq16, 2, v);
+    else holds = holds && holds_u8(object->mask_u8, 4, v);
+#endif
+    if (GN_BAKED_LIGHT) holds = holds && holds_u16(object->baked_uq12, 3, v);
+    return holds;
+}
+
+/* ---- Planes ------------------------------------------------------------------------------------------------------ */
+
+/* By the first 20 bits of the farthest coordinate: at most so far beside the plane, and so many times as far from the
+ * triangle as it is large; faces lean by 2^-BEND_LOG2 at most. */
+enum { COORD_BITS = 20, BESIDE = 16, FAR = 4, BEND_LOG2 = 10 };
+
+/* From one vertex to another, 2^up times as long. */
+static void way(const gn_mesh *mesh, uint32_t from, uint32_t to, int32_t up, int32_t out[3])
+{
+    for (size_t i = 0; i < 3; i++)
+        out[i] = (int32_t)gn_scale64((int64_t)mesh->pos[3 * (size_t)to + i] - mesh->pos[3 * (size_t)from + i], -up);
+}
+
+/* Whether two normals lean by less than the limit; the first one's component i is its largest. */
+static int lean_alike(const int64_t n[3], const int64_t m[3], int i)
+{
+    int32_t a[3], b[3];
+    gn_norm_vec(a, n);
+    gn_norm_vec(b, m);
+    const int64_t both = (int64_t)a[i] * b[i];
+    for (int j = 0; j < 3; j++)
+        if ((int64_t)gn_abs64((int64_t)a[i] * b[j] - (int64_t)b[i] * a[j]) > both >> BEND_LOG2) return 0;
+    return both > 0;
+}
+
+/* Whether a triangle with the vertex d is on the plane of another one and faces the same way. */
+static int is_on_plane(const gn_mesh *mesh, const uint16_t *p, const uint16_t *q, uint32_t d)
+{
+    /* v: 2^20; w: 2^24, as triangles before are within 4 times of the first; six: 3 * 2^61 */
+    int32_t v[3][3], w[2][3];
+    int64_t n[3], m[3], beside[2][3], most = 1;
+    for (size_t i = 0; i < 3; i++) {
+        const int64_t from = mesh->pos[3 * (size_t)p[0] + i];
+        most |=
+            (int64_t)(gn_abs64(mesh->pos[3 * (size_t)p[1] + i] - from) |
+                      gn_abs64(mesh->pos[3 * (size_t)p[2] + i] - from) | gn_abs64(mesh->pos[3 * (size_t)d + i] - from));
+    }
+    const int32_t up = COORD_BITS + gn_clz64((uint64_t)most) - 64;
+    way(mesh, p[0], p[1], up, v[0]);
+    way(mesh, p[0], p[2], up, v[1]);
+    way(mesh, p[0], d, up, v[2]);
+    for (int k = 0; k < 2; k++) way(mesh, q[0], q[k + 1], up, w[k]);
+    gn_cross64(n, v[0], v[1]);
+    gn_cross64(m, w[0], w[1]);
+    gn_cross64(beside[0], v[2], v[1]);
+    gn_cross64(beside[1], v[0], v[2]);
+    int i = gn_abs64(n[1]) > gn_abs64(n[0]);
+    if (gn_abs64(n[2]) > gn_abs64(n[i])) i = 2;
+    const uint64_t whole = gn_abs64(n[i]);
+    const int64_t six = v[2][0] * n[0] + v[2][1] * n[1] + v[2][2] * n[2]; /* times the tetrahedron */
+    return whole >> COORD_BITS && lean_alike(n, m, i) && gn_abs64(six) <= BESIDE * whole &&
+           gn_abs64(beside[0][i]) <= FAR * whole && gn_abs64(beside[1][i]) <= FAR * whole &&
+           gn_abs64(n[i] - beside[0][i] - beside[1][i]) <= FAR * whole;
+}
+
+/* Whether all vertices have the same colour, and nothing else that may differ. */
+static int looks_even(const gn_object *object, const uint16_t *p, uint32_t vertex)
+{
+    const uint16_t *rgb = GN_VERTEX_COLOURS ? object->mesh->rgb_uq16 : NULL;
+    for (size_t i = 0; rgb && i < 3; i++)
+        for (int k = 0; k < 3; k++)
+            if (rgb[3 * (size_t)p[k] + i] != rgb[3 * (size_t)vertex + i]) return 0;
+    return !(GN_TEXTURES && (object->texture || object->emissive_texture)) &&
+           !(GN_MASKS && (object->mask_u8 || object->mask_image)) && !(GN_BAKED_LIGHT && object->baked_uq12);
+}
+
+static int same_normal(const gn_mesh *mesh, uint32_t a, uint32_t b)
+{
+    if (!GN_VERTEX_NORMALS || !mesh->nrm_q15) return 1;
+    const gn_normal *n = mesh->nrm_q15 + 3 * (size_t)a, *m = mesh->nrm_q15 + 3 * (size_t)b;
+    return n[0] == m[0] && n[1] == m[1] && n[2] == m[2];
+}
+
+int gn_join_may(const gn_frame *frame, const gn_tri_source *tri)
+{
+    const gn_object *object = &frame->scene->objects[tri->object_idx];
+    const uint16_t *p = object->mesh->idx + 3 * (size_t)tri->triangle_idx;
+    return object->visible_alpha == GN_ALPHA_OPAQUE && !(GN_VERTEX_JOINTS && GN_SKIN(object)) &&
+           same_normal(object->mesh, p[0], p[1]) && same_normal(object->mesh, p[0], p[2]);
+}
+
+/* The edge a, b that both have, the other way round, and the vertices opposite: c of p, d of q. Returns 0 if they have
+ * none. */
+static int find_shared_edge(const uint16_t *p, const uint16_t *q, corners *v)
+{
+    static const uint8_t next[3] = {1, 2, 0};
+    for (int k = 0; k < 3; k++) {
+        const uint16_t a = p[next[k]], b = p[next[next[k]]];
+        for (int m = 0; m < 3; m++)
+            if (q[m] == b && q[next[m]] == a) {
+                *v = (corners){a, b, p[k], q[next[next[m]]]};
+                return 1;
+            }
+    }
+    return 0;
+}
+
+int32_t gn_join_vertex(const gn_frame *frame, const gn_tri_source *first, const gn_tri_source *last,
+                       const gn_tri_source *next)
+{
+    const gn_object *object = &frame->scene->objects[first->object_idx];
+    corners v;
+    if (next->object_idx != first->object_idx) return GN_JOIN_NONE;
+    if (next->triangle_idx == last->triangle_idx) return GN_JOIN_SAME;
+    if (next->triangle_idx != last->triangle_idx + 1U) return GN_JOIN_NONE;
+    const uint16_t *idx = object->mesh->idx, *p = idx + 3 * (size_t)last->triangle_idx, *q = p + 3;
+    if (!find_shared_edge(p, q, &v)) return GN_JOIN_NONE;
+    const uint16_t *root = idx + 3 * (size_t)first->triangle_idx;
+    const uint32_t d = (uint32_t)v.d;
+    if (!same_normal(object->mesh, root[0], d)) return GN_JOIN_NONE;
+    if (root == p && is_parallelogram(object, &v)) return (int32_t)d;
+    if (!looks_even(object, root, d) || GN_FLAT_Q16(frame) || !is_on_plane(object->mesh, root, q, d))
+        return GN_JOIN_NONE;
+    return (int32_t)d;
+}
+
 #endif

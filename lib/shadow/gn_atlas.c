@@ -3,21 +3,16 @@
 
 #include <string.h>
 
-#include "gn_stages.h"
+#include "base/gn_base_types.h"
 #include "base/gn_count.h"
-#include "base/gn_hint.h"
 #include "base/gn_math.h"
 #include "base/gn_q.h"
+#include "geometry/gn_geometry_types.h"
 #include "geometry/gn_skin.h"
-#include "geometry/gn_vertex_cache.h"
 #include "geometry/gn_xform.h"
 #include "scene/gn_scene.h"
-#include "scene/gn_sides.h"
-#include "shadow/gn_blocks.h"
-#include "shadow/gn_caster.h"
-#include "shadow/gn_atlas.h"
-#include "shadow/gn_persp.h"
 #include "shadow/gn_texel.h"
+#include "shadow/gn_views.h"
 
 typedef gn_caster_job caster_job;
 
@@ -349,5 +344,8 @@ gn_status gn_atlas_render_tile(gn_frame *frame, gn_casting *casting, uint32_t vi
     else if (GN_HAS_BLOCKS(view)) gn_blocks_build_touched(view);
 #endif
     if (GN_INCREMENTAL) gn_kept_set(frame, view_idx, GN_LAYER_ALL, signature);
+#if GN_CHANGES
+    gn_kept_note_squares(frame, view_idx);
+#endif
     return GN_OK;
 }

@@ -1,12 +1,10 @@
 /* Percentage-closer filtering: any filter. */
 #include "gn_internal.h"
 
+#include "base/gn_base_types.h"
 #include "base/gn_count.h"
-#include "base/gn_hint.h"
 #include "base/gn_q.h"
-#include "shadow/gn_lookup.h"
 #include "shadow/gn_filter.h"
-#include "shadow/gn_tent.h"
 #include "shadow/gn_texel.h"
 
 /* ---- The receiver's plane ---------------------------------------------------------------------------------------- */
@@ -138,3 +136,225 @@ GN_HOT uint32_t gn_filter_attenuation(const gn_frame *frame, const gn_light_view
     if (GN_PLANES) start_plane(&l, receiver, dropped, GN_VIEW_EDGE(frame, view));
     return filtered(frame, &l, receiver);
 }
+
+/* ---- Edges finer than texels ------------------------------------------------------------------------------------- */
+
+/* [F7] */
+
+#if GN_EDGE_BUILT
+
+/* A run of texels like the receiver's beside texels that are not: how many lie before and after it, up to n. */
+typedef struct {
+    int32_t length[2];
+    int32_t end[2]; /* bits of the texel after the last: 1 in the receiver's line, 2 in the other, where dark differs */
+} texel_run;
+
+/* Along a row; bit n, 1 .. 8, is the receiver's texel. Bits of texels like it are 0; those above 2n may be any, as runs
+ * end there. Shifts are up to 31. */
+GN_HOT static inline void run_of_row(uint32_t own, uint32_t other, int32_t n, texel_run *run)
+{
+    const uint32_t bits = ~own & other, before = ~(bits << (32 - n)), after = ~(bits >> (n + 1));
+    const int32_t left = gn_min32(gn_clz32(before | 1U), n), right = gn_min32(31 - gn_clz32(after & (0U - after)), n);
+    run->length[0] = left;
+    run->length[1] = right;
+    own <<= 1; /* one texel before the first */
+    other <<= 1;
+    run->end[0] = (int32_t)((own >> (n - left) & 1U) | (other >> (n - left) & 1U) << 1);
+    run->end[1] = (int32_t)((own >> (n + 2 + right) & 1U) | (other >> (n + 2 + right) & 1U) << 1);
+}
+
+/* Along a column, from the receiver's row on. */
+GN_HOT static inline void run_of_column(const uint32_t *row, int32_t own, int32_t other, uint32_t flip, int32_t n,
+                                        texel_run *run)
+{
+    for (int side = 0; side < 2; side++) {
+        const uint32_t *at = row;
+        int32_t k = 0, end;
+        do {
+            at += side ? 1 : -1;
+            end = (int32_t)(((*at ^ flip) >> own & 1U) | ((*at ^ flip) >> other & 1U) << 1);
+        } while (end == 2 && ++k < n);
+        run->length[side] = k;
+        run->end[side] = end;
+    }
+}
+
+/* What is left of the receiver's own answer by one side: f along it, y inside of it. The outline lies half a texel
+ * inside of the side where the run ends in a step towards the receiver, as much outside where it steps away, and on it
+ * in the run's middle. */
+GN_HOT static int32_t share_by_side(const texel_run *run, int32_t n, uint32_t f_q16, int32_t y_q16, int hard)
+{
+    const int32_t length = run->length[0] + run->length[1] + 1;
+    int32_t from_end = 2 * ((run->length[0] << 16) + (int32_t)f_q16), side = 0;
+    if (from_end >= length << 16) {
+        from_end = (length << 17) - from_end;
+        side = 1;
+    }
+    int32_t line = (length << 16) - from_end; /* up to 17 * 2^16: half a texel times twice the length */
+    const int32_t end = run->length[side] >= n ? 1 : run->end[side];
+    if (end == 0) line = -line;
+    else if (end != 3) line = 0;
+    /* all below 2^22: y up to 2^16, length up to 17 */
+    if (hard) return y_q16 * 2 * length < line ? 0 : 65536;
+    return gn_max32(0, gn_min32(32768 + y_q16 - line / (2 * length), 65536));
+}
+
+GN_HOT uint32_t gn_edge_attenuation(const uint32_t *row, int32_t s, int32_t n, int32_t u_q16, int32_t v_q16, int hard)
+{
+    const uint32_t f[2] = {(uint32_t)u_q16 & 0xFFFFU, (uint32_t)v_q16 & 0xFFFFU};
+    const uint32_t dark = row[0] >> s & 1U, flip = 0U - dark;
+    int32_t share = 65536;
+    GN_COUNT(outlines, 1);
+    for (int side = 0; side < 4; side++) {
+        const int by_column = side >> 1, step = side & 1 ? 1 : -1;
+        const uint32_t *beside = by_column ? row : row + step;
+        const int32_t t = by_column ? s + step : s;
+        texel_run run;
+        const uint32_t across = f[!by_column];
+        const int32_t y_q16 = (int32_t)(step > 0 ? 65536 - across : across);
+        if ((*beside >> t & 1U) == dark || (hard && y_q16 >= 32768)) continue;
+        if (by_column) run_of_column(row, s, t, flip, n, &run);
+        else run_of_row((row[0] ^ flip) >> (s - n), (*beside ^ flip) >> (s - n), n, &run);
+        share = gn_min32(share, share_by_side(&run, n, f[by_column], y_q16, hard));
+        if (!share) break;
+    }
+    return (uint32_t)(dark ? 65536 - share : share);
+}
+
+#endif
+
+/* ---- Weights of tents -------------------------------------------------------------------------------------------- */
+
+#if GN_FILTER_MAX >= 2
+GN_HOT void gn_tent_weights(uint32_t *w, int32_t k, uint32_t u, int32_t bits)
+{
+    uint32_t f = 1U << bits, ff = f * f, uf4 = 4 * u * f, h = 2 * u;
+    uint32_t m = h < f ? f - h : 0, p = h > f ? h - f : 0; /* |2u - F| left and right of the texel's centre */
+    int32_t n = 2 * (k + 1);
+    w[0] = 2 * (f - u) * (f - u);
+    w[n - 1] = 2 * u * u;
+    for (int32_t i = 1; i <= k; i++) {
+        /* rising towards the peak 4i + 2, falling after it; the peak's corner is cut off the middle ones */
+        w[i] = (uint32_t)(4 * i + 2) * ff - uf4 - (i == k ? m * m : 0);
+        w[n - 1 - i] = (uint32_t)(4 * i - 2) * ff + uf4 - (i == k ? p * p : 0);
+    }
+}
+#endif
+
+/* ---- Texels compared with a receiver's depth --------------------------------------------------------------------- */
+
+/* Taps are limited to the tile [P8]. */
+GN_HOT static int is_dark(const gn_light_view *view, gn_texels row, int32_t u, uint32_t least)
+{
+    int32_t last = view->tile_texels - 1, in_u = u < 0 ? 0 : u > last ? last : u;
+    if (gn_border_lit(view) && in_u != u) return 0;
+    return gn_texel_load(row, GN_VIEW_BITS(view), (uint32_t)in_u) < least;
+}
+
+GN_HOT static uint32_t dark_on_plane(const gn_lookup *l, gn_texels row, int32_t u, int32_t in_v, int32_t n)
+{
+    int32_t last = l->view->tile_texels - 1;
+    int64_t least_q32 = gn_least_on_plane(l, gn_max32(0, gn_min32(u, last)), in_v); /* of the texel that is read */
+    uint32_t dark = 0;
+    for (int32_t i = 0; i < n; i++, u++) {
+        dark |= (uint32_t)is_dark(l->view, row, u, gn_limited_depth(l->view, least_q32)) << i;
+        if (u >= 0 && u < last) least_q32 += (int64_t)l->slope_q28[0] * 16;
+    }
+    return dark;
+}
+
+GN_HOT uint32_t gn_lookup_dark(const gn_lookup *l, int32_t u, int32_t v, int32_t n)
+{
+    const gn_light_view *view = l->view;
+    int32_t last = GN_TILE_ROWS(view) - 1, in_v = v < 0 ? 0 : v > last ? last : v;
+    uint32_t dark = 0;
+    GN_COUNT(taps_edge, 1);
+    if (gn_border_lit(view) && in_v != v) return 0;
+    gn_texels row = gn_view_texels(view, 0, in_v);
+    if (GN_PLANES && l->sloped) return dark_on_plane(l, row, u, in_v, n);
+    for (int32_t i = 0; i < n; i++) dark |= (uint32_t)is_dark(view, row, u + i, l->least) << i;
+    return dark;
+}
+
+#if GN_PLANES && !GN_SIZE_FIRST
+/* Whether w x h texels from (u, v) on lie in the tile, and the plane in what texels hold: its least and most there. */
+GN_HOT static inline int is_plain_plane(const gn_lookup *l, int32_t u, int32_t v, int32_t w, int32_t h, int64_t *lo,
+                                        int64_t *hi)
+{
+    const gn_light_view *view = l->view;
+    if (u < 0 || v < 0 || u > view->tile_texels - w || v > GN_TILE_ROWS(view) - h) return 0;
+    gn_plane_range(l, u, v, w - 1, h - 1, lo, hi);
+    return *lo >= 0 && *hi <= (int64_t)gn_texel_far(GN_VIEW_BITS(view));
+}
+
+/* Those of n texels of a row that are before depths that grow by 4 `across`, from `least` on. */
+GN_HOT static inline uint32_t before_plane(gn_texels row, int32_t bits, int32_t n, uint32_t least, uint32_t across)
+{
+    if (bits == 16) /* steps are whole quarters */
+        return gn_texels_before(row.d16, n, (int32_t)((least >> 2) + ((least & 3U) != 0)), (int32_t)across);
+    uint32_t near = 0;
+    for (int32_t i = n - 1; i >= 0; i--)
+        near = near << 1 | (gn_texel_load(row, bits, (uint32_t)i) < least + (uint32_t)i * (4 * across));
+    return near;
+}
+
+GN_HOT int gn_lookup_on_plane(const gn_lookup *l, int32_t u, int32_t v, int32_t n, uint8_t *dark, uint32_t *found)
+{
+    const gn_light_view *view = l->view;
+    const int32_t bits = GN_VIEW_BITS(view);
+    const uint32_t across = (uint32_t)l->slope_q28[0] * 4, down = (uint32_t)l->slope_q28[1] * 16;
+    int64_t lo, hi;
+    if (!is_plain_plane(l, u, v, n, n, &lo, &hi)) return 0;
+    GN_COUNT(undecided, 1);
+    GN_COUNT(taps_tent, n * n);
+    uint32_t least = (uint32_t)gn_least_on_plane(l, u, v), any = 0, all = 255;
+    gn_texels row = gn_view_texels(view, u, v);
+    for (uint8_t *end = dark + n; dark < end; dark++, least += down) {
+        uint32_t near = before_plane(row, bits, n, least, across);
+        *dark = (uint8_t)near;
+        any |= near;
+        all &= near;
+        row = gn_texels_at(row, bits, (size_t)view->tile_texels);
+    }
+    *found = any | all << 16;
+    return 1;
+}
+
+#if GN_EDGE_BUILT
+GN_HOT int gn_lookup_cross_on_plane(const gn_lookup *l, int32_t u, int32_t v, uint32_t *dark)
+{
+    const gn_light_view *view = l->view;
+    const int32_t bits = GN_VIEW_BITS(view), pitch = view->tile_texels;
+    if (u < 1 || v < 1 || u > pitch - 2 || v > GN_TILE_ROWS(view) - 2) return 0;
+    const uint32_t steep = gn_abs32(l->slope_q28[0]) | gn_abs32(l->slope_q28[1]), most = 32 * steep;
+    if (steep >> 25 || l->least_q32 >> 32) return 0;
+    const uint32_t least = (uint32_t)l->least_q32;
+    if (least < most || least > gn_texel_far(bits) - most) return 0;
+    const uint32_t across = (uint32_t)l->slope_q28[0] * 16, down = (uint32_t)l->slope_q28[1] * 16;
+    const gn_texels above = gn_view_texels(view, u, v - 1), row = gn_texels_at(above, bits, (size_t)pitch - 1),
+                    below = gn_texels_at(row, bits, (size_t)pitch + 1);
+    GN_COUNT(taps_lone, 1);
+    *dark = (uint32_t)(gn_texel_load(row, bits, 1) < least) |
+            (uint32_t)(gn_texel_load(above, bits, 0) < least - down) << 1 |
+            (uint32_t)(gn_texel_load(below, bits, 0) < least + down) << 2 |
+            (uint32_t)(gn_texel_load(row, bits, 0) < least - across) << 3 |
+            (uint32_t)(gn_texel_load(row, bits, 2) < least + across) << 4;
+    return 1;
+}
+
+GN_HOT int gn_lookup_rows_on_plane(const gn_lookup *l, int32_t u, int32_t v, int32_t w, int32_t h, int32_t at,
+                                   uint32_t *rows)
+{
+    const int32_t bits = GN_VIEW_BITS(l->view);
+    int64_t lo, hi;
+    if (!is_plain_plane(l, u, v, w, h, &lo, &hi)) return 0;
+    uint32_t least = (uint32_t)gn_least_on_plane(l, u, v);
+    gn_texels row = gn_view_texels(l->view, u, v);
+    for (uint32_t *end = rows + h; rows < end; rows++, least += (uint32_t)l->slope_q28[1] * 16) {
+        *rows = before_plane(row, bits, w, least, (uint32_t)l->slope_q28[0] * 4) << at;
+        row = gn_texels_at(row, bits, (size_t)l->view->tile_texels);
+    }
+    return 1;
+}
+#endif
+#endif

@@ -1,10 +1,11 @@
 /* Signatures of shadow tiles. */
 #include "gn_internal.h"
 
-#include "base/gn_signature.h"
-#include "geometry/gn_skin.h"
-#include "shadow/gn_blocks.h"
-#include "shadow/gn_atlas.h"
+#include "base/gn_q.h"
+#include "scene/gn_scene.h"
+#include "shadow/gn_filter.h"
+#include "shadow/gn_texel.h"
+#include "shadow/gn_views.h"
 
 static uint64_t view_signature(const gn_frame *frame, const gn_light_view *view)
 {
@@ -27,54 +28,13 @@ static uint64_t view_signature(const gn_frame *frame, const gn_light_view *view)
     return gn_signature_add(s, (uint64_t)fit->inv_texel.mant << 32 | (uint32_t)fit->inv_texel.exp);
 }
 
-/* Where the joints are now: a skinned object has moved when one has. */
-static uint64_t skin_signature(uint64_t s, const gn_skin *skin)
-{
-    s = gn_signature_add(s, (uint64_t)(uintptr_t)skin->joint_idx);
-    s = gn_signature_add(s, (uint64_t)(uintptr_t)skin->weight_u8);
-    s = gn_signature_add(s, (uint64_t)skin->n_joints << 8 | skin->per_vertex);
-    for (uint32_t i = 0; i < skin->n_joints; i++) {
-        const gn_affine *joint = &skin->joint[i];
-        s = gn_signature_words(s, &joint->m_q30[0][0], 9);
-        s = gn_signature_words(s, joint->t_q16, 3);
-        s = gn_signature_add(s, (uint32_t)joint->exp);
-    }
-    return s;
-}
-
-static uint64_t object_signature(uint64_t s, const gn_object *object)
-{
-    const gn_mesh *mesh = object->mesh;
-    s = gn_signature_add(s, (uint64_t)(uintptr_t)mesh->pos);
-    s = gn_signature_add(s, (uint64_t)(uintptr_t)mesh->idx);
-    s = gn_signature_add(s, (uint64_t)(uintptr_t)mesh->nrm_q15);
-    s = gn_signature_add(s, (uint64_t)mesh->n_vertices << 32 | (uint64_t)mesh->n_triangles << 16 |
-                                (uint64_t)mesh->pos_frac_bits << 8 | (uint64_t)object->caster_alpha << 4);
-    s = gn_signature_words(s, &object->to_world.m_q30[0][0], 9);
-    s = gn_signature_words(s, object->to_world.t_q16, 3);
-    s = gn_signature_add(s, (uint64_t)(uint32_t)object->to_world.exp << 32 |
-                                (object->flags & ~(uint32_t)GN_OBJECT_HIDDEN));
-    if (GN_SKIN(object)) s = skin_signature(s, GN_SKIN(object));
-    if (!GN_CASTER_ALPHA || object->caster_alpha == GN_ALPHA_OPAQUE) return s;
-    s = gn_signature_add(s, (uint64_t)object->alpha_uq16 << 32 | object->alpha_cutoff_uq16);
-    if (!object->texture) return s;
-    s = gn_signature_add(s, (uint64_t)(uintptr_t)object->texture->rgba);
-    s = gn_signature_add(s, (uint64_t)(uintptr_t)object->texture->palette);
-    s = gn_signature_add(s, (uint64_t)(uintptr_t)mesh->uv);
-    s = gn_signature_add(s, (uint64_t)object->texture->width_log2 << 24 | (uint64_t)object->texture->height_log2 << 16 |
-                                (uint64_t)object->texture->flags << 8 | mesh->uv_frac_bits |
-                                (uint64_t)object->texture->width << 48 | (uint64_t)object->texture->height << 32);
-    s = gn_signature_add(s, object->texture->format);
-    return s;
-}
-
 /* Everything that the texels of a view's tile depend on. [A5] */
 GN_COLD uint64_t gn_kept_signature(const gn_frame *frame, const gn_light_view *view, gn_layer layer)
 {
     uint64_t s = view_signature(frame, view);
     for (uint32_t o = 0; o < frame->scene->n_objects; o++) {
         int culled;
-        if (gn_cull_draws(frame, view, o, layer, &culled)) s = object_signature(s, &frame->scene->objects[o]);
+        if (gn_cull_draws(frame, view, o, layer, &culled)) s = gn_sign_caster(s, &frame->scene->objects[o]);
     }
     return s ? s : 1;
 }
@@ -123,3 +83,128 @@ void gn_kept_set(gn_frame *frame, uint32_t view_idx, gn_layer layer, uint64_t si
 {
     *signature_of(frame, view_idx, layer) = signature;
 }
+
+/* ---- Squares of shadow maps: which texels changed [R13] ---------------------------------------------------------- */
+
+#if GN_CHANGES
+GN_HOT GN_NOINLINE void gn_note_texels(gn_squares *squares, const gn_light_view *view, int32_t u, int32_t v, int32_t w,
+                                       int32_t h)
+{
+    const int32_t right = view->tile_texels - 1, bottom = GN_TILE_ROWS(view) - 1, log2 = view->square_log2;
+    const int32_t left = gn_max32(0, gn_min32(u, right)) >> log2, top = gn_max32(0, gn_min32(v, bottom)) >> log2;
+    const int32_t n = (gn_max32(0, gn_min32(u + w - 1, right)) >> log2) - left + 1;
+    int32_t n_rows = (gn_max32(0, gn_min32(v + h - 1, bottom)) >> log2) - top + 1;
+    for (uint32_t at = view->first_square + (uint32_t)(top * view->n_columns + left); n_rows--; at += view->n_columns)
+        for (uint32_t bit = at; bit < at + (uint32_t)n; bit++)
+            squares->word[bit / 32 % (GN_SQUARES / 32)] |= 1U << bit % 32;
+}
+
+GN_HOT GN_NOINLINE void gn_note_lookup(gn_squares *squares, const gn_frame *frame, const gn_light_view *view,
+                                       const gn_receiver *receiver)
+{
+    const int32_t reach = view->filter_idx + 2 + GN_VIEW_EDGE(frame, view), n = 2 * reach + 1;
+    gn_note_texels(squares, view, (receiver->u_q16 >> 16) - reach, (receiver->v_q16 >> 16) - reach, n, n);
+}
+static int32_t columns_of(const gn_light_view *view, int32_t square_log2)
+{
+    return (view->tile_texels + (1 << square_log2) - 1) >> square_log2;
+}
+
+static int32_t rows_of(const gn_light_view *view, int32_t square_log2)
+{
+    return (GN_TILE_ROWS(view) + (1 << square_log2) - 1) >> square_log2;
+}
+
+/* Squares are as large in all views, and as small as their number allows. */
+GN_COLD void gn_kept_find_squares(gn_frame *frame)
+{
+    int32_t log2 = 2, n = GN_SQUARES + 1;
+    while (n > GN_SQUARES && log2 < 10) {
+        log2++, n = 0;
+        for (uint32_t v = 0; v < frame->n_views; v++)
+            n += columns_of(&frame->view[v], log2) * rows_of(&frame->view[v], log2);
+    }
+    n = 0;
+    for (uint32_t v = 0; v < frame->n_views; v++) {
+        gn_light_view *view = &frame->view[v];
+        view->square_log2 = (uint8_t)log2;
+        view->n_columns = (uint8_t)columns_of(view, log2);
+        view->first_square = (uint8_t)(n % GN_SQUARES); /* more views than squares share them */
+        n += view->n_columns * rows_of(view, log2);
+    }
+}
+
+/* Of a square's texels. */
+static uint64_t sign_square(const gn_light_view *view, uint32_t view_idx, int32_t u, int32_t v)
+{
+    const int32_t bits = GN_VIEW_BITS(view), side = 1 << view->square_log2, w = gn_min32(view->tile_texels - u, side),
+                  end = gn_min32(GN_TILE_ROWS(view), v + side);
+    uint64_t s = gn_signature_add(GN_SIGNATURE_SEED, view_idx);
+    for (; v < end; v++) {
+        const gn_texels row = gn_texels_at(view->depth, bits, (size_t)(v * view->tile_texels + u));
+        s = gn_signature_bytes(s,
+                               bits == 8    ? (const void *)row.d8
+                               : bits == 16 ? (const void *)row.d16
+                                            : (const void *)row.d32,
+                               (size_t)(w * (bits / 8)));
+    }
+    return s;
+}
+
+GN_COLD void gn_kept_note_squares(gn_frame *frame, uint32_t view_idx)
+{
+    const gn_light_view *view = &frame->view[view_idx];
+    const int32_t log2 = view->square_log2;
+    for (int32_t v = 0; v < GN_TILE_ROWS(view); v += 1 << log2)
+        for (int32_t u = 0; u < view->tile_texels; u += 1 << log2) {
+            const int32_t at = (view->first_square + (v >> log2) * view->n_columns + (u >> log2)) % GN_SQUARES;
+            const uint64_t s = sign_square(view, view_idx, u, v);
+            if (frame->sign.square[at] != s) frame->sign.changed.word[at / 32] |= 1U << at % 32;
+            frame->sign.square[at] = s;
+        }
+}
+
+GN_COLD uint64_t gn_kept_sign_view(const gn_frame *frame, uint32_t view_idx, uint64_t s)
+{
+    const gn_light_view *view = &frame->view[view_idx];
+    s = gn_signature_add(s, view_signature(frame, view));
+    s = gn_signature_add(s, (uint64_t)(uint32_t)view->offset_q16 << 32 | (uint32_t)view->disk_radius_q16);
+#if GN_AUTO_BIAS
+    s = gn_signature_add(s, (uint64_t)(uint32_t)view->auto_step << 32 | (uint32_t)view->auto_place);
+#endif
+    return gn_signature_add(s, (uint64_t)view_idx << 48 | (uint64_t)view->first_square << 40 |
+                                   (uint64_t)view->square_log2 << 32 | (uint64_t)view->tile_log2 << 24 |
+                                   (uint64_t)view->cascade_idx << 16 | (uint64_t)view->filter << 12 |
+                                   (uint64_t)view->filter_idx << 4 | (uint64_t)(GN_UNSEEN(view) << 3) |
+                                   (uint64_t)(GN_TIGHT(view) << 2) | (uint64_t)(view->border_lit << 1) | view->empty);
+}
+#endif
+
+/* ---- The static layer -------------------------------------------------------------------------------------------- */
+
+/* Depths of casters that stand still, kept from frame to frame. A tile with moving casters begins as a copy of it,
+ * so that only these are drawn anew. */
+
+#if GN_STATIC_LAYER
+/* The view's tile of the static layer. [A5] */
+gn_texels gn_static_layer_texels(gn_frame *frame, const gn_light_view *view)
+{
+    gn_texels texels = GN_TEXELS_OF(frame->static_atlas, view->depth_bits);
+#if GN_OTHER_ATLAS
+    if (view->in_other) texels = GN_TEXELS_OF(frame->static_other_atlas, view->depth_bits);
+#endif
+    return gn_texels_at(texels, view->depth_bits, view->first_texel);
+}
+
+void gn_static_layer_copy(const gn_light_view *to, gn_texels from)
+{
+    size_t n = (size_t)to->tile_texels * GN_TILE_ROWS(to);
+    int32_t bits = GN_VIEW_BITS(to);
+    if (bits == 8)
+        for (size_t i = 0; i < n; i++) to->depth.d8[i] = from.d8[i];
+    else if (bits == 16)
+        for (size_t i = 0; i < n; i++) to->depth.d16[i] = from.d16[i];
+    else
+        for (size_t i = 0; i < n; i++) to->depth.d32[i] = from.d32[i];
+}
+#endif

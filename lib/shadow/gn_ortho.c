@@ -3,14 +3,14 @@
 
 #include <string.h>
 
-#include "base/gn_hint.h"
+#include "base/gn_base_types.h"
 #include "base/gn_math.h"
 #include "base/gn_q.h"
 #include "geometry/gn_walk.h"
 #include "geometry/gn_xform.h"
-#include "scene/gn_sides.h"
-#include "shadow/gn_blocks.h"
-#include "shadow/gn_caster.h"
+#include "scene/gn_scene.h"
+#include "shadow/gn_texel.h"
+#include "shadow/gn_views.h"
 
 #define GN_TILE_REACH_Q16                                                                                              \
     ((int64_t)16384 << 16) /* casters are cut at this distance in texels: keeps gn_walk in range */

@@ -3,9 +3,7 @@
 
 #include "base/gn_math.h"
 #include "base/gn_q.h"
-#include "light/gn_bias.h"
 #include "light/gn_lights.h"
-#include "shadow/gn_caster.h"
 #include "shadow/gn_views.h"
 
 GN_COLD int64_t gn_light_coord_q16(const gn_light_view *view, int axis_idx, const int32_t p_q16[3])

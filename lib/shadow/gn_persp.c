@@ -3,10 +3,9 @@
 
 #include "base/gn_math.h"
 #include "base/gn_q.h"
-#include "geometry/gn_clip.h"
-#include "light/gn_bias.h"
-#include "scene/gn_sides.h"
-#include "shadow/gn_persp.h"
+#include "geometry/gn_xform.h"
+#include "light/gn_lights.h"
+#include "scene/gn_scene.h"
 #include "shadow/gn_views.h"
 
 #define GN_NEAR_MAX_Q16 (8192 << 16) /* as far as lights may have it */

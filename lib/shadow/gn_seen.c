@@ -8,7 +8,6 @@
 #include "base/gn_q.h"
 #include "light/gn_lights.h"
 #include "shadow/gn_views.h"
-#include "shadow/gn_persp.h"
 
 /* ---- Boxes and parts of the frustum, from the camera --------------------------------------------------------------
  */

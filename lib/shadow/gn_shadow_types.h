@@ -87,6 +87,13 @@ typedef struct {
     uint16_t lo, hi; /* the upper 16 bits of depth, whatever depth_bits */
 } gn_depth_block;    /* see gn_blocks.h */
 
+/* Squares of shadow maps, a bit each: those of a view's tile, of 2^square_log2 texels each way, are the ones from
+ * first_square on, row by row, n_columns in a row. */
+enum { GN_SQUARES = 256 };
+typedef struct {
+    uint32_t word[GN_SQUARES / 32];
+} gn_squares;
+
 /* Orthographic: whole texels of a grid that is fixed in the world. */
 typedef struct {
     gn_bfloat inv_texel; /* texels per world unit */
@@ -145,6 +152,9 @@ typedef struct {
     uint8_t tight;  /* beyond the tile, and within a filter's reach of its border, nothing casts */
     uint8_t unseen; /* no visible receiver looks into it: an empty tile of 8 x 8 texels that all such views share */
 #endif
+#if GN_CHANGES
+    uint8_t square_log2, n_columns, first_square; /* see gn_squares */
+#endif
 #if GN_DISK_FILTER
     gn_depth_block *block; /* (T / 8) * (T / 8), of the disk filter alone: gn_blocks.h */
 #endif
@@ -161,10 +171,13 @@ enum { GN_WINDOW_TEXELS = 32, GN_WINDOWS = GN_VIEWS_MAX >= 4 ? 4 : GN_VIEWS_MAX 
 enum { GN_WINDOW_LIT, GN_WINDOW_DARK, GN_WINDOW_MIXED, GN_WINDOW_MISSED };
 
 typedef struct {
-    const gn_light_view *view;            /* NULL: none */
-    int32_t planar;                       /* 0: of this view there is no window, -1: of single cells alone */
-    int32_t slope_q30[2];                 /* change of the plane's depth per texel, a fraction of the range */
-    int32_t front_q30, behind_q30;        /* depths so far in front of the plane, and behind it, are in doubt */
+    const gn_light_view *view;     /* NULL: none */
+    int32_t planar;                /* 0: of this view there is no window, -1: of single cells alone */
+    int32_t slope_q30[2];          /* change of the plane's depth per texel, a fraction of the range */
+    int32_t front_q30, behind_q30; /* depths so far in front of the plane, and behind it, are in doubt */
+#if GN_CHANGES
+    gn_squares *squares; /* to note what is compared */
+#endif
     int32_t until_x;                      /* gn_lattice: columns of the screen that it was made for */
     int32_t u0, v0, w, h;                 /* texels, w = 0: none yet */
     int32_t plain;                        /* all of them in the tile, of 16 bits */

@@ -2,7 +2,7 @@
  * atlas as a run of T * T texels, not as a rectangle: so tiles of any sizes pack without waste. */
 #include "gn_internal.h"
 
-#include "base/gn_hint.h"
+#include "base/gn_base_types.h"
 #include "base/gn_math.h"
 #include "base/gn_q.h"
 #include "light/gn_lights.h"

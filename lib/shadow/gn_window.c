@@ -2,11 +2,8 @@
 #include "gn_internal.h"
 
 #include "base/gn_count.h"
-#include "base/gn_kernel.h"
 #include "base/gn_q.h"
-#include "shadow/gn_lookup.h"
-#include "shadow/gn_tent.h"
-#include "shadow/gn_window.h"
+#include "shadow/gn_filter.h"
 
 #if GN_INTERPOLATES
 
@@ -152,6 +149,7 @@ GN_HOT int gn_window_compare(gn_window *window, const gn_window_place *place, in
     window->w = 0;
     if (!in_range(window, first, place->apart_q30, w, h)) return 0;
     if (u0 + w <= 0 || v0 + h <= 0 || u0 > last || v0 > last_row) return 0;
+    GN_NOTE_TEXELS(window->squares, view, u0, v0, w, h);
     int32_t ua = gn_max32(u0, 0), n = gn_min32(u0 + w - 1, last) - ua + 1, left = ua - u0;
     int32_t va = gn_max32(v0, 0), n_rows = gn_min32(v0 + h - 1, last_row) - va + 1, above = va - v0;
     const texel_rows rows = {view,

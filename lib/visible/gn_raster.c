@@ -3,17 +3,14 @@
 
 #include <string.h>
 
-#include "gn_stages.h"
+#include "base/gn_base_types.h"
 #include "base/gn_count.h"
-#include "base/gn_hint.h"
 #include "base/gn_q.h"
-#include "geometry/gn_alpha.h"
+#include "geometry/gn_texture.h"
 #include "geometry/gn_walk.h"
-#include "geometry/gn_plane.h"
 #include "geometry/gn_xform.h"
 #include "visible/gn_cell.h"
-#include "visible/gn_layers.h"
-#include "visible/gn_raster.h"
+#include "visible/gn_runs.h"
 #include "visible/gn_screen_rect.h"
 #include "visible/gn_setup.h"
 

@@ -2,7 +2,16 @@
  * are linked through their first cells. */
 #include "gn_internal.h"
 
+#include <string.h>
+
+#include "base/gn_base_types.h"
+#include "base/gn_count.h"
+#include "base/gn_q.h"
+#include "scene/gn_scene.h"
+#include "visible/gn_cell.h"
 #include "visible/gn_runs.h"
+#include "visible/gn_screen_rect.h"
+#include "visible/gn_setup.h"
 
 GN_HOT void gn_runs_clear(gn_scratch *scratch)
 {
@@ -77,3 +86,146 @@ GN_HOT int gn_runs_join(const gn_frame *frame, gn_scratch *scratch, uint32_t id,
     return 1;
 }
 #endif
+
+/* ---- Counting sort of triangles into screen tiles, in triangle order --------------------------------------------- */
+
+/* Puts a triangle into the bins of the screen tiles within its bounds. */
+static inline void bin_by_bounds(gn_frame *frame, uint32_t tri_idx)
+{
+    gn_rect px = gn_setup_bounds(frame, &frame->records.tri[tri_idx]);
+    gn_tile_walk tiles = gn_setup_tiles(frame, &px);
+    gn_ref_offset *at = frame->tile_first + tiles.first;
+    do {
+        int32_t n = tiles.width;
+        do frame->tile_ref[--*at++] = (uint16_t)tri_idx;
+        while (--n);
+        at += tiles.skip;
+    } while (--tiles.height);
+}
+
+static void sort_triangles(gn_frame *frame, uint32_t n_tiles)
+{
+    gn_ref_offset *first = frame->tile_first;
+    /* offsets to the end of each bin; filling backwards leaves each at its bin's start, in triangle order */
+    for (uint32_t i = 1; i <= n_tiles; i++) first[i] = (gn_ref_offset)(first[i] + first[i - 1]);
+    for (uint32_t t = frame->stats.n_triangles; t-- > 0;) bin_by_bounds(frame, t);
+}
+
+/* Whether the identities of every screen tile have room, with groups. */
+static gn_status check_tiles(gn_frame *frame, uint32_t n_tiles)
+{
+    uint32_t most = 0;
+    for (uint32_t i = 0; i < n_tiles; i++)
+        if (frame->tile_first[i] > most) most = frame->tile_first[i];
+#if GN_GROUPS
+    frame->stats.n_tile_triangles = most;
+#endif
+    return most > GN_MAX_TRIANGLES ? gn_fail_capacity(frame, GN_ERR_TRIANGLES_FULL, most, GN_MAX_TRIANGLES) : GN_OK;
+}
+
+/* The triangles of every screen tile, in the order of the scene. A function of its own: a stage that is counted. [R1]
+ */
+GN_NOINLINE gn_status gn_bin_triangles(gn_frame *frame)
+{
+    uint32_t n_tiles = (uint32_t)frame->tiles_x * frame->tiles_y;
+    uint64_t n_refs = 0;
+    for (uint32_t i = 0; i < n_tiles; i++) n_refs += frame->tile_first[i];
+    frame->stats.n_tile_refs = n_refs > UINT32_MAX ? UINT32_MAX : (uint32_t)n_refs;
+    if (GN_K(frame, triangle_groups)) return check_tiles(frame, n_tiles);
+    if (n_refs > GN_MAX_TILE_REFS)
+        return gn_fail_capacity(frame, GN_ERR_TILE_REFS_FULL, frame->stats.n_tile_refs, GN_MAX_TILE_REFS);
+    GN_COUNT(tile_refs, n_refs);
+    sort_triangles(frame, n_tiles);
+    return GN_OK;
+}
+
+/* ---- Transparent surfaces of a screen tile ----------------------------------------------------------------------- */
+
+#if GN_LAYERS_MAX
+
+GN_HOT void gn_layers_clear(gn_scratch *scratch)
+{
+    scratch->layers.n = 0;
+}
+
+GN_HOT void gn_layers_use(const gn_frame *frame, gn_scratch *scratch)
+{
+    gn_layers *layers = &scratch->layers;
+    if (layers->n) return;
+    layers->n = GN_LAYERS(frame);
+    for (int32_t k = 0; k < layers->n; k++)
+        memset(layers->layer[k].cell, 0,
+               sizeof(uint32_t) * (uint32_t)(GN_K(frame, tile_width) * GN_K(frame, tile_height)));
+}
+
+GN_HOT void gn_layers_put(gn_scratch *scratch, int32_t n_layers, const uint32_t *cell, uint32_t nearer)
+{
+    const int32_t i = (int32_t)(cell - GN_CELLS(scratch));
+    for (int32_t k = 0; k < n_layers; k++) { /* each takes the place of the next */
+        uint32_t *at = &scratch->layers.layer[k].cell[i], last = *at;
+        if (nearer < last) continue;
+        *at = nearer;
+        nearer = last;
+    }
+}
+
+GN_HOT void gn_layers_drop_hidden(const gn_frame *frame, gn_scratch *scratch, int32_t n_rows)
+{
+    gn_layers *layers = &scratch->layers;
+    const uint32_t *opaque = GN_CELLS(scratch);
+    const int32_t n = layers->n, n_cells = n_rows * GN_K(frame, tile_width);
+    layers->n = 0;
+    for (int32_t k = 0; k < n; k++) {
+        uint32_t *cell = layers->layer[k].cell, any = 0;
+        for (int32_t i = 0; i < n_cells; i++) {
+            if (cell[i] < opaque[i]) cell[i] = 0;
+            any |= cell[i];
+        }
+        if (any) layers->n = k + 1;
+    }
+}
+
+GN_HOT int32_t gn_layers_count(const gn_scratch *scratch)
+{
+    return scratch->layers.n;
+}
+
+GN_HOT gn_tile_pixels *gn_layers_take(const gn_frame *frame, gn_scratch *scratch, int32_t layer, int32_t n_rows)
+{
+    memcpy(GN_CELLS(scratch), scratch->layers.layer[layer].cell,
+           sizeof(uint32_t) * (uint32_t)(n_rows * GN_K(frame, tile_width)));
+    return &scratch->layers.layer[layer].pixels;
+}
+
+GN_HOT uint32_t gn_layers_nearest(const gn_scratch *scratch, int32_t at)
+{
+    return scratch->layers.n ? scratch->layers.layer[0].cell[at] : 0;
+}
+
+#endif
+
+/* ---- What is under a pixel --------------------------------------------------------------------------------------- */
+
+/* For touch panels. The tile's visible surfaces are resolved once more; nothing is shaded. */
+
+gn_status gn_pick(gn_renderer *r, uint32_t x, uint32_t y, uint32_t *object_idx, uint32_t *triangle_idx)
+{
+    if (object_idx) *object_idx = GN_NOTHING;
+    if (triangle_idx) *triangle_idx = GN_NOTHING;
+    if (!r) return GN_ERR_NULL;
+    const gn_frame *frame = &r->frame;
+    if (frame->stage != GN_STAGE_PREPARED) return gn_fail(&r->frame, gn_wrong_stage(frame), 0);
+    if (x >= frame->picture.width || y >= frame->picture.height) return gn_fail(&r->frame, GN_ERR_INDEX, 0);
+    const uint32_t tile_idx =
+        y / (uint32_t)GN_K(frame, tile_height) * frame->tiles_x + x / (uint32_t)GN_K(frame, tile_width);
+    const gn_rect rect = gn_screen_rect(frame, tile_idx);
+    gn_raster_tile(frame, &r->scratch, tile_idx);
+    const int32_t at = ((int32_t)y - rect.y0) * GN_K(frame, tile_width) + (int32_t)x - rect.x0;
+    const uint32_t glass = GN_LAYERS(frame) ? gn_layers_nearest(&r->scratch, at) : 0;
+    const uint32_t id = (glass ? glass : GN_CELLS(&r->scratch)[at]) & ((1U << frame->id_bits) - 1);
+    if (!id) return GN_OK;
+    const gn_tri_source *source = gn_cell_source(frame, gn_cell_sources(frame, &r->scratch), id);
+    if (object_idx) *object_idx = source->object_idx;
+    if (triangle_idx) *triangle_idx = source->triangle_idx;
+    return GN_OK;
+}

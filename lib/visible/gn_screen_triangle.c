@@ -1,13 +1,12 @@
 /* Triangles on the screen. */
 #include "gn_internal.h"
 
+#include "base/gn_base_types.h"
 #include "base/gn_count.h"
-#include "base/gn_hint.h"
 #include "base/gn_math.h"
 #include "base/gn_q.h"
 #include "geometry/gn_walk.h"
-#include "scene/gn_sides.h"
-#include "visible/gn_screen_triangle.h"
+#include "scene/gn_scene.h"
 #include "visible/gn_setup.h"
 
 /* ---- Depth ------------------------------------------------------------------------------------------------------- */

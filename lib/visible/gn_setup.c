@@ -1,18 +1,15 @@
 /* Visible triangles. */
 #include "gn_internal.h"
 
-#include "gn_stages.h"
+#include "base/gn_base_types.h"
 #include "base/gn_count.h"
-#include "base/gn_hint.h"
 #include "base/gn_math.h"
 #include "base/gn_q.h"
-#include "geometry/gn_clip.h"
+#include "geometry/gn_geometry_types.h"
 #include "geometry/gn_skin.h"
-#include "geometry/gn_vertex_cache.h"
 #include "geometry/gn_walk.h"
 #include "geometry/gn_xform.h"
 #include "scene/gn_scene.h"
-#include "visible/gn_screen_triangle.h"
 #include "visible/gn_screen_rect.h"
 #include "visible/gn_setup.h"
 

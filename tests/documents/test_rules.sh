@@ -117,12 +117,12 @@ for tree in lib host; do
     none "a folder of $tree/ includes one that stands below it in $tree/README.md" "$tmp/found"
 done
 
-# gnomon.c includes every part once; in gn_frame.c the table of contents names the stages in the order of gn_stages.h.
+# gnomon.c includes every part once; in gn_frame.c the table of contents names the stages in the order of gn_internal.h.
 find lib -mindepth 2 -name "*.c" | sed "s|^lib/||" | sort >"$tmp/parts"
 sed -n "s/^#include \"\(.*\.c\)\"/\1/p" lib/gnomon.c | sort | diff "$tmp/parts" - >"$tmp/found"
 none "not what lib/gnomon.c includes" "$tmp/found"
-sed -n "s/.*[ *]\(gn_[a-z_]*\)(gn_frame .*/\1/p; s/.*[ *]\(gn_[a-z_]*\)(const gn_frame .*/\1/p" lib/gn_stages.h >"$tmp/stages"
-[ "$(wc -l <"$tmp/stages")" = 8 ] && pass || fail "lib/gn_stages.h declares $(wc -l <"$tmp/stages") stages, not 8"
+sed -n "s/.*[ *]\(gn_[a-z_]*\)(gn_frame .*/\1/p; s/.*[ *]\(gn_[a-z_]*\)(const gn_frame .*/\1/p" lib/gn_internal.h >"$tmp/stages"
+[ "$(wc -l <"$tmp/stages")" = 8 ] && pass || fail "lib/gn_internal.h declares $(wc -l <"$tmp/stages") stages, not 8"
 awk "NR == FNR { name[NR] = \$1; n = NR; next } /\*\// { exit } at < n && index(\$0, name[at + 1] \":\") { at++ } END { for (i = at + 1; i <= n; i++) print name[i] }" \
     "$tmp/stages" lib/frame/gn_frame.c >"$tmp/found"
 none "stages that are not named in order in the table of contents of lib/frame/gn_frame.c" "$tmp/found"

@@ -79,7 +79,7 @@ for figure in frame window cascades; do
     sh docs/$figure.sh "$tmp/$figure.svg" && cmp -s "$tmp/$figure.svg" docs/pictures/$figure.svg && pass || fail "docs/pictures/$figure.svg is not what docs/$figure.sh draws"
 done
 grep -o '[^a-z_]gn_[a-z_]*' docs/pictures/frame.svg | cut -c 2- | sort -u | while read -r name; do
-    grep -q -w "$name" lib/gnomon.h lib/gn_stages.h || echo "$name"
+    grep -q -w "$name" lib/gnomon.h lib/gn_internal.h || echo "$name"
 done >"$tmp/found"
 none "functions of the figure that the library does not have" "$tmp/found"
 

@@ -53,7 +53,8 @@ flags_of() {
             PICTURES) echo "-DGN_$feature=7" ;;
             MATERIALS) echo "-DGN_$feature=15" ;;
             TEXTURE_FORMATS) echo "-DGN_$feature=1025" ;;
-            INCREMENTAL | TILE_SIZES | CLIPPING) echo "-DGN_$feature=2" ;;
+            INCREMENTAL) echo "-DGN_$feature=3" ;;
+            TILE_SIZES | CLIPPING) echo "-DGN_$feature=2" ;;
             *) echo "-DGN_$feature=1" ;;
             esac
         done

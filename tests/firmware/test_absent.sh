@@ -16,7 +16,8 @@ most() {
     SHADOWS) echo 6 ;;
     VERTEX_JOINTS) echo 4 ;;
     MANY_CASCADES | BIASES | OTHER_LIGHTS | VERTEX_VALUES) echo 3 ;;
-    INCREMENTAL | TILE_SIZES | CLIPPING | VALIDATION) echo 2 ;;
+    INCREMENTAL) echo 3 ;;
+    TILE_SIZES | CLIPPING | VALIDATION) echo 2 ;;
     TEXTURE_FORMATS) echo 2047 ;;
     PICTURES | MATERIALS) echo 15 ;;
     *) echo 1 ;;
@@ -120,7 +121,7 @@ TEXTURE_FORMATS gn_texture_(level_at|level_depth2|use_level)|gn_texture_colour|g
 MATERIALS highlight_q30|emitted_light|begin_glow|alpha_plane|cut_begin|cut_row|gn_texture_mask
 VERTEX_JOINTS gn_skin_.*|mean_matrix|skin_signature|gn_scene_skin_check
 BIASES corner_normals|start_plane|dark_on_plane|gn_bias_auto_.*|.*_share_q3[02]|auto_.*
-INCREMENTAL gn_kept_.*|view_signature|stays|gn_static_layer_.*
+INCREMENTAL gn_kept_.*|view_signature|stays|gn_static_layer_.*|gn_sign_.*|gn_changes_.*|gn_touch|gn_note_.*
 VALIDATION gn_scene_validate|check_.*light|gn_fail_field
 PICTURES gradient_row|draw_behind|luminance_q20|fill_(grey4|mono)|flat_plane|flat_sphere|intersect_flat
 TILE_SIZES sizes_by_importance|weight_of|gn_seen_.*|gn_ortho_(fit_tight|covers)|sides_by_worth|sixteenth_octaves|place_by_worth
@@ -149,7 +150,8 @@ SHADOWS 5 gn_disk_.*|gn_blocks_.*
 MANY_CASCADES 2 gn_cull_shown_nearer
 TEXTURE_FORMATS 1 gn_texture_(level_at|level_depth2|use_level)|gn_linear_(31|63)_table|gn_texel_decode_(565|grey)
 TEXTURE_FORMATS 1023 gn_texture_(level_at|level_depth2|use_level)
-INCREMENTAL 1 gn_static_layer_.*
+INCREMENTAL 1 gn_static_layer_.*|gn_changes_.*|gn_touch|gn_note_.*|gn_kept_.*squares|gn_sign_(object|light|settings)
+INCREMENTAL 2 gn_static_layer_.*
 CLIPPING 1 clip_side|clip_to_reach
 VALIDATION 1 gn_fail_field
 TILE_SIZES 1 gn_seen_.*|gn_ortho_(fit_tight|covers)|sides_by_worth

@@ -84,13 +84,15 @@ if [ -n "$target" ]; then
         predicted $preset incremental=0
         predicted $preset vertex_joints=0 texture_formats=1023 biases=2
         predicted $preset incremental=2
-        predicted $preset incremental=2 shadows=5
+        predicted $preset incremental=2 shadows=0 other_lights=0
+        predicted $preset incremental=3
+        predicted $preset incremental=3 shadows=5
         predicted $preset other_lights=2
         predicted $preset other_lights=1
         predicted $preset other_lights=0
         predicted $preset other_lights=0 shadows=0 max_objects=3 max_lights=1
         predicted $preset depth_bits=8 other_depth_bits=32 atlas_size=16 other_atlas_size=512
-        predicted $preset depth_bits=32 other_depth_bits=8 atlas_size=32 other_atlas_size=16 incremental=2
+        predicted $preset depth_bits=32 other_depth_bits=8 atlas_size=32 other_atlas_size=16 incremental=3
         predicted $preset max_width=333 max_height=17 max_triangles=7 max_tile_refs=9 max_lights=3 max_shadow_tiles=16
         predicted $preset max_objects=777 max_other_tiles=13 surface_lights=3 max_shadow_tiles=1 max_lights=5
         predicted $preset max_tile_refs=70001 atlas_size=64 tile_width=72 tile_height=5 max_lights=8
@@ -105,7 +107,7 @@ if [ -n "$target" ]; then
         predicted $preset triangle_groups=1 max_triangles=8 tile_width=72 tile_height=5 shadows=0 pictures=3
         predicted $preset transparent_layers=2 tile_width=72 tile_height=5
         predicted $preset transparent_layers=1 triangle_groups=8 shadows=0
-        predicted $preset atlas_texels=8192 other_atlas_texels=64 incremental=2
+        predicted $preset atlas_texels=8192 other_atlas_texels=64 incremental=3
     done
     compact="compact=1 max_width=256 max_lights=1 max_shadow_tiles=1"
     predicted tiny $compact

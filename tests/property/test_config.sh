@@ -28,7 +28,8 @@ most() {
     SHADOWS) echo 6 ;;
     VERTEX_JOINTS) echo 4 ;;
     MANY_CASCADES | BIASES | OTHER_LIGHTS | VERTEX_VALUES) echo 3 ;;
-    INCREMENTAL | TILE_SIZES | CLIPPING) echo 2 ;;
+    INCREMENTAL) echo 3 ;;
+    TILE_SIZES | CLIPPING) echo 2 ;;
     TEXTURE_FORMATS) echo 2047 ;;
     PICTURES | MATERIALS) echo 15 ;;
     *) echo 1 ;;
@@ -76,7 +77,7 @@ pairs() {
         more "none SHADOWS=1 TEXTURE_FORMATS=1023 MATERIALS=$part"
         more "all TEXTURE_FORMATS=0 MATERIALS=$((3 + part))"
     done
-    for level in TEXTURE_FORMATS=1023 MANY_CASCADES=1 MANY_CASCADES=2 TILE_SIZES=1 INCREMENTAL=1 SHADOWS=5; do echo "all $level"; done
+    for level in TEXTURE_FORMATS=1023 MANY_CASCADES=1 MANY_CASCADES=2 TILE_SIZES=1 INCREMENTAL=1 INCREMENTAL=2 SHADOWS=5; do echo "all $level"; done
     for parts in "OTHER_LIGHTS=1 VERTEX_VALUES=2 BIASES=1 MATERIALS=10 PICTURES=1" "OTHER_LIGHTS=2 VERTEX_VALUES=1 BIASES=2 MATERIALS=5 PICTURES=6"; do
         echo "all $parts"
         echo "none SHADOWS=1 $parts"
@@ -86,7 +87,7 @@ pairs() {
     more "none SHADOWS=1 OTHER_LIGHTS=3 BIASES=2"
     more "all OTHER_LIGHTS=2 MANY_CASCADES=1"
     echo "all OTHER_LIGHTS=0"
-    more "none SHADOWS=1 INCREMENTAL=2"
+    more "none SHADOWS=1 INCREMENTAL=3"
     for level in 1 2 3 4; do # with what builds upon kernels
         $([ $level = 2 ] && echo echo || echo more) "all SHADOWS=$level BIASES=$((level % 2 ? 1 : 3))"
     done
@@ -98,7 +99,7 @@ pairs() {
     more "tiny all EDGE=8 DEPTH_BITS=32"
     echo "fast EDGE=1 OTHER_LIGHTS=2 BIASES=1"
     more "accurate EDGE=3 SHADOWS=1"
-    more "OTHER_LIGHTS=0 DEPTH_BITS=32 INCREMENTAL=2"
+    more "OTHER_LIGHTS=0 DEPTH_BITS=32 INCREMENTAL=3"
     echo "OTHER_ATLAS_SIZE=32 ATLAS_SIZE=64 TILE_WIDTH=32 TILE_HEIGHT=5"
     echo "TRIANGLE_GROUPS=64 MAX_TRIANGLES=400 MAX_TILE_REFS=1"
     echo "TRANSPARENT_LAYERS=1 TEXTURE_FORMATS=0 SIZE_FIRST=1"

@@ -5,7 +5,7 @@
 #include "../host/tool/fixed/quantise.h"
 #include "check.h"
 #include "light_scene.h"
-#include "shadow/gn_atlas.h"
+#include "shadow/gn_views.h"
 
 #define W     64
 #define H     48

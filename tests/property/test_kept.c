@@ -6,7 +6,7 @@
 #include "check.h"
 #include "knobs.h"
 #include "light_scene.h"
-#include "shadow/gn_atlas.h"
+#include "shadow/gn_views.h"
 
 #define W     48
 #define H     36

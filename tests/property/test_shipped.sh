@@ -54,7 +54,7 @@ awk '/^typedef struct gn_(frame|scratch) \{/ { of = $3; sub(/^gn_/, "", of) }
     /^\} gn_/ { of = "" }
     of != "" && /^    [a-z]/ && (/^    [^;]*\];/ || /^    (gn_work|gn_tile_pixels|gn_[a-z]*_texels) /) { printf "uint64_t gap_%d[8];\n", ++n; print of ".gap_" n >list }
     { print }' list="$tmp/gaps" lib/frame/gn_state.h >"$tmp/lib/frame/gn_state.h"
-accurate="-DGN_PRESET=GN_PRESET_ACCURATE -DGN_ATLAS_SIZE=128 -DGN_OTHER_ATLAS_SIZE=64 -DGN_INCREMENTAL=2 -DGN_MANY_CASCADES=3"
+accurate="-DGN_PRESET=GN_PRESET_ACCURATE -DGN_ATLAS_SIZE=128 -DGN_OTHER_ATLAS_SIZE=64 -DGN_INCREMENTAL=3 -DGN_MANY_CASCADES=3"
 # of arrays that this build does not have there is no gap either
 echo '#include "gnomon.h"' >"$tmp/gaps.c"
 clang -E -P $accurate "-I$tmp/lib" "$tmp/gaps.c" | grep -o '^ *uint64_t gap_[0-9]*' | sed 's/.* //' >"$tmp/built"

@@ -7,11 +7,10 @@
  */
 #include "prove.h"
 
-#include "base/gn_curves.c"
 #include "base/gn_math.c"
-#include "base/gn_noise.h"
+#include "base/gn_q.h"
 #include "base/gn_tables.c"
-#include "shadow/gn_tent.c"
+#include "shadow/gn_filter.c"
 
 /* ---- lib/base/gn_q.h -----------------------------------------------------------------------------------------------
  */
@@ -182,7 +181,7 @@ void prove_step_of(void)
         sink = gn_step_of(any_i32(INT32_MIN, INT32_MAX), any_i32(INT32_MIN, INT32_MAX), n);
 }
 
-/* ---- lib/base/gn_curves.c, gn_noise.h ------------------------------------------------------------------------------
+/* ---- lib/base/gn_math.c, gn_noise.h ------------------------------------------------------------------------------
  */
 
 /* gn_far_recip_entry, gn_far_rsqrt_entry, gn_far_srgb_entry, gn_far_srgb_decode_entry: every entry */
@@ -201,7 +200,7 @@ void prove_noise(void)
     //@ assert v <= 65535;
 }
 
-/* ---- lib/shadow/gn_tent.h ------------------------------------------------------------------------------------------
+/* ---- lib/shadow/gn_filter.h ------------------------------------------------------------------------------------------
  */
 
 /* gn_filter_fraction, gn_tent_weights, gn_linear_weights: every place, 1 to 12 bits */

@@ -3,7 +3,7 @@
 
 #include "base/gn_math.c"
 #include "base/gn_tables.c"
-#include "geometry/gn_walk.c"
+#include "geometry/gn_plane.c"
 #include "geometry/gn_xform.h"
 #include "visible/gn_screen_triangle.c"
 

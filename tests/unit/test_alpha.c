@@ -7,7 +7,7 @@
 
 #include "exact.h"
 #include "knobs.h"
-#include "geometry/gn_alpha.h"
+#include "geometry/gn_texture.h"
 #include "gnomon.h"
 #include "rng.h"
 

@@ -6,7 +6,7 @@
 
 #include "exact.h"
 #include "knobs.h"
-#include "shade/gn_arrival.h"
+#include "shade/gn_surface.h"
 #include "light_scene.h"
 
 enum { W = 96, H = 64 };

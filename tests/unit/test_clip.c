@@ -4,7 +4,7 @@
 #include <string.h>
 
 #include "exact.h"
-#include "geometry/gn_clip.h"
+#include "geometry/gn_xform.h"
 #include "geometry/gn_walk.h"
 #include "rng.h"
 

@@ -7,11 +7,9 @@
 
 #include "exact.h"
 #include "knobs.h"
-#include "base/gn_tables.h"
-#include "shadow/gn_blocks.h"
-#include "shadow/gn_filter.h"
-#include "shadow/gn_tent.h"
+#include "base/gn_math.h"
 #include "shadow/gn_texel.h"
+#include "shadow/gn_filter.h"
 #include "gnomon.h"
 #include "rng.h"
 

@@ -3,10 +3,10 @@
 #include <string.h>
 
 #include "check.h"
-#include "gn_stages.h"
+#include "gn_internal.h"
 #include "knobs.h"
 #include "rng.h"
-#include "shade/gn_join.h"
+#include "shade/gn_surface.h"
 #include "visible/gn_cell.h"
 #include "visible/gn_runs.h"
 #include "gnomon.h"

@@ -5,7 +5,7 @@
 
 #include "check.h"
 #include "knobs.h"
-#include "light/gn_punctual.h"
+#include "light/gn_lights.h"
 #include "light_scene.h"
 
 #define W 48

@@ -8,7 +8,6 @@
 #include "base/gn_math.h"
 #include "base/gn_q.h"
 #include "shade/gn_surface.h"
-#include "base/gn_tables.h"
 #include "gnomon.h"
 #include "rng.h"
 

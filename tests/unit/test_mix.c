@@ -4,10 +4,10 @@
 #include "exact.h"
 #include "knobs.h"
 
-#include "base/gn_noise.h"
+#include "base/gn_q.h"
 #include "gnomon.h"
 #include "rng.h"
-#include "shade/gn_mix.h"
+#include "shade/gn_surface.h"
 #include "shade/gn_pixel.h"
 
 #if GN_LAYERS_MAX

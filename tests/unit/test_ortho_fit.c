@@ -4,7 +4,7 @@
 
 #include "check.h"
 #include "gn_internal.h"
-#include "light/gn_bias.h"
+#include "light/gn_lights.h"
 
 enum { WIDTH = 64, HEIGHT = 48 };
 

@@ -2,9 +2,9 @@
 #include <math.h>
 #include <string.h>
 
-#include "scene/gn_sides.h"
+#include "scene/gn_scene.h"
 #include "base/gn_math.h"
-#include "shadow/gn_persp.h"
+#include "shadow/gn_views.h"
 #include "check.h"
 #include "rng.h"
 

@@ -6,10 +6,9 @@
 #include "knobs.h"
 #include <stdlib.h>
 
-#include "shade/gn_levels.h"
-#include "geometry/gn_texture.h"
 #include "shade/gn_pixel.h"
-#include "base/gn_tables.h"
+#include "geometry/gn_texture.h"
+#include "base/gn_math.h"
 #include "gnomon.h"
 #include "rng.h"
 

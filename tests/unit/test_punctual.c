@@ -8,11 +8,10 @@
 #include "knobs.h"
 #include "light_scene.h"
 
-#include "shade/gn_arrival.h"
-#include "shadow/gn_blocks.h"
-#include "shadow/gn_persp.h"
-#include "light/gn_punctual.h"
-#include "shade/gn_shadow.h"
+#include "shade/gn_surface.h"
+#include "shadow/gn_texel.h"
+#include "shadow/gn_views.h"
+#include "light/gn_lights.h"
 #include "geometry/gn_texture.h"
 
 #define LAZY (1 / 8.0) /* a bound that is more than 8 times what is ever seen says nothing */

@@ -4,7 +4,7 @@
 #include <string.h>
 
 #include "base/gn_math.h"
-#include "light/gn_bias.h"
+#include "light/gn_lights.h"
 #include "check.h"
 #include "rng.h"
 

@@ -7,7 +7,7 @@
 #include "exact.h"
 #include "knobs.h"
 #include "rng.h"
-#include "shade/gn_record.h"
+#include "shade/gn_patch.h"
 
 #if GN_INTERPOLATES
 

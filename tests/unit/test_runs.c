@@ -4,7 +4,7 @@
 #include <string.h>
 
 #include "check.h"
-#include "gn_stages.h"
+#include "gn_internal.h"
 #include "knobs.h"
 #include "rng.h"
 #include "visible/gn_cell.h"

@@ -4,7 +4,7 @@
 
 #include "geometry/gn_skin.h"
 #include "geometry/gn_xform.h"
-#include "shade/gn_record.h"
+#include "shade/gn_patch.h"
 #include "exact.h"
 #include "knobs.h"
 #include "light_scene.h"

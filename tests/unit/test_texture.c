@@ -5,7 +5,7 @@
 #include <string.h>
 
 #include "exact.h"
-#include "geometry/gn_plane.h"
+#include "geometry/gn_xform.h"
 #include "geometry/gn_texture.h"
 #include "gnomon.h"
 #include "rng.h"

@@ -5,7 +5,7 @@
 
 #include "check.h"
 #include "knobs.h"
-#include "shadow/gn_blocks.h"
+#include "shadow/gn_texel.h"
 #include "light_scene.h"
 
 static gn_renderer one, two;

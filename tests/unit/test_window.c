@@ -10,10 +10,8 @@
 
 #include "exact.h"
 #include "knobs.h"
-#include "shadow/gn_blocks.h"
-#include "shadow/gn_filter.h"
 #include "shadow/gn_texel.h"
-#include "shadow/gn_window.h"
+#include "shadow/gn_filter.h"
 #include "rng.h"
 
 #if GN_INTERPOLATES && GN_SHADOWS

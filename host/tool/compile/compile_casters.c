@@ -1,8 +1,7 @@
 /* What shadow tiles have to do with casters in the frame that was drawn last: which features of theirs it could have
  * been without. */
 #include "geometry/gn_skin.h"
-#include "shadow/gn_atlas.h"
-#include "shadow/gn_caster.h"
+#include "shadow/gn_views.h"
 #include "compile.h"
 
 /* The furthest that a coordinate of the caster lies from the tile's corner, Q16 texels. All vertices, whatever

@@ -163,7 +163,8 @@ static void choose_speed(compiled *c)
         s->feature.many_cascades = 3;
         because(c, "many_cascades", "casters left out of larger cascades, all frames: %zu", c->run.culled);
     }
-    if (!s->feature.shadows || (!c->kept_tiles && !scheduled)) s->feature.incremental = 0;
+    if (s->feature.incremental < 2 && (!s->feature.shadows || (!c->kept_tiles && !scheduled)))
+        s->feature.incremental = 0;
     if (scheduled && s->feature.shadows) because(c, "incremental", "the setting refresh");
     else because(c, "incremental", "shadow tiles kept from the frame before, all frames: %zu", c->kept_tiles);
 }

@@ -10,7 +10,7 @@ static void ignore(void *user, int x, int y, int w, int h, const void *pixels)
 static const gn_scene *frame_of(compile_stage *st, const compiled *c, int frame)
 {
     const gn_scene *now = compile_frame(st, c, frame);
-    for (size_t i = 0; c->set.feature.incremental < 2 && i < now->n_objects; i++)
+    for (size_t i = 0; c->set.feature.incremental < 3 && i < now->n_objects; i++)
         st->objects[i].flags &= ~(uint32_t)GN_OBJECT_MOVING;
     return now;
 }

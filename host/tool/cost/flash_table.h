@@ -17,7 +17,8 @@ FLASH(materials_2, 172, 144)               /* with 2 */
 FLASH(biases, 4264, 3944)                  /* with */
 FLASH(biases_2, 1736, 1544)                /* with 2 */
 FLASH(incremental, 964, 880)               /* with */
-FLASH(incremental_2, 1116, 1092)           /* with 2 */
+FLASH(incremental_2, 3900, 3700)           /* with 2 */
+FLASH(incremental_3, 4100, 3900)           /* with 3 */
 FLASH(vertex_joints, 1896, 1760)           /* with */
 FLASH(validation, 1500, 1296)              /* with */
 FLASH(pictures, 664, 640)                  /* with */

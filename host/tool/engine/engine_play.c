@@ -31,7 +31,7 @@ static int prepare(player *p, const scene *s, char *error, size_t error_bytes)
     if (quantise_scene_for(f, s, &p->set->quality, error, error_bytes)) return -1;
     if (p->n_fixed++) quantise_reuse(f, &p->fixed[0]);
     /* a build without the layer knows no such hint */
-    for (size_t i = 0; p->set->feature.incremental < 2 && i < f->scene.n_objects; i++)
+    for (size_t i = 0; p->set->feature.incremental < 3 && i < f->scene.n_objects; i++)
         f->objects[i].flags &= ~(uint32_t)GN_OBJECT_MOVING;
     return 0;
 }

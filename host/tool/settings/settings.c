@@ -119,7 +119,7 @@ static const char *const gone[][2] = {
     {"blended_cascades", "many_cascades=2 has it"},
     {"disk_filter", "shadows=6 has it"},
     {"filter_max", "shadows has it: 1 hard, 2 2x2, 3 3x3, 4 5x5, 5 7x7, 6 disk"},
-    {"static_layer", "incremental=2 has it"},
+    {"static_layer", "incremental=3 has it"},
     {"tile_importance", "tile_sizes=1 has it"},
     {"tight_fit", "tile_sizes=2 has it"},
     {"alpha", "materials=4 has it"},

@@ -24,10 +24,16 @@ static long put(layout *l, long n, long size, long align)
 static long put_atlas(layout *l, const settings *s, long side, long texels, long depth_bits)
 {
     if (!texels) texels = side * side;
-    long bytes = 0, layers = s->feature.incremental > 1 ? 2 : 1;
+    long bytes = 0, layers = s->feature.incremental > 2 ? 2 : 1;
     for (long i = 0; i < layers; i++) bytes += put(l, texels * depth_bits / 8, 1, 4);
     if (s->feature.shadows > 5) bytes += put(l, texels / 64, 4, 2);
     return bytes;
+}
+
+/* GN_CHANGES */
+static int has_changes(const settings *s)
+{
+    return s->feature.incremental > 1;
 }
 
 /* GN_VIEWS_MAX */
@@ -41,8 +47,10 @@ static long n_views(const settings *s)
 static void put_views(layout *l, const settings *s)
 {
     const long views = n_views(s);
-    long view =
-        180 + (s->feature.shadows > 5 ? 4 : 0) + (s->feature.biases % 2 ? 8 : 0) + (s->feature.tile_sizes > 1 ? 8 : 0);
+    long view = 180 + (s->feature.shadows > 5 ? 4 : 0) + (s->feature.biases % 2 ? 8 : 0) +
+                (s->feature.tile_sizes > 1 ? 8
+                 : has_changes(s)          ? 4
+                                           : 0);
     put(l, views, (view + 7) / 8 * 8, 8);
     if (s->feature.tile_sizes > 1) put(l, views, 56, 8); /* seen */
 }
@@ -57,6 +65,17 @@ static void put_shadows(layout *l, const settings *s, settings_ram_parts *r)
     if (other)
         r->other_atlas =
             put_atlas(l, s, s->quality.other_atlas_size, s->capacity.other_atlas_texels, s->quality.other_depth_bits);
+}
+
+/* gn_frame_sign */
+static void put_sign(layout *l, const settings *s, settings_ram_parts *r)
+{
+    put(l, 5, 8, 8); /* scene to now */
+    r->objects += put(l, s->capacity.max_objects, 8, 8);
+    r->lights += put(l, s->capacity.max_lights, 8, 8);
+    put(l, s->feature.shadows ? 256 : 1, 8, 8); /* square */
+    put(l, 9, 4, 4);                            /* changed, n_forgotten */
+    pad(l, 8);
 }
 
 /* gn_alpha_cut of lib/geometry/gn_geometry_types.h */
@@ -103,7 +122,7 @@ static int has_levels(const settings *s)
 
 static int wide_coordinates(const settings *s);
 
-/* gn_patch of lib/shade/gn_patch_types.h */
+/* gn_patch of lib/shade/gn_surface_types.h */
 static long patch_bytes(const settings *s)
 {
     layout all = {0, 4};
@@ -156,8 +175,9 @@ static long lattice_bytes(const settings *s)
     put(&all, 1, corners > patch ? corners : patch, 4); /* from */
     put(&all, 1, corner_bytes(s), 4);
     put(&all, 1, 196, 4); /* corner_key to cell_corner */
-    if (s->feature.shadows) put(&all, n_views(s) >= 4 ? 4 : n_views(s) >= 2 ? 2 : 1, 344, 4); /* windows */
-    put(&all, 1, 568, 4);                                                                     /* look */
+    if (s->feature.shadows)
+        put(&all, n_views(s) >= 4 ? 4 : n_views(s) >= 2 ? 2 : 1, has_changes(s) ? 348 : 344, 4); /* windows */
+    put(&all, 1, 568, 4);                                                                        /* look */
     if (has_levels(s)) put(&all, 1, 4, 4); /* of that: level and level_ends */
     put(&all, 1, drawing_bytes(s), 4);
     put(&all, 1, s->feature.shadows ? 224 : 192, 8);                                  /* by */
@@ -186,6 +206,7 @@ static void put_work(layout *out, const settings *s)
     if (has_glow(s)) put(&surface, 1, 4, 4);
     if (has_levels(s) && has_glow(s)) put(&surface, 1, 8, 8); /* glow_depth2_q32 */
     if (s->feature.biases || s->quality.edge) put(&surface, 3, 4, 4);
+    if (has_changes(s)) put(&surface, 1, 4, 4); /* squares */
     put(&surface, s->capacity.surface_lights, s->quality.vertex_light ? 44 : 36, 4);
     pad(&surface, surface.align);
     put(&all, 1, 40, 4);  /* frame to rows */
@@ -247,7 +268,8 @@ settings_ram_parts settings_ram(const settings *s)
     int punctual = s->feature.other_lights % 2;
     const long groups = s->quality.triangle_groups;
     const int fits = s->feature.shadows && s->feature.tile_sizes > 1;
-    put(&frame, 1, (s->feature.pictures & 4 ? 260 : 252) + (groups ? 4 : 0) + (fits ? 4 : 0), 8); /* scene to detail */
+    put(&frame, 1, (s->feature.pictures & 4 ? 260 : 252) + (groups ? 4 : 0) + (fits ? 4 : 0) + (has_changes(s) ? 8 : 0),
+        8); /* scene to detail */
     if (s->feature.shadows) {
         put(&frame, 1, 8, 4);  /* n_cascades to frame_count */
         put(&frame, 4, 40, 8); /* cascade */
@@ -258,6 +280,7 @@ settings_ram_parts settings_ram(const settings *s)
                              (s->feature.object_boxes || s->feature.many_cascades > 2 || s->feature.tile_sizes > 1));
     r.objects =
         boxes ? put(&frame, s->capacity.max_objects, (punctual ? 36 : 24) + (s->feature.vertex_joints ? 4 : 0), 4) : 0;
+    if (has_changes(s)) put_sign(&frame, s, &r);
     r.objects += put(&frame, s->capacity.max_objects, 1, 1); /* flags */
     r.triangles = put(&frame, groups ? 1 : s->capacity.max_triangles, wide_coordinates(s) ? 44 : 32, 4);
     r.tiles = put(&frame, tiles + 1, offset, offset);
@@ -274,6 +297,7 @@ settings_ram_parts settings_ram(const settings *s)
     put(&all, tile_w * tile_h >= 512 ? 32 : 4, 16, 4);                               /* GN_VERTEX_CACHE */
     put(&all, 64, tile_w * tile_h > 65535 ? 4 : 2, tile_w * tile_h > 65535 ? 4 : 2); /* run_list */
     if (groups) r.triangles += put(&all, 1 + s->capacity.max_triangles, 4, 2);       /* drawn */
+    if (has_changes(s)) put(&all, 8, 4, 4);                                          /* squares */
     if (s->quality.transparent_layers) {
         r.cells += put(&all, 1, 4, 4); /* how many are in use */
         r.cells += put(&all, s->quality.transparent_layers * tile_w * tile_h, 4, 4);

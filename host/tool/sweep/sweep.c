@@ -184,7 +184,7 @@ static int add(sweep *w, const sweep_config *c)
     }
     row->quality = set.quality;
     row->shadow = s.shadow;
-    row->static_layer = set.feature.incremental > 1 ? 2 : 1;
+    row->static_layer = set.feature.incremental > 2 ? 2 : 1;
     row->n_boxes = s.n_fixed_fits;
     sweep_find_levels(row);
     if (!is_known(w, row)) {

@@ -23,7 +23,7 @@ static const struct {
     [SWEEP_REFRESH] = {"refresh",
                        "incremental",
                        {"8", "4", "1,8", "1,4", "1,2,4,8", "2", "1,2", "1,1,1,8", "1,1,1,4", "1,1,1,2", "1"}},
-    [SWEEP_STATIC_LAYER] = {"incremental", "incremental", {"1", "2"}},
+    [SWEEP_STATIC_LAYER] = {"incremental", "incremental", {"1", "3"}},
     [SWEEP_TRIANGLE_GROUPS] = {"triangle_groups", NULL, {"16", "64", "256", "1024", "0"}},
     [SWEEP_FIT] = {"fit", "tile_sizes", {"stable", "tight", "compiled"}},
     [SWEEP_TILES] = {"tiles", "tile_sizes", {"equal", "worth"}},
