@@ -289,7 +289,6 @@
 #define gn_screen_begin GN_PREFIXED_(GN_PREFIX, gn_screen_begin)
 #define gn_screen_object GN_PREFIXED_(GN_PREFIX, gn_screen_object)
 #define gn_screen_record GN_PREFIXED_(GN_PREFIX, gn_screen_record)
-#define gn_screen_rect GN_PREFIXED_(GN_PREFIX, gn_screen_rect)
 #define gn_screen_tile GN_PREFIXED_(GN_PREFIX, gn_screen_tile)
 #define gn_screen_tile_count GN_PREFIXED_(GN_PREFIX, gn_screen_tile_count)
 #define gn_screen_tile_if_changed GN_PREFIXED_(GN_PREFIX, gn_screen_tile_if_changed)

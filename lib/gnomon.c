@@ -23,7 +23,6 @@
 
 /* Screen tiles and pixels. */
 #include "shade/gn_pixel.c"
-#include "visible/gn_screen_rect.c"
 
 #if GN_COMPACT
 #include "compact/gn_compact_triangle.c"

@@ -7,7 +7,6 @@
 #include "compact/gn_compact.h"
 #include "shade/gn_pixel.h"
 #include "visible/gn_cell.h"
-#include "visible/gn_screen_rect.h"
 
 #define ONE_UQ16 65536U
 

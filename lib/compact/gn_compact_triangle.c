@@ -9,7 +9,6 @@
 #include "compact/gn_compact.h"
 #include "scene/gn_scene.h"
 #include "visible/gn_cell.h"
-#include "visible/gn_screen_rect.h"
 
 #define ONE_PX    (1 << GN_COMPACT_BITS)
 #define STEEP_MAX ((int64_t)1 << 36) /* change of key per pixel, Q8: beyond, a triangle has one key */

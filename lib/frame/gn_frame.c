@@ -37,7 +37,7 @@
 #include "frame/gn_check.h"
 #include "scene/gn_scene.h"
 #include "shade/gn_pixel.h"
-#include "visible/gn_screen_rect.h"
+#include "visible/gn_cell.h"
 
 #if GN_RUNTIME_KNOBS
 #define GN_KNOB_DEFAULT_(name, MACRO, lo, hi, meaning, cost) frame->knobs.name = GN_##MACRO;

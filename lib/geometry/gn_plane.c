@@ -121,8 +121,8 @@ GN_HOT int gn_bary_beyond(int32_t b_q30[2], const gn_bary *bary, const gn_ray_re
 /* ---- Sutherland-Hodgman in view space ---------------------------------------------------------------------------- */
 
 /* Signed distance to a plane, positive inside, up to a positive factor; Q32. |v| < 2^30, side < 2^31: below 2^62. */
-static int64_t distance(const int32_t v[3], uint32_t plane, int32_t near_q16, const int32_t side_q16[2],
-                        int32_t flat_q16)
+GN_HOT static int64_t distance(const int32_t v[3], uint32_t plane, int32_t near_q16, const int32_t side_q16[2],
+                               int32_t flat_q16)
 {
     int64_t z = flat_q16 ? flat_q16 : v[2];
     switch (plane) {
@@ -139,7 +139,7 @@ static int64_t distance(const int32_t v[3], uint32_t plane, int32_t near_q16, co
     }
 }
 
-uint32_t gn_outcode(const int32_t v_q16[3], int32_t near_q16, const int32_t side_q16[2], int32_t flat_q16)
+GN_HOT uint32_t gn_outcode(const int32_t v_q16[3], int32_t near_q16, const int32_t side_q16[2], int32_t flat_q16)
 {
     /* as distance() has them */
     uint32_t out = v_q16[2] < near_q16 ? GN_OUT_NEAR : 0;
@@ -154,7 +154,7 @@ uint32_t gn_outcode(const int32_t v_q16[3], int32_t near_q16, const int32_t side
 }
 
 /* The point where the edge leaves: from the inside end, so that both triangles on the edge compute the same. */
-static void cut(int32_t out[3], const int32_t in[3], int64_t d_in, const int32_t beyond[3], int64_t d_out)
+GN_HOT static void cut(int32_t out[3], const int32_t in[3], int64_t d_in, const int32_t beyond[3], int64_t d_out)
 {
     /* t = d_in / (d_in - d_out) in (0, 1], Q0.31; d_in >= 0 > d_out and the difference is below 2^63 */
     uint64_t whole = (uint64_t)d_in + gn_abs64(d_out);
@@ -168,8 +168,8 @@ static void cut(int32_t out[3], const int32_t in[3], int64_t d_in, const int32_t
     }
 }
 
-static void clip_plane(gn_polygon *polygon, gn_polygon *in, uint32_t plane, int32_t near_q16, const int32_t side_q16[2],
-                       int32_t flat_q16)
+GN_HOT static void clip_plane(gn_polygon *polygon, gn_polygon *in, uint32_t plane, int32_t near_q16,
+                              const int32_t side_q16[2], int32_t flat_q16)
 {
     *in = *polygon;
     int n = 0;

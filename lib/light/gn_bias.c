@@ -215,7 +215,7 @@ GN_HOT int64_t gn_bias_auto_persp(const gn_light_view *view, gn_auto_bias *form,
 
 #if GN_AUTO_BIAS
 /* Filter radius: the largest distance to the centre of a texel that the filter reads, per axis; texels, Q16. */
-static int32_t taps_q16(const gn_light_view *view)
+GN_COLD static int32_t taps_q16(const gn_light_view *view)
 {
     if (view->filter == GN_FILTER_HARD) return 32768;
     if (view->filter == GN_FILTER_DISK) return view->disk_radius_q16 + 32768;
@@ -224,7 +224,7 @@ static int32_t taps_q16(const gn_light_view *view)
 
 /* Stored depth, rounded to half a step after up to T rounded ones, and the receiver's, rounded to half of its own finer
  * step, as a fraction of the depth range: 2^-(bits + 1) + 2^-(bits + frac + 1) + (T + 2) 2^-32 + 2^-29, Q32 */
-static int64_t depth_step_q32(const gn_light_view *view)
+GN_COLD static int64_t depth_step_q32(const gn_light_view *view)
 {
     const int64_t half = (int64_t)1 << 31;
     int32_t bits = GN_VIEW_BITS(view);
@@ -233,7 +233,7 @@ static int64_t depth_step_q32(const gn_light_view *view)
 
 /* sqrt(1 + k^2) times the relative error of view depths, and of a pixel's ray, whose three coefficients are rounded in
  * each axis: 2^-28 of W + H. Q40: 2^7 * (2^-17 + 2^-16) at most. */
-static int32_t ray_error_q40(const gn_frame *frame)
+GN_COLD static int32_t ray_error_q40(const gn_frame *frame)
 {
     uint64_t ray2_q48 = (((uint64_t)1 << 24) + (uint64_t)gn_cascade_tan2_q24(frame)) << 24; /* <= (2^24 + 2^38) 2^24 */
     uint64_t ray_q24 = gn_isqrt64(ray2_q48), pixels = (uint64_t)frame->picture.width + frame->picture.height;
@@ -241,7 +241,7 @@ static int32_t ray_error_q40(const gn_frame *frame)
 }
 
 /* Position error of a receiver at the far end of the view's cascade, texels, Q16. */
-static int32_t place_error_q16(const gn_frame *frame, const gn_light_view *view)
+GN_COLD static int32_t place_error_q16(const gn_frame *frame, const gn_light_view *view)
 {
     int64_t farthest_q16 = frame->scene->shadow.max_distance_q16;
     if (!view->border_lit) {

@@ -13,7 +13,6 @@
 #include "shade/gn_surface.h"
 #include "visible/gn_cell.h"
 #include "visible/gn_runs.h"
-#include "visible/gn_screen_rect.h"
 
 typedef gn_shading shading;
 

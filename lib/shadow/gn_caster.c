@@ -174,7 +174,7 @@ GN_HOT int32_t gn_caster_draw(const gn_frame *frame, const gn_light_view *view, 
 /* ---- Which casters are drawn into a tile ------------------------------------------------------------------------- */
 
 /* Whether the object casts at all, and in this layer. [M1] */
-static int in_layer(uint32_t flags, gn_layer layer)
+GN_COLD static int in_layer(uint32_t flags, gn_layer layer)
 {
     if (!(flags & GN_OBJECT_CASTS)) return 0;
     int moving = (flags & GN_OBJECT_MOVING) != 0;
@@ -197,7 +197,7 @@ GN_COLD int gn_cull_draws(const gn_frame *frame, const gn_light_view *view, uint
 
 #if GN_OBJECT_BOXES
 /* Half extent of a box along an axis, Q16, rounded up. */
-static int64_t extent_q16(const int32_t axis_q30[3], const int32_t half_q16[3])
+GN_COLD static int64_t extent_q16(const int32_t axis_q30[3], const int32_t half_q16[3])
 {
     uint64_t sum = 0; /* sqrt(3) * 2^61 */
     for (int k = 0; k < 3; k++) sum += (uint64_t)gn_abs32(axis_q30[k]) * (uint32_t)half_q16[k];
@@ -205,7 +205,7 @@ static int64_t extent_q16(const int32_t axis_q30[3], const int32_t half_q16[3])
 }
 
 /* Casters before the near plane count, those beyond the range do not. [D9] */
-static int ortho_sees(const gn_frame *frame, const gn_light_view *view, const gn_object_state *object)
+GN_COLD static int ortho_sees(const gn_frame *frame, const gn_light_view *view, const gn_object_state *object)
 {
     const gn_ortho_fit *fit = &view->fit.ortho;
     int64_t margin = 65536 + frame->scene->lights[view->light_idx].bias_caster_q16;
@@ -219,7 +219,7 @@ static int ortho_sees(const gn_frame *frame, const gn_light_view *view, const gn
     return 1;
 }
 
-static int persp_sees(const gn_frame *frame, const gn_light_view *view, const gn_object_state *object)
+GN_COLD static int persp_sees(const gn_frame *frame, const gn_light_view *view, const gn_object_state *object)
 {
     const gn_persp_fit *fit = &view->fit.persp;
     int32_t from[3];
@@ -271,7 +271,7 @@ GN_COLD void gn_cull_begin(gn_frame *frame)
 }
 
 /* |a - b| + 1, Q16; at most 2^32 */
-static uint64_t distance_q16(const int64_t a[3], const int64_t b[3])
+GN_COLD static uint64_t distance_q16(const int64_t a[3], const int64_t b[3])
 {
     uint64_t sum = 0;
     for (int k = 0; k < 3; k++) {
@@ -282,8 +282,8 @@ static uint64_t distance_q16(const int64_t a[3], const int64_t b[3])
 }
 
 /* How far the object's shadow, `radius` wide, travels along w until it is past every receiver, Q16. -1: no bound. */
-static int64_t shadow_length_q16(const gn_frame *frame, const gn_light_view *view, const int64_t centre[3],
-                                 int64_t radius)
+GN_COLD static int64_t shadow_length_q16(const gn_frame *frame, const gn_light_view *view, const int64_t centre[3],
+                                         int64_t radius)
 {
     int64_t length = -1;
     for (int k = 0; k < 3; k++) {

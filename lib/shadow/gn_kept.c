@@ -7,7 +7,7 @@
 #include "shadow/gn_texel.h"
 #include "shadow/gn_views.h"
 
-static uint64_t view_signature(const gn_frame *frame, const gn_light_view *view)
+GN_COLD static uint64_t view_signature(const gn_frame *frame, const gn_light_view *view)
 {
     const gn_light *light = &frame->scene->lights[view->light_idx];
     uint64_t s = gn_signature_words(GN_SIGNATURE_SEED, &view->axis_q30[0][0], 9);
@@ -60,18 +60,18 @@ GN_COLD void gn_kept_check_layout(gn_frame *frame, const gn_tile_plan *plan)
     for (uint32_t i = 0; i < GN_VIEWS_MAX; i++) frame->memory[i].signature = frame->memory[i].static_signature = 0;
 }
 
-int gn_kept_holds(const gn_frame *frame, uint32_t view_idx)
+GN_COLD int gn_kept_holds(const gn_frame *frame, uint32_t view_idx)
 {
     return frame->memory[view_idx].signature != 0;
 }
 
-static uint64_t *signature_of(gn_frame *frame, uint32_t view_idx, gn_layer layer)
+GN_COLD static uint64_t *signature_of(gn_frame *frame, uint32_t view_idx, gn_layer layer)
 {
     gn_tile_memory *memory = &frame->memory[view_idx];
     return layer == GN_LAYER_STATIC ? &memory->static_signature : &memory->signature;
 }
 
-int gn_kept_is_same(gn_frame *frame, uint32_t view_idx, gn_layer layer, uint64_t signature)
+GN_COLD int gn_kept_is_same(gn_frame *frame, uint32_t view_idx, gn_layer layer, uint64_t signature)
 {
     uint64_t *kept = signature_of(frame, view_idx, layer);
     if (*kept == signature) return 1;
@@ -79,7 +79,7 @@ int gn_kept_is_same(gn_frame *frame, uint32_t view_idx, gn_layer layer, uint64_t
     return 0;
 }
 
-void gn_kept_set(gn_frame *frame, uint32_t view_idx, gn_layer layer, uint64_t signature)
+GN_COLD void gn_kept_set(gn_frame *frame, uint32_t view_idx, gn_layer layer, uint64_t signature)
 {
     *signature_of(frame, view_idx, layer) = signature;
 }
@@ -105,12 +105,12 @@ GN_HOT GN_NOINLINE void gn_note_lookup(gn_squares *squares, const gn_frame *fram
     const int32_t reach = view->filter_idx + 2 + GN_VIEW_EDGE(frame, view), n = 2 * reach + 1;
     gn_note_texels(squares, view, (receiver->u_q16 >> 16) - reach, (receiver->v_q16 >> 16) - reach, n, n);
 }
-static int32_t columns_of(const gn_light_view *view, int32_t square_log2)
+GN_COLD static int32_t columns_of(const gn_light_view *view, int32_t square_log2)
 {
     return (view->tile_texels + (1 << square_log2) - 1) >> square_log2;
 }
 
-static int32_t rows_of(const gn_light_view *view, int32_t square_log2)
+GN_COLD static int32_t rows_of(const gn_light_view *view, int32_t square_log2)
 {
     return (GN_TILE_ROWS(view) + (1 << square_log2) - 1) >> square_log2;
 }
@@ -135,7 +135,7 @@ GN_COLD void gn_kept_find_squares(gn_frame *frame)
 }
 
 /* Of a square's texels. */
-static uint64_t sign_square(const gn_light_view *view, uint32_t view_idx, int32_t u, int32_t v)
+GN_COLD static uint64_t sign_square(const gn_light_view *view, uint32_t view_idx, int32_t u, int32_t v)
 {
     const int32_t bits = GN_VIEW_BITS(view), side = 1 << view->square_log2, w = gn_min32(view->tile_texels - u, side),
                   end = gn_min32(GN_TILE_ROWS(view), v + side);
@@ -187,7 +187,7 @@ GN_COLD uint64_t gn_kept_sign_view(const gn_frame *frame, uint32_t view_idx, uin
 
 #if GN_STATIC_LAYER
 /* The view's tile of the static layer. [A5] */
-gn_texels gn_static_layer_texels(gn_frame *frame, const gn_light_view *view)
+GN_COLD gn_texels gn_static_layer_texels(gn_frame *frame, const gn_light_view *view)
 {
     gn_texels texels = GN_TEXELS_OF(frame->static_atlas, view->depth_bits);
 #if GN_OTHER_ATLAS
@@ -196,7 +196,7 @@ gn_texels gn_static_layer_texels(gn_frame *frame, const gn_light_view *view)
     return gn_texels_at(texels, view->depth_bits, view->first_texel);
 }
 
-void gn_static_layer_copy(const gn_light_view *to, gn_texels from)
+GN_HOT void gn_static_layer_copy(const gn_light_view *to, gn_texels from)
 {
     size_t n = (size_t)to->tile_texels * GN_TILE_ROWS(to);
     int32_t bits = GN_VIEW_BITS(to);

@@ -11,7 +11,6 @@
 #include "geometry/gn_xform.h"
 #include "visible/gn_cell.h"
 #include "visible/gn_runs.h"
-#include "visible/gn_screen_rect.h"
 #include "visible/gn_setup.h"
 
 typedef gn_raster_depth raster_depth;

@@ -10,7 +10,6 @@
 #include "scene/gn_scene.h"
 #include "visible/gn_cell.h"
 #include "visible/gn_runs.h"
-#include "visible/gn_screen_rect.h"
 #include "visible/gn_setup.h"
 
 GN_HOT void gn_runs_clear(gn_scratch *scratch)
@@ -90,7 +89,7 @@ GN_HOT int gn_runs_join(const gn_frame *frame, gn_scratch *scratch, uint32_t id,
 /* ---- Counting sort of triangles into screen tiles, in triangle order --------------------------------------------- */
 
 /* Puts a triangle into the bins of the screen tiles within its bounds. */
-static inline void bin_by_bounds(gn_frame *frame, uint32_t tri_idx)
+GN_HOT static inline void bin_by_bounds(gn_frame *frame, uint32_t tri_idx)
 {
     gn_rect px = gn_setup_bounds(frame, &frame->records.tri[tri_idx]);
     gn_tile_walk tiles = gn_setup_tiles(frame, &px);
@@ -103,7 +102,7 @@ static inline void bin_by_bounds(gn_frame *frame, uint32_t tri_idx)
     } while (--tiles.height);
 }
 
-static void sort_triangles(gn_frame *frame, uint32_t n_tiles)
+GN_HOT static void sort_triangles(gn_frame *frame, uint32_t n_tiles)
 {
     gn_ref_offset *first = frame->tile_first;
     /* offsets to the end of each bin; filling backwards leaves each at its bin's start, in triangle order */
@@ -112,7 +111,7 @@ static void sort_triangles(gn_frame *frame, uint32_t n_tiles)
 }
 
 /* Whether the identities of every screen tile have room, with groups. */
-static gn_status check_tiles(gn_frame *frame, uint32_t n_tiles)
+GN_HOT static gn_status check_tiles(gn_frame *frame, uint32_t n_tiles)
 {
     uint32_t most = 0;
     for (uint32_t i = 0; i < n_tiles; i++)
@@ -125,7 +124,7 @@ static gn_status check_tiles(gn_frame *frame, uint32_t n_tiles)
 
 /* The triangles of every screen tile, in the order of the scene. A function of its own: a stage that is counted. [R1]
  */
-GN_NOINLINE gn_status gn_bin_triangles(gn_frame *frame)
+GN_HOT GN_NOINLINE gn_status gn_bin_triangles(gn_frame *frame)
 {
     uint32_t n_tiles = (uint32_t)frame->tiles_x * frame->tiles_y;
     uint64_t n_refs = 0;
@@ -208,7 +207,7 @@ GN_HOT uint32_t gn_layers_nearest(const gn_scratch *scratch, int32_t at)
 
 /* For touch panels. The tile's visible surfaces are resolved once more; nothing is shaded. */
 
-gn_status gn_pick(gn_renderer *r, uint32_t x, uint32_t y, uint32_t *object_idx, uint32_t *triangle_idx)
+GN_COLD gn_status gn_pick(gn_renderer *r, uint32_t x, uint32_t y, uint32_t *object_idx, uint32_t *triangle_idx)
 {
     if (object_idx) *object_idx = GN_NOTHING;
     if (triangle_idx) *triangle_idx = GN_NOTHING;

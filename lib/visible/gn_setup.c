@@ -10,7 +10,7 @@
 #include "geometry/gn_walk.h"
 #include "geometry/gn_xform.h"
 #include "scene/gn_scene.h"
-#include "visible/gn_screen_rect.h"
+#include "visible/gn_cell.h"
 #include "visible/gn_setup.h"
 
 /* View position of a vertex. */

@@ -19,7 +19,7 @@ identifiers() { awk -v p="$1" -v n="$2" 'BEGIN { for (i = 1; i <= n; i++) print 
     identifiers F 7 | grep -v -x F6 # linear kernels: dearer than tents
     identifiers B 6
     identifiers M 11
-    identifiers R 12 | grep -v -x R9 # lists of lights per screen tile are gone
+    identifiers R 13 | grep -v -x R9 # lists of lights per screen tile are gone
 } >"$tmp/rows"
 
 # ---- The page and the tags -------------------------------------------------------------------------------------------

@@ -9,7 +9,7 @@
 #include "../lib/shade/gn_exact.h"
 #include "../lib/shade/gn_lattice.h"
 #include "../lib/shade/gn_pixel.h"
-#include "../lib/visible/gn_screen_rect.h"
+#include "../lib/visible/gn_cell.h"
 #include "canvas.h"
 #include "check.h"
 #include "knobs.h"

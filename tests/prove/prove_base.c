@@ -200,7 +200,8 @@ void prove_noise(void)
     //@ assert v <= 65535;
 }
 
-/* ---- lib/shadow/gn_filter.h ------------------------------------------------------------------------------------------
+/* ---- lib/shadow/gn_filter.h
+ * ------------------------------------------------------------------------------------------
  */
 
 /* gn_filter_fraction, gn_tent_weights, gn_linear_weights: every place, 1 to 12 bits */

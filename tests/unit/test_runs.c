@@ -8,7 +8,6 @@
 #include "knobs.h"
 #include "rng.h"
 #include "visible/gn_cell.h"
-#include "visible/gn_screen_rect.h"
 
 enum { N_MAX = 1000, SIDE_MAX = 256, BACKGROUND = 0 };
 

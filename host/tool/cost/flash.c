@@ -40,7 +40,8 @@ static long of_shadows(const settings *s, flash_core core)
     if (s->feature.biases >= 2) bytes += biases_2_bytes[core];
     if (s->quality.edge) bytes += edge_bytes[core];
     if (s->feature.biases % 2) bytes += biases_bytes[core];
-    bytes += of_level(s->feature.incremental, (const int *const[]){incremental_bytes, incremental_2_bytes, incremental_3_bytes}, core);
+    bytes += of_level(s->feature.incremental,
+                      (const int *const[]){incremental_bytes, incremental_2_bytes, incremental_3_bytes}, core);
     bytes += of_level(s->feature.many_cascades,
                       (const int *const[]){many_cascades_bytes, many_cascades_2_bytes, many_cascades_3_bytes}, core);
     bytes += of_level(s->feature.tile_sizes, (const int *const[]){tile_sizes_bytes, tile_sizes_2_bytes}, core);
