@@ -4,7 +4,7 @@
  * texels change with the camera, though in steps? And in boxes that hold what all frames see? "--table" prints it. */
 #include "../host/tool/engine/engine.h"
 #include "../host/tool/fixed/quantise.h"
-#include "../lib/shadow/gn_caster.h"
+#include "../lib/shadow/gn_views.h"
 #include "../lib/shadow/gn_texel.h"
 #include "row_scenes.h"
 

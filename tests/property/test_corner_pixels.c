@@ -3,10 +3,9 @@
  * that are stored differ by a step at most where nothing ends: a shadow, a nearest texel, the triangle. */
 #include <stdlib.h>
 
-#include "../lib/light/gn_punctual.h"
+#include "../lib/light/gn_lights.h"
 #include "../lib/shade/gn_corner.h"
-#include "../lib/shade/gn_corner_pixel.h"
-#include "../lib/shade/gn_exact.h"
+#include "../lib/shade/gn_surface.h"
 #include "../lib/shade/gn_lattice.h"
 #include "../lib/shade/gn_pixel.h"
 #include "../lib/visible/gn_cell.h"

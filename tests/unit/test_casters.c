@@ -2,7 +2,7 @@
  * triangles are drawn by the library, one at a time, and every texel is compared with the exact one, found in long
  * double (64 bits of mantissa hold the products of what the library is given). NUMERICS 4.6 derives the bounds;
  * "--table" prints the largest errors seen. */
-#include "../lib/shadow/gn_caster.h"
+#include "../lib/shadow/gn_views.h"
 
 enum {
     STAGE_CORNER,

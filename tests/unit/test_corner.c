@@ -2,11 +2,10 @@
  * inputs: random triangles, a directional, a spot and a point light, perspective and orthographic cameras. Bounds:
  * NUMERICS 4.12, term by term below.
  * "--table": the largest error seen, per stage. */
-#include "../lib/light/gn_bias.h"
+#include "../lib/light/gn_lights.h"
 #include "../lib/shade/gn_corner.h"
-#include "../lib/shade/gn_lattice_cell.h"
-#include "../lib/shade/gn_lattice_texture.h"
-#include "../lib/shade/gn_shadow.h"
+#include "../lib/shade/gn_lattice.h"
+#include "../lib/shade/gn_surface.h"
 #include "../lib/visible/gn_setup.h"
 
 enum {

@@ -1,13 +1,11 @@
 /* The stages from the shadow's filter to radiance, and the receiver's offset of spot and point lights, each against the
  * formula it stands for, in double, from the same quantised inputs and within the bound of docs/NUMERICS.md. "--table":
  * the largest error seen, per stage. */
-#include "../lib/light/gn_bias.h"
-#include "../lib/shadow/gn_blocks.h"
+#include "../lib/shadow/gn_texel.h"
 #include "../lib/shadow/gn_filter.h"
-#include "../lib/shade/gn_light.h"
-#include "../lib/light/gn_punctual.h"
+#include "../lib/shade/gn_surface.h"
+#include "../lib/light/gn_lights.h"
 #include "../lib/scene/gn_scene.h"
-#include "../lib/shade/gn_shadow.h"
 #include "../lib/visible/gn_setup.h"
 
 enum {

@@ -3,7 +3,6 @@
 #include <string.h>
 
 #include "check.h"
-#include "geometry/gn_geometry_types.h"
 #include "gnomon.h"
 
 enum { WIDTH = 64, HEIGHT = 48, APART = 256 /* entries of the largest cache */, N = 8 };
