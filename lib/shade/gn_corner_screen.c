@@ -264,7 +264,7 @@ GN_HOT static uint32_t looked_up(gn_shading *s, gn_corner *c, uint32_t slot)
     gn_receiver r = {at->u_q16, at->v_q16, (uint32_t)depth_q30 << 2, {0, 0}, c->x, c->y};
     gn_corner_slopes(&s->lattice, s->frame, &s->surface, c, view, r.slope_q28);
     GN_COUNT(edge_lookups, 1);
-    GN_NOTE_LOOKUP(s->surface.squares, s->frame, view, &r);
+    GN_NOTE_LOOKUP(&s->scratch->squares, s->frame, view, &r);
     return gn_filter_attenuation(s->frame, view, &r);
 }
 #else

@@ -59,7 +59,7 @@ GN_HOT static uint32_t lookup(const gn_drawing *d, const gn_light_view *view, co
 {
     int32_t depth_q30 = gn_max32(0, gn_min32(at->depth_q31, (1 << 30) - 1));
     gn_receiver r = {at->u_q16, at->v_q16, (uint32_t)depth_q30 << 2, {slope_q28[0], slope_q28[1]}, x, y};
-    GN_NOTE_LOOKUP(d->s->surface.squares, d->s->frame, view, &r);
+    GN_NOTE_LOOKUP(&d->s->scratch->squares, d->s->frame, view, &r);
     return gn_filter_attenuation(d->s->frame, view, &r);
 }
 

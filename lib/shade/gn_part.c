@@ -278,7 +278,7 @@ GN_HOT static GN_NOINLINE void look_up_steps(gn_shading *s, const gn_light_view 
         r.v_q16 = at.v_q16;
         r.depth_q32 = (uint32_t)gn_max32(at.depth_q31, 0) << 2;
         r.pixel_x = x;
-        GN_NOTE_LOOKUP(s->surface.squares, s->frame, view, &r);
+        GN_NOTE_LOOKUP(&s->scratch->squares, s->frame, view, &r);
         *out++ = gn_filter_attenuation(s->frame, view, &r);
         at.u_q16 += step->u_q16;
         at.v_q16 += step->v_q16;

@@ -213,7 +213,7 @@ GN_HOT static int ask_texels(gn_shading *s, const gn_light_view *view, const pat
     if (depth + gn_min32(rise, 0) + gn_min32(fall, 0) < 0) return TEXELS_UNKNOWN;
     if (depth + gn_max32(rise, 0) + gn_max32(fall, 0) > FAR_Q30) return TEXELS_UNKNOWN;
     GN_COUNT(windows, 1);
-    GN_NOTE_TEXELS(s->surface.squares, view, out->u, out->v, out->w, out->h);
+    GN_NOTE_TEXELS(&s->scratch->squares, view, out->u, out->v, out->w, out->h);
     for (int32_t row = 0; row < out->h; row++, texel += view->tile_texels, depth += down) {
         const uint32_t bits = gn_texels_before(texel, out->w, depth, across);
         out->word[row] = bits;
@@ -304,7 +304,7 @@ GN_HOT static void attenuation_by_filter(gn_shading *s, const gn_patch_light *li
     gn_row_value depth = gn_patch_row(&light->depth_q30, span);
     for (uint32_t *out = s->lattice.from.patch.attenuation, *end = out + n; out < end; out++, depth.at += depth.step) {
         r->depth_q32 = (uint32_t)gn_max32(0, gn_min32(depth.at, (1 << 30) - 1)) << 2;
-        GN_NOTE_LOOKUP(s->surface.squares, s->frame, light->view, r);
+        GN_NOTE_LOOKUP(&s->scratch->squares, s->frame, light->view, r);
         *out = gn_filter_attenuation(s->frame, light->view, r);
         r->u_q16 += u_step;
         r->v_q16 += v_step;

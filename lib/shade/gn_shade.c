@@ -297,7 +297,6 @@ GN_HOT void gn_shade_tile(const gn_frame *frame, gn_scratch *scratch, uint32_t t
     s->scratch = scratch;
 #if GN_CHANGES
     memset(&scratch->squares, 0, sizeof scratch->squares);
-    s->surface.squares = &scratch->squares;
 #endif
     s->rect = gn_screen_rect(frame, tile_idx);
     s->rows.pixels = &scratch->pixel;

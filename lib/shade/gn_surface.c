@@ -387,6 +387,9 @@ void gn_surface_place(const gn_frame *frame, gn_scratch *scratch, gn_surface_cac
                       const gn_tri_source *tri)
 {
     GN_COUNT(surfaces, 1);
+#if GN_CHANGES
+    s->squares = &scratch->squares;
+#endif
     s->object = &frame->scene->objects[tri->object_idx];
     use_object(frame, cache, s->object);
     const uint16_t *idx = s->object->mesh->idx + 3 * (size_t)tri->triangle_idx;
