@@ -632,6 +632,9 @@ static void check_receiver(rng *r)
     static gn_surface surface;
     static gn_sample sample;
     const gn_light *light = &ls.light[0];
+#if GN_CHANGES
+    surface.squares = &fresh.scratch.squares;
+#endif
     uint32_t face = light->kind == GN_LIGHT_POINT ? rng_below(r, 6) : 0;
     gn_light_view *view = &fresh.frame.view[face];
     double t = view->tile_texels * 65536.0 / view->fit.persp.focal2_q16, moved[3], at[3];

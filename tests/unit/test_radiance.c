@@ -174,6 +174,9 @@ static void check_attenuation(const gn_knobs *knobs)
     gn_frame *frame = &renderer.frame;
     fill_texels(&frame->view[0], lit);
     gn_blocks_build(&frame->view[0]);
+#if GN_CHANGES
+    surface.squares = &renderer.scratch.squares;
+#endif
     surface.object = &object;
     surface.shadowed = surface.masked = 1;
     surface.n_lights = 1;
