@@ -123,6 +123,7 @@ static gn_status check_frame(gn_frame *frame, const gn_scene *scene)
     if (!status) return GN_OK;
     frame->stage = GN_STAGE_INIT;
     frame->n_views = 0;
+    memset(&frame->stats, 0, sizeof frame->stats);
     return status;
 }
 

@@ -25,6 +25,9 @@ static gn_light_view view;
 static gn_depth_block blocks[SIZE * SIZE / 64];
 static uint32_t texels[SIZE * SIZE];
 static gn_window window;
+#if GN_CHANGES
+static gn_squares squares;
+#endif
 
 /* The plane that receivers lie on. */
 static gn_window_place place;
@@ -452,6 +455,9 @@ static void test_none(void)
 
 int main(void)
 {
+#if GN_CHANGES
+    window.squares = &squares;
+#endif
     test_reads();
     test_rows();
     test_none();
