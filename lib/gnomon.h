@@ -336,7 +336,8 @@ gn_status gn_pick(gn_renderer *r, uint32_t x, uint32_t y, uint32_t *object_idx, 
 void gn_forget_shadows(gn_renderer *r);
 
 /* What the panel shows: signatures of each screen tile, by which only what differs is sent. Clear it (memset 0) when
- * the panel's content is unknown. Two different tiles have the same signature with probability 2^-64.
+ * the panel's content is unknown, after gn_init, and when another renderer takes the panel over. Two different tiles
+ * have the same signature with probability 2^-64.
  *
  * With GN_INCREMENTAL 2 a tile is not even drawn if nothing changed that it depends on: camera, settings, its objects
  * and their joints, lights, texels of shadow maps that it looked up. That nothing changed at all takes less than 3 % of
@@ -357,9 +358,9 @@ gn_status gn_screen_tile_if_changed(const gn_frame *frame, gn_scratch *scratch, 
 gn_status gn_render_changes(gn_renderer *r, const gn_scene *scene, gn_panel *panel, gn_flush_fn flush, void *user,
                             uint32_t *n_flushed);
 #if GN_CHANGES
-/* A rectangle of the picture is to be drawn again in the next frame, as something in it changes that the renderer does
- * not know of: what draw_over draws, such as a gauge's figures; what the caller itself drew onto the panel, once it is
- * gone. Parts outside the picture are left out. The first frame needs none. */
+/* A rectangle of the picture is to be drawn and sent again in the next frame, as something in it changes that the
+ * renderer does not know of: what draw_over draws, such as a gauge's figures; what the caller itself drew onto the
+ * panel, once it is gone. Parts outside the picture are left out. The first frame needs none. */
 void gn_touch(const gn_renderer *r, gn_panel *panel, int x, int y, int w, int h);
 #endif
 

@@ -344,11 +344,11 @@ GN_HOT uint64_t gn_signature_bytes(uint64_t signature, const void *bytes, size_t
     for (; n >= 8; n -= 8, at += 8) {
         uint32_t word[2];
         GN_COPY_WORDS(word, at, sizeof word);
-        signature = gn_signature_add_inline(signature, (uint64_t)word[1] << 32 | word[0]);
+        signature = gn_signature_add_inline(gn_signature_add_inline(signature, word[0]), word[1]);
     }
     uint64_t rest = n;
     for (; n; n--) rest = rest << 8 | *at++;
-    return gn_signature_add_inline(signature, rest);
+    return gn_signature_add_inline(gn_signature_add_inline(signature, (uint32_t)rest), rest >> 32);
 }
 
 /* By halves: what is above the lower product's upper half carries. */

@@ -79,6 +79,11 @@ GN_COLD void gn_changes_views(gn_frame *frame)
 void gn_changes_prepare(gn_frame *frame)
 {
     gn_frame_sign *sign = &frame->sign;
+#if GN_SHADOWS
+    for (uint32_t v = 0; sign->moved && v < frame->n_views; v++) /* also of tiles that were kept */
+        if (!frame->view[v].empty && !GN_UNSEEN(&frame->view[v])) gn_kept_note_squares(frame, v);
+#endif
+    sign->moved = 0;
     if (!sign->scene) return;
     sign->every = gn_signature_add(sign->every, frame->id_bits); /* those are not for depths */
     sign->now = not_0(gn_signature_bytes(GN_SIGNATURE_SEED, sign->square, sizeof sign->square));
@@ -90,6 +95,7 @@ void gn_changes_prepare(gn_frame *frame)
 static uint64_t add_object(const gn_frame *frame, uint64_t s, uint32_t object_idx)
 {
     s = gn_signature_add(s, frame->sign.object[object_idx]);
+    if (GN_RAW_VIEWS && frame->picture.view == GN_VIEW_TRIANGLE) s = gn_signature_add(s, object_idx); /* it is shown */
 #if GN_PUNCTUAL_LIGHTS
     const gn_object_state *object = &frame->object[object_idx];
     const int all = object->n_lights == GN_OBJECT_LIGHTS_ALL;
@@ -162,26 +168,26 @@ GN_COLD int gn_changes_none(gn_frame *frame, const gn_scene *scene, const gn_pan
 {
     for (int i = 0; i < 4; i++)
         if (scene->shadow.refresh[i] > 1) return 0; /* a tile of an earlier frame may be due */
+    frame->scene = scene;                           /* those of the frame before may be gone */
+    frame->objects = scene->objects;
     for (uint32_t t = 0; t < (uint32_t)frame->tiles_x * frame->tiles_y; t++)
         if (panel->inputs[t] != not_0(gn_signature_add(tile_signature_of(frame, t), frame->sign.now))) return 0;
     gn_stats *stats = &frame->stats;
     stats->n_caster_triangles = stats->n_tiles_drawn = stats->n_texels_drawn = stats->n_casters_culled = 0;
     stats->n_screen_tiles_drawn = stats->n_screen_tiles_flushed = 0;
     memset(&frame->detail, 0, sizeof frame->detail);
-    frame->scene = scene;
-    frame->objects = scene->objects;
     return 1;
 }
 
 GN_COLD void gn_touch(const gn_renderer *r, gn_panel *panel, int x, int y, int w, int h)
 {
-    if (!r || !panel || w <= 0 || h <= 0) return;
-    const gn_picture *picture = &r->frame.picture;
-    const int32_t tw = GN_K(&r->frame, tile_width), th = GN_K(&r->frame, tile_height),
-                  tiles_x = (picture->width + tw - 1) / tw;
-    const int32_t x1 = (int32_t)gn_clamp64((int64_t)x + w, 0, picture->width),
-                  y1 = (int32_t)gn_clamp64((int64_t)y + h, 0, picture->height);
+    if (!r || !panel || w <= 0 || h <= 0 || !r->frame.tiles_x) return; /* no frame, nothing is shown */
+    const gn_frame *frame = &r->frame;
+    const int32_t tw = GN_K(frame, tile_width), th = GN_K(frame, tile_height);
+    const int32_t x1 = (int32_t)gn_clamp64((int64_t)x + w, 0, frame->picture.width),
+                  y1 = (int32_t)gn_clamp64((int64_t)y + h, 0, frame->picture.height);
     x = gn_max32(x, 0), y = gn_max32(y, 0);
-    for (int32_t row = y / th; row * th < y1; row++)
-        for (int32_t column = x / tw; column * tw < x1; column++) panel->inputs[row * tiles_x + column] = 0;
+    for (int32_t row = y / th; row * th < y1 && row < frame->tiles_y; row++)
+        for (int32_t column = x / tw; column * tw < x1 && column < frame->tiles_x; column++)
+            panel->inputs[row * frame->tiles_x + column] = panel->signature[row * frame->tiles_x + column] = 0;
 }

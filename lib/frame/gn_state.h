@@ -27,6 +27,8 @@ typedef struct {
     uint64_t object[GN_MAX_OBJECTS], light[GN_MAX_LIGHTS];
     uint64_t square[GN_SHADOWS ? GN_SQUARES : 1]; /* of the texels of each */
     gn_squares changed;                           /* since the frame before */
+    uint64_t places;                              /* of squares in the maps */
+    uint32_t moved;                               /* these have: squares of kept tiles are to be signed anew, too */
     uint32_t n_forgotten;                         /* calls of gn_forget_shadows */
 } gn_frame_sign;
 #endif

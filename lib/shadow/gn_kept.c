@@ -125,13 +125,19 @@ GN_COLD void gn_kept_find_squares(gn_frame *frame)
             n += columns_of(&frame->view[v], log2) * rows_of(&frame->view[v], log2);
     }
     n = 0;
+    uint64_t places = GN_SIGNATURE_SEED;
     for (uint32_t v = 0; v < frame->n_views; v++) {
         gn_light_view *view = &frame->view[v];
         view->square_log2 = (uint8_t)log2;
         view->n_columns = (uint8_t)columns_of(view, log2);
         view->first_square = (uint8_t)(n % GN_SQUARES); /* more views than squares share them */
         n += view->n_columns * rows_of(view, log2);
+        places = gn_signature_add(places, (uint64_t)log2 << 40 | (uint64_t)view->tile_texels << 16 |
+                                              (uint64_t)GN_TILE_ROWS(view) << 2 | (uint64_t)view->empty << 1 |
+                                              (uint64_t)(GN_UNSEEN(view) != 0));
     }
+    if (places != frame->sign.places) frame->sign.moved = 1; /* until a frame is prepared */
+    frame->sign.places = places;
 }
 
 /* Of a square's texels. */

@@ -144,7 +144,12 @@ static void tidy_change(campaign *c)
         else if (what == 23) s->ambient_uq16[below(3)] = below(65536);
         else if (what == 24) s->background_uq20[below(3)] = below(1 << 20);
         else if (what == 25 && GN_TILE_DRAWING) s->background_gradient ^= 1;
-        else if (what == 26) s->unit_log2 = (int32_t)below(3);
+        else if (what == 27 && GN_ORTHOGRAPHIC) s->camera.half_height_q16 = one_in(2) ? 0 : between(.5, 5);
+        else if (what >= 28) {
+            int32_t e[3] = {between(-3, 3), between(.5, 4), between(3, 6)},
+                    t[3] = {between(-2, 2), between(-1, 2), between(-2, 2)};
+            gn_camera_look_at(&s->camera.to_world, e, t);
+        } else if (what == 26) s->unit_log2 = (int32_t)below(3);
     } while (one_in(3));
 }
 
@@ -155,8 +160,12 @@ static void next_picture(campaign *c, uint32_t kind)
     const gn_format format = !GN_OTHER_FORMATS ? GN_FORMAT_RGB565
                              : kind % 2        ? (gn_format)(kind / 2 % 6)
                                                : GN_FORMAT_RGB565;
-    const gn_picture p =
-        picture_of((one_in(2) ? 64 : 40) + (int)below(33), (one_in(2) ? 64 : 32) + (int)below(20), format);
+    gn_picture p = picture_of((one_in(2) ? 64 : 40) + (int)below(33), (one_in(2) ? 64 : 32) + (int)below(20), format);
+    if (GN_RAW_VIEWS && one_in(3)) {
+        p.format = GN_FORMAT_RAW32;
+        p.view = (gn_view)(1 + below(5));
+        p.view_light = (uint8_t)below(3);
+    }
     CHECK(gn_init(&one, &p) == GN_OK && gn_init(&two, &p) == GN_OK);
     canvas_end(&c->kept), canvas_end(&c->fresh);
     canvas_begin(&c->kept, p.width, p.height, p.format), canvas_begin(&c->fresh, p.width, p.height, p.format);

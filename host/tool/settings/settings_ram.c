@@ -74,7 +74,9 @@ static void put_sign(layout *l, const settings *s, settings_ram_parts *r)
     r->objects += put(l, s->capacity.max_objects, 8, 8);
     r->lights += put(l, s->capacity.max_lights, 8, 8);
     put(l, s->feature.shadows ? 256 : 1, 8, 8); /* square */
-    put(l, 9, 4, 4);                            /* changed, n_forgotten */
+    put(l, 8, 4, 4);                            /* changed */
+    put(l, 1, 8, 8);                            /* places */
+    put(l, 2, 4, 4);                            /* moved, n_forgotten */
     pad(l, 8);
 }
 
