@@ -105,6 +105,7 @@ GN_HOT GN_NOINLINE void gn_note_lookup(gn_squares *squares, const gn_frame *fram
     const int32_t reach = view->filter_idx + 2 + GN_VIEW_EDGE(frame, view), n = 2 * reach + 1;
     gn_note_texels(squares, view, (receiver->u_q16 >> 16) - reach, (receiver->v_q16 >> 16) - reach, n, n);
 }
+
 GN_COLD static int32_t columns_of(const gn_light_view *view, int32_t square_log2)
 {
     return (view->tile_texels + (1 << square_log2) - 1) >> square_log2;

@@ -88,6 +88,16 @@ models() { # models CORE FILE...
     done
 }
 
+# Frames by gn_render_changes: the first, with four later ones, and with two more of the same
+changes() { # changes CORE
+    for scene in cube sundial desk mixed; do
+        for frames in first:0 later:0+4 still:0+0+2; do
+            one "changes $1 $scene ${frames%%:*}" "bench-$1-$scene-changes" "$1" "$(echo "${frames#*:}" | tr + ' ')" SCENE="host/scenes/$scene.gltf" \
+                SCENE_FLAGS="--frames 0-4 --set incremental=2"
+        done
+    done
+}
+
 measure() { # measure QUICK
     echo "# Written by tests/bench/bench_target.sh --write. Instructions of: $STAGES; then pixels, triangles, caster triangles, shadow texels drawn, bytes of lib/ in the image."
     echo "compiler $(arm-none-eabi-gcc --version | sed 1q); $(riscv64-unknown-elf-gcc --version | sed 1q)"
@@ -100,6 +110,7 @@ measure() { # measure QUICK
     small
     for core in M0 M4 RV32; do scenes "$core" balanced; done
     for core in M3 M0 RV32; do models "$core" $MODELS; done
+    changes M3
 }
 
 # The total leaves out what runs before the first stage.
@@ -120,6 +131,7 @@ tables() {
             px[key] = $13; tri[key] = $14; caster[key] = $15; texels[key] = $16
         }
         $1 == "model" { if ($2 == "M3") { row[++n_rows] = $3; triangles[$3] = $14; casters[$3] = $15 } stage[$2, $3, 0] = total(); for (i = 5; i <= 11; i++) stage[$2, $3, i] = $i }
+        $1 == "changes" { if ($4 == "first") changing[++n_changing] = $3; frames[$3, $4] = total() }
         function million(n) { return sprintf("%.2f", n / 1e6) }
         function net(c, what, set, i) {
             return work[c, what, set, i] - work[c, "flat-shadow", "empty", i] * (1 - n["visible_px", set] / (320 * 240))
@@ -157,6 +169,15 @@ tables() {
                     printf "| %s | %s | %s | %s | %s | %s | %s | %s | %s | %d | %d |\n", k, million(stage["M3", k, 0]), million(stage["RV32", k, 0]), million(stage["M0", k, 0]),
                         million(stage["M3", k, 5] + stage["M3", k, 6]), million(stage["M3", k, 7]), million(stage["M3", k, 8] + stage["M3", k, 9]),
                         million(stage["M3", k, 10]), million(stage["M3", k, 11]), triangles[k], casters[k]
+                }
+            }
+            if (n_changing) {
+                print "\nWhat changed (`incremental` 2): frames by `gn_render_changes`, 320×240, preset balanced, Cortex-M3. Millions of instructions:\n"
+                print "| scene | first | mean of the next four | one that changes nothing |"
+                print "| --- | --- | --- | --- |"
+                for (i = 1; i <= n_changing; i++) {
+                    k = changing[i]; first = frames[k, "first"]
+                    printf "| %s | %s | %s | %.3f |\n", k, million(first), million((frames[k, "later"] - first) / 4), (frames[k, "still"] - first) / 2e6
                 }
             }
             if (!n_names) exit
@@ -215,7 +236,7 @@ status=0
 [ "$(grep '^compiler' "$BASELINE")" = "$(grep '^compiler' "$DIR/target.txt")" ] || echo "bench: the baseline is of other compilers"
 awk '
     function total(    i, sum) { sum = 0; for (i = 5; i <= 12; i++) sum += $i; return sum }
-    $1 != "work" && $1 != "scene" && $1 != "model" { next }
+    $1 != "work" && $1 != "scene" && $1 != "model" && $1 != "changes" { next }
     { key = $1 " " $2 " " $3 " " $4 }
     FNR == NR { then[key] = total(); next }
     {
