@@ -341,14 +341,13 @@ GN_HOT GN_NOINLINE uint64_t gn_far_signature_add(uint64_t signature, uint64_t wo
 GN_HOT uint64_t gn_signature_bytes(uint64_t signature, const void *bytes, size_t n)
 {
     const uint8_t *at = (const uint8_t *)bytes;
-    for (; n >= 8; n -= 8, at += 8) {
-        uint32_t word[2];
-        GN_COPY_WORDS(word, at, sizeof word);
-        signature = gn_signature_add_inline(gn_signature_add_inline(signature, word[0]), word[1]);
+    uint32_t word;
+    for (; n >= sizeof word; n -= sizeof word, at += sizeof word) {
+        GN_COPY_WORDS(&word, at, sizeof word);
+        signature = gn_signature_add_inline(signature, word); /* of 64 bits, one could take back another's upper ones */
     }
-    uint64_t rest = n;
-    for (; n; n--) rest = rest << 8 | *at++;
-    return gn_signature_add_inline(gn_signature_add_inline(signature, (uint32_t)rest), rest >> 32);
+    for (word = 0; n; n--) word = word << 8 | *at++;
+    return gn_signature_add_inline(signature, word);
 }
 
 /* By halves: what is above the lower product's upper half carries. */
