@@ -114,16 +114,20 @@ static gn_status check_scene(gn_frame *frame, const gn_scene *scene)
     return status;
 }
 
+static void drop_frame(gn_frame *frame)
+{
+    frame->stage = GN_STAGE_INIT;
+    frame->n_views = 0;
+    memset(&frame->stats, 0, sizeof frame->stats);
+}
+
 /* Whether a frame of the scene may begin. If so, a frame that is prepared is left as it is. */
 static gn_status check_frame(gn_frame *frame, const gn_scene *scene)
 {
     if (frame->stage == GN_STAGE_NONE || frame->stage == GN_STAGE_DRAWING)
         return gn_fail(frame, gn_wrong_stage(frame), 0);
     const gn_status status = check_scene(frame, scene);
-    if (!status) return GN_OK;
-    frame->stage = GN_STAGE_INIT;
-    frame->n_views = 0;
-    memset(&frame->stats, 0, sizeof frame->stats);
+    if (status) drop_frame(frame);
     return status;
 }
 
@@ -136,9 +140,7 @@ static gn_status begin_frame(gn_renderer *r, const gn_scene *scene, int is_signe
 #else
     (void)is_signed;
 #endif
-    frame->stage = GN_STAGE_INIT;
-    frame->n_views = 0;
-    memset(&frame->stats, 0, sizeof frame->stats);
+    drop_frame(frame);
     memset(&frame->detail, 0, sizeof frame->detail);
     frame->scene = scene;
 #if !GN_COMPACT

@@ -78,7 +78,7 @@ within flash Cortex-M3 full linked 62700 # what a frame need not draw again take
 within flash Cortex-M3 accurate linked 61200
 within flash Cortex-M3 smallest linked 8600
 within flash Cortex-M0 smallest linked 10300
-within flash Cortex-M3 small linked 18900
+within flash Cortex-M3 small linked 18920 # a frame is checked apart from where it begins
 within ram Cortex-M3 smallest total 17000
 
 # ---- Growth -----------------------------------------------------------------------------------------------------------------
