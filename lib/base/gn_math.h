@@ -31,7 +31,7 @@ extern const uint16_t gn_tent_sums[32][16]; /* Q12: sums of subsets, a bit each,
 /* 65535 * linear light of an sRGB value of 8 bits; of 5 and 6 */
 extern const uint16_t gn_srgb_decode_table[256], gn_linear_31_table[32], gn_linear_63_table[64];
 
-/* Entries of tables. With GN_SIZE_FIRST they are computed: gn_curves.c; reciprocals by the core's divider, if it has
+/* Entries of tables. With GN_SIZE_FIRST they are computed: gn_math.c; reciprocals by the core's divider, if it has
  * one. */
 uint32_t gn_far_recip_entry(uint32_t i);
 uint32_t gn_far_rsqrt_entry(uint32_t i);

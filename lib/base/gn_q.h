@@ -105,7 +105,7 @@ GN_HOT static inline int32_t gn_mul_q30_inline(int32_t a, int32_t b)
     return gn_mul_shr_inline(a, b, 30);
 }
 
-/* With GN_SIZE_FIRST (-Os) these are calls instead of inline code: gn_q.c has the bodies. */
+/* With GN_SIZE_FIRST (-Os) these are calls instead of inline code: gn_math.c has the bodies. */
 int64_t gn_far_clamp64(int64_t v, int64_t lo, int64_t hi);
 int32_t gn_far_clamp32(int64_t v, int32_t lo, int32_t hi);
 int32_t gn_far_sat32(int64_t v);
@@ -199,7 +199,8 @@ GN_HOT static inline uint32_t gn_noise_uq16(int32_t x, int32_t y)
 
 #define GN_SIGNATURE_SEED 0x9E3779B97F4A7C15U
 
-/* Every step is a bijection of the signature for a given word, so that a difference cancels only by chance. */
+/* Every step is a bijection of the signature for a given word. A difference below bit 32 spreads to all bits above it,
+ * which a word of 32 bits cannot take back; what many bytes are made of is added in such words (gn_signature_bytes). */
 static inline uint64_t gn_signature_add_inline(uint64_t signature, uint64_t word)
 {
     signature = (signature ^ word) * 0xFF51AFD7ED558CCDU;
@@ -223,8 +224,8 @@ uint64_t gn_signature_bytes(uint64_t signature, const void *bytes, size_t n);
 
 /* ---- Kernels that a port may replace, and what they must compute, bit for bit ------------------------------------ */
 
-/* The library is portable without a port. With -DGN_PORT='"gn_port_NAME.h"' that header is included (gn_hint.h); for
- * each kernel that the port has, it defines gn_kernel_X as the function that replaces gn_portable_X, under the same
+/* The library is portable without a port. With -DGN_PORT='"gn_port_NAME.h"' that header is included (gn_base_types.h);
+ * for each kernel that the port has, it defines gn_kernel_X as the function that replaces gn_portable_X, under the same
  * preconditions: port/gn_port.h is the contract, docs/FIRMWARE.md explains it. */
 
 /* The next lower bit: whether a texel is below a level. */

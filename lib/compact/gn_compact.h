@@ -16,7 +16,7 @@
 #define GN_COMPACT_BITS      8            /* subpixel bits */
 #define GN_COMPACT_REACH_Q16 (1440 << 16) /* pixels or texels from the raster's middle: (2 * 1440 * 2^8)^2 < 2^39 */
 
-/* ---- gn_compact_point.c ---- */
+/* ---- Points ---- */
 
 /* round(a * 2^30 / |a|), within 4 LSB; any length but zero, |a| < 2^62. Returns 0 if a is zero. */
 int gn_compact_unit(int32_t out_q30[3], const int64_t a[3]);
@@ -37,7 +37,7 @@ int gn_compact_transform(int32_t out_q16[3], const gn_compact_xform *xform, cons
 /* Projects a point. Returns 0 if its depth from the light is out of range. */
 int gn_compact_project(gn_compact_corner *corner, const gn_compact_view *view, const int32_t v_q16[3]);
 
-/* ---- gn_compact_clip.c ---- */
+/* ---- Clipping ---- */
 
 /* Cuts the polygon of n points to the guard band, and of the camera to the near plane. Returns how many points are
  * left, 0 or 3 to 8. */

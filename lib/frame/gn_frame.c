@@ -3,27 +3,26 @@
  *
  * gn_begin
  * - gn_scene_validate: refuses an invalid scene (scene/)
- * - gn_sides_setup: which objects mirror, or are flat (scene/gn_sides)
+ * - gn_sides_setup: which objects mirror, or are flat (scene/gn_pose)
  * - gn_cam_setup: the camera (geometry/gn_xform)
- * - gn_views_setup: which light affects which object (light/gn_lights), how many shadow tiles each light gets
- * (shadow/gn_tiles), and how each view lies in the world (gn_light_views, gn_ortho, gn_persp; light/gn_cascade,
- * gn_bias)
+ * - gn_views_setup: which light affects which object, cascades (light/gn_lights), how many shadow tiles each light gets
+ *   (shadow/gn_tiles), and how each view lies in the world (gn_views, gn_ortho, gn_persp; light/gn_bias)
  *
  * gn_shadow_tile
- * - gn_atlas_render_tile: casters (shadow/gn_cull: which) as depth seen from the light (gn_ortho, gn_persp: projection;
- *   gn_caster: spans, cut by alpha: geometry/gn_alpha); bounds of depth per block (gn_blocks)
+ * - gn_atlas_render_tile: casters as depth seen from the light (shadow/gn_caster: which, and their spans; gn_ortho,
+ *   gn_persp: projection; geometry/gn_alpha: cut by alpha); bounds of depth per block (gn_disk)
  *
  * gn_prepare
- * - gn_setup_triangles: visible triangles: transform, cull, clip (geometry/gn_clip), project, depth plane (gn_plane)
- * - gn_bin_triangles: triangles to screen tiles (visible/gn_bin); not with triangle_groups
+ * - gn_setup_triangles: visible triangles: transform, cull, clip (geometry/gn_plane), project, depth plane
+ * - gn_bin_triangles: triangles to screen tiles (visible/gn_runs); not with triangle_groups
  *
  * gn_screen_tile
- * - gn_raster_tile: depth and triangle per pixel, by exact edge walks (geometry/gn_walk); with triangle_groups the
+ * - gn_raster_tile: depth and triangle per pixel, by exact edge walks (geometry/gn_plane); with triangle_groups the
  *   tile's triangles are set up again for it (visible/gn_setup)
  * - gn_shade_tile: the visible runs (visible/gn_runs) of a triangle at a time (shade/gn_surface), part by part: of one
  *   or two colours (gn_part), or by cells (gn_lattice: gn_corner, gn_lattice_look, gn_lattice_draw), with texel windows
- *   (gn_lattice_window, shadow/gn_window); or pixel by pixel (gn_corner_pixel; gn_exact, gn_sample): light (gn_light,
- *   gn_arrival, light/gn_punctual), shadow (gn_shadow, shadow/gn_filter); encoded pixels (gn_levels, gn_pixel)
+ *   (gn_lattice_window, shadow/gn_window); or pixel by pixel (gn_corner_screen, gn_sample): light (gn_light,
+ *   light/gn_punctual), shadow (gn_shadow, shadow/gn_filter); encoded pixels (gn_shade, gn_pixel)
  * - the caller's drawing over it (behind it: gn_shade_tile), flush
  *
  * With GN_COMPACT, compact/ has all stages but the first, in 32 bits, behind the same calls.

@@ -163,7 +163,7 @@ typedef struct {
     int32_t from_q20[2], step_q28[2], bend_q28[2];
 } gn_alpha_steps;
 
-/* One triangle of an object, as the camera or a light sees it, and a row of it: gn_alpha.h. */
+/* One triangle of an object, as the camera or a light sees it, and a row of it: gn_texture.h. */
 typedef struct {
     const gn_object *object;
     gn_alpha mode;

@@ -231,7 +231,7 @@ GN_HOT static inline void gn_alpha_row(gn_alpha_cut *cut, int32_t y, int32_t py,
  * are of x_begin .. x_end - 1. (x, y) picks the noise of the dither. */
 uint32_t gn_alpha_keeps(gn_alpha_cut *cut, int32_t x, uint32_t asked);
 
-/* ---- Textured ones: gn_alpha_coords.c ---------------------------------------------------------------------------- */
+/* ---- Textured ones ---------------------------------------------------------------------------- */
 
 /* Texture coordinates of the triangle's corners. */
 void gn_alpha_corners(gn_alpha_cut *cut, const uint16_t idx[3]);

@@ -23,7 +23,7 @@ gn_status gn_object_boxes(gn_frame *frame);
 uint64_t gn_object_distance2_q32(const gn_object_state *object, const int32_t p_q16[3]);
 
 /* Lists the spot and point lights that affect the object, and returns their number. Boxes and frame->light must be set
- * up. gn_light_list.c. */
+ * up. */
 uint32_t gn_object_list_lights(gn_frame *frame, uint32_t object_idx);
 
 /* ---- Cascades: slices of the frustum, their bounding spheres, and how shadows end with distance (MODEL 4) -------- */
@@ -105,7 +105,7 @@ void gn_bias_directional(const gn_frame *frame, const gn_light_view *view, const
 void gn_bias_punctual(const gn_frame *frame, const gn_light_state *light, const int32_t n_q30[3],
                       const int32_t from_q16[3], int32_t out_q16[3]);
 
-/* ---- Automatic bias (MODEL 7): gn_auto_bias.c, and of views gn_auto_bias_view.c ---------------------------------- */
+/* ---- Automatic bias (MODEL 7) ---------------------------------- */
 
 /* Position error: half a step of caster coordinates, half a step of filter weights, two roundings; texels, Q16. */
 GN_HOT static inline int32_t gn_bias_auto_delta_q16(const gn_frame *frame)

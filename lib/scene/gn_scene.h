@@ -8,7 +8,7 @@
  * bias do not by default. */
 gn_auto_bias gn_scene_auto_bias(const gn_light *light);
 
-/* Whether a skin is one that is built, and within its own arrays: for all its object's vertices. gn_scene_skin.c. */
+/* Whether a skin is one that is built, and within its own arrays: for all its object's vertices. */
 gn_status gn_scene_skin_check(gn_frame *frame, const gn_object *object, uint32_t object_idx);
 
 /* Why a call is refused in the frame's stage: the call that is missing before it, or GN_ERR_REENTERED. */

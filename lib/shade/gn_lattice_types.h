@@ -264,7 +264,7 @@ typedef struct {
     uint8_t size_log2, next; /* the quarter to be shaded next */
 } gn_split_cell;
 
-/* ---- Parts: gn_part.h --------------------------------------------------------------------------------------------
+/* ---- Parts: gn_part.c --------------------------------------------------------------------------------------------
  */
 
 /* A view of the light whose shadow has an edge in the part. */

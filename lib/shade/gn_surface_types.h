@@ -148,7 +148,7 @@ enum { GN_LIGHT_FACING, GN_LIGHT_POINT_AT, GN_LIGHT_OFFSET = 4 };
 /* How a light arrives at a point: not at all; through the rim of a cone; fully. */
 enum { GN_ARRIVES_NOT, GN_ARRIVES_RIM, GN_ARRIVES_FULLY };
 
-/* Incident light of a spot or point light at a sample: gn_arrival.h. */
+/* Incident light of a spot or point light at a sample: gn_surface.h. */
 typedef struct {
     uint32_t irradiance_q24; /* of a light whose colour is 1 */
 #if GN_SHADOWS

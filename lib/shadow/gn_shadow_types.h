@@ -85,7 +85,7 @@ typedef union {
 
 typedef struct {
     uint16_t lo, hi; /* the upper 16 bits of depth, whatever depth_bits */
-} gn_depth_block;    /* see gn_blocks.h */
+} gn_depth_block;    /* see gn_texel.h */
 
 /* Squares of shadow maps, a bit each: those of a view's tile, of 2^square_log2 texels each way, are the ones from
  * first_square on, row by row, n_columns in a row. */
@@ -156,7 +156,7 @@ typedef struct {
     uint8_t square_log2, n_columns, first_square; /* see gn_squares */
 #endif
 #if GN_DISK_FILTER
-    gn_depth_block *block; /* (T / 8) * (T / 8), of the disk filter alone: gn_blocks.h */
+    gn_depth_block *block; /* (T / 8) * (T / 8), of the disk filter alone: gn_texel.h */
 #endif
     int32_t axis_q30[3][3]; /* u, v, w in the world */
     union {
@@ -166,7 +166,7 @@ typedef struct {
 } gn_light_view;
 
 #if GN_INTERPOLATES
-/* Texels of a tile that keep a plane in the dark: gn_window.h. */
+/* Texels of a tile that keep a plane in the dark: gn_filter.h. */
 enum { GN_WINDOW_TEXELS = 32, GN_WINDOWS = GN_VIEWS_MAX >= 4 ? 4 : GN_VIEWS_MAX >= 2 ? 2 : 1 };
 enum { GN_WINDOW_LIT, GN_WINDOW_DARK, GN_WINDOW_MIXED, GN_WINDOW_MISSED };
 

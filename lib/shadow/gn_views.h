@@ -107,10 +107,11 @@ typedef enum { GN_LAYER_ALL, GN_LAYER_STATIC, GN_LAYER_MOVING } gn_layer;
 /* Whether an object has to be drawn into a layer of a view's tile. *culled: only gn_cull_shown_nearer excluded it. */
 int gn_cull_draws(const gn_frame *frame, const gn_light_view *view, uint32_t object_idx, gn_layer layer, int *culled);
 
-/* Whether the object's box intersects the view's tile: gn_cull_boxes.c. */
+/* Whether the object's box intersects the view's tile. */
 int gn_cull_sees(const gn_frame *frame, const gn_light_view *view, uint32_t object_idx);
 
-/* ---- gn_cull_cascades.c ------------------------------------------------------------------------------------------ */
+/* ---- Casters that a smaller cascade shows
+ * ------------------------------------------------------------------------------------------ */
 
 /* Box of all receiving objects, for gn_cull_shown_nearer. */
 void gn_cull_begin(gn_frame *frame);

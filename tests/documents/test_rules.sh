@@ -117,6 +117,12 @@ for tree in lib host; do
     none "a folder of $tree/ includes one that stands below it in $tree/README.md" "$tmp/found"
 done
 
+# comments name files that there are
+grep -n -o -E '\bgn_[a-z0-9_]+\.[ch]\b' -r lib port | while IFS=: read -r file line name; do
+    [ -n "$(find lib port -name "$name")" ] || echo "$file:$line: $name"
+done >"$tmp/found"
+none "files that are named and are not there" "$tmp/found"
+
 # gnomon.c includes every part once; in gn_frame.c the table of contents names the stages in the order of gn_internal.h.
 find lib -mindepth 2 -name "*.c" | sed "s|^lib/||" | sort >"$tmp/parts"
 sed -n "s/^#include \"\(.*\.c\)\"/\1/p" lib/gnomon.c | sort | diff "$tmp/parts" - >"$tmp/found"
