@@ -94,7 +94,8 @@ GN_HOT GN_NOINLINE void gn_note_texels(gn_squares *squares, const gn_light_view 
     const int32_t left = gn_max32(0, gn_min32(u, right)) >> log2, top = gn_max32(0, gn_min32(v, bottom)) >> log2;
     const int32_t n = (gn_max32(0, gn_min32(u + w - 1, right)) >> log2) - left + 1;
     int32_t n_rows = (gn_max32(0, gn_min32(v + h - 1, bottom)) >> log2) - top + 1;
-    for (uint32_t at = view->first_square + (uint32_t)(top * view->n_columns + left); n_rows--; at += view->n_columns)
+    const uint32_t n_columns = ((uint32_t)right >> log2) + 1;
+    for (uint32_t at = view->first_square + (uint32_t)top * n_columns + (uint32_t)left; n_rows--; at += n_columns)
         for (uint32_t bit = at; bit < at + (uint32_t)n; bit++)
             squares->word[bit / 32 % (GN_SQUARES / 32)] |= 1U << bit % 32;
 }
@@ -130,9 +131,8 @@ GN_COLD void gn_kept_find_squares(gn_frame *frame)
     for (uint32_t v = 0; v < frame->n_views; v++) {
         gn_light_view *view = &frame->view[v];
         view->square_log2 = (uint8_t)log2;
-        view->n_columns = (uint8_t)columns_of(view, log2);
         view->first_square = (uint8_t)(n % GN_SQUARES); /* more views than squares share them */
-        n += view->n_columns * rows_of(view, log2);
+        n += columns_of(view, log2) * rows_of(view, log2);
         places = gn_signature_add(places, (uint64_t)log2 << 40 | (uint64_t)view->tile_texels << 16 |
                                               (uint64_t)GN_TILE_ROWS(view) << 2 | (uint64_t)view->empty << 1 |
                                               (uint64_t)(GN_UNSEEN(view) != 0));
@@ -164,7 +164,7 @@ GN_COLD void gn_kept_note_squares(gn_frame *frame, uint32_t view_idx)
     const int32_t log2 = view->square_log2;
     for (int32_t v = 0; v < GN_TILE_ROWS(view); v += 1 << log2)
         for (int32_t u = 0; u < view->tile_texels; u += 1 << log2) {
-            const int32_t at = (view->first_square + (v >> log2) * view->n_columns + (u >> log2)) % GN_SQUARES;
+            const int32_t at = (view->first_square + (v >> log2) * columns_of(view, log2) + (u >> log2)) % GN_SQUARES;
             const uint64_t s = sign_square(view, view_idx, u, v);
             if (frame->sign.square[at] != s) frame->sign.changed.word[at / 32] |= 1U << at % 32;
             frame->sign.square[at] = s;

@@ -88,7 +88,7 @@ typedef struct {
 } gn_depth_block;    /* see gn_texel.h */
 
 /* Squares of shadow maps, a bit each: those of a view's tile, of 2^square_log2 texels each way, are the ones from
- * first_square on, row by row, n_columns in a row. */
+ * first_square on, row by row. */
 enum { GN_SQUARES = 256 };
 typedef struct {
     uint32_t word[GN_SQUARES / 32];
@@ -153,7 +153,7 @@ typedef struct {
     uint8_t unseen; /* no visible receiver looks into it: an empty tile of 8 x 8 texels that all such views share */
 #endif
 #if GN_CHANGES
-    uint8_t square_log2, n_columns, first_square; /* see gn_squares */
+    uint8_t square_log2, first_square; /* see gn_squares */
 #endif
 #if GN_DISK_FILTER
     gn_depth_block *block; /* (T / 8) * (T / 8), of the disk filter alone: gn_texel.h */
