@@ -200,7 +200,7 @@ GN_HOT static inline uint32_t gn_noise_uq16(int32_t x, int32_t y)
 #define GN_SIGNATURE_SEED 0x9E3779B97F4A7C15U
 
 /* Every step is a bijection of the signature for a given word. A difference below bit 32 spreads to all bits above it,
- * which a word of 32 bits cannot take back; what many bytes are made of is added in such words (gn_signature_bytes). */
+ * which a word of 32 bits cannot take back. */
 static inline uint64_t gn_signature_add_inline(uint64_t signature, uint64_t word)
 {
     signature = (signature ^ word) * 0xFF51AFD7ED558CCDU;

@@ -512,8 +512,37 @@ static void test_focal(void)
     printf("gn_focal_from_fov_q24: relative 2^%.2Lf at %s\n", log2l(w.error), w.at);
 }
 
+/* One bit of many bytes changes their signature, and no other bit takes that back: also none of the uppermost, which
+ * products by odd numbers leave alone. */
+static void test_signature_bytes(void)
+{
+    enum { BYTES = 50, BITS = 8 * BYTES };
+    static uint8_t bytes[BYTES];
+    static uint64_t one[BITS];
+    tally t = {0};
+    rng random = {1};
+    for (int series = 0; series < 4; series++) {
+        for (int i = 0; i < BYTES; i++) bytes[i] = series ? (uint8_t)rng_u32(&random) : 0;
+        const uint64_t none = gn_signature_bytes(GN_SIGNATURE_SEED, bytes, BYTES);
+        for (int i = 0; i < BITS; i++) {
+            bytes[i / 8] ^= (uint8_t)(1 << i % 8);
+            one[i] = gn_signature_bytes(GN_SIGNATURE_SEED, bytes, BYTES);
+            HOLDS(&t, one[i] != none, "bit %d of series %d", i, series);
+            for (int j = 0; j < i; j++) {
+                bytes[j / 8] ^= (uint8_t)(1 << j % 8);
+                const uint64_t two = gn_signature_bytes(GN_SIGNATURE_SEED, bytes, BYTES);
+                HOLDS(&t, two != none && one[j] != one[i], "bits %d and %d of series %d", i, j, series);
+                bytes[j / 8] ^= (uint8_t)(1 << j % 8);
+            }
+            bytes[i / 8] ^= (uint8_t)(1 << i % 8);
+        }
+    }
+    CHECK_TALLY(t, "gn_signature_bytes");
+}
+
 int main(int argc, char **argv)
 {
+    test_signature_bytes();
     test_bits();
     test_shifts();
     test_products();
