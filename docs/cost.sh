@@ -2,7 +2,8 @@
 # The short tables of cost in README.md and docs/COST.md, from the committed baselines: it measures nothing. Each header names its build.
 #   sh docs/cost.sh --table NAME            prints one. sizes: flash, RAM and stack by configuration. speed: instructions, flash and frames per second
 #                                           by scene, with -O2. builds: instructions and flash by scene, with -O2 and with -Os. cores, parts: what
-#                                           estimates are made of. characters: models that people load, beside a3d. model: how far the cost model is off
+#                                           estimates are made of. characters: models that people load, beside a3d. changes: frames that change little.
+#                                           model: how far the cost model is off
 #   sh docs/cost.sh                         writes them into the documents
 # Frames per second: the board's clock / (counted instructions × cycles per instruction), both as in host/tool/cost/part_table.h. A dot: not measured.
 cd "$(dirname "$0")/.." || exit 1
@@ -71,6 +72,23 @@ builds() {
             printf "| %s | %s | %s | %s | %s |\n", s, px("M3", s, "balanced"), bytes("M3", s, "balanced"), px("M3-Os", s, "balanced"), bytes("M3-Os", s, "balanced")
         }
     }'
+}
+
+# By gn_render_changes, tests/bench/bench_target.sh
+changes() {
+    echo "| 320×240, balanced, Cortex-M3, -O2; millions of instructions | first frame | a frame in which it moves | of the first | a still frame |"
+    echo "| --- | --- | --- | --- | --- |"
+    awk '
+        BEGIN {
+            says["gauge"] = "gauge: a needle turns over a dial"; says["game"] = "game: 3 of 30 boxes move (`incremental` 3)"; says["cube"] = "cube: what casts turns in the middle"
+            says["sundial"] = "sundial: the light turns"; says["desk"] = "desk: the lamp swings"; says["mixed"] = "mixed: sails of a mill, lights of all kinds"
+        }
+        $1 != "changes" { next }
+        { sum = 0; for (i = 5; i <= 12; i++) sum += $i; total[$3, $4] = sum / 1e6 }
+        $4 == "still" {
+            first = total[$3, "first"]; later = (total[$3, "later"] - first) / 4
+            printf "| %s | %.2f | %.2f | %.0f %% | %.2f |\n", says[$3] ? says[$3] : $3, first, later, 100 * later / first, (sum / 1e6 - total[$3, "later"]) / 4
+        }' tests/bench/bench_target_baseline.txt
 }
 
 # Counted: whole frames of scenes and characters, from the least ratio to the largest.
@@ -149,7 +167,7 @@ if [ "${1:-}" = --table ]; then "$2"; exit; fi
 mkdir -p build/tmp
 work=$(mktemp -d build/tmp/cost.XXXXXX)
 trap 'rm -rf "$work"' EXIT
-for name in sizes speed builds cores parts characters model; do
+for name in sizes speed builds cores parts characters changes model; do
     $name >"$work/table"
     for document in README.md docs/COST.md; do
         awk -v name="$name" -v file="$work/table" '

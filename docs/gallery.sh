@@ -30,10 +30,10 @@ picture() {
 drawn() {
     name=$1 app=$2 scene=$(scene_path "$3")
     shift 3
-    make -s --no-print-directory emulate BOARD=host APP="$app" SCENE="$scene" SCENE_FLAGS="--size 320x240 --simplify safe --set tile_width=320 --set tile_height=8 $*" \
+    make -s --no-print-directory emulate BOARD=host APP="$app" SCENE="$scene" SCENE_FLAGS="$*" \
         ARGS="$work/strips" >"$work/log" 2>&1 && make -s --no-print-directory build/rgb565_png >>"$work/log" 2>&1 || { cat "$work/log" >&2; exit 1; }
     build/rgb565_png 320 240 "$work/pictures/$name.png" <"$work/strips"
-    echo "make emulate BOARD=host APP=$app SCENE=$scene ARGS=$app.rgb565" >"$work/command"
+    echo "make emulate BOARD=host APP=$app SCENE=$scene SCENE_FLAGS=\"$*\" ARGS=$app.rgb565" >"$work/command"
     echo "boards/apps/$app.c" >"$work/metrics"
 }
 

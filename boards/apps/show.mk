@@ -1,6 +1,6 @@
 # Any scene: settings that leave room for it, and a word before the linker's on whether it fits. A texture of 256 texels has about one for
 # each pixel of such displays; one of 1024 takes 4 MB.
-SCREEN_SETTINGS := $(or $(SHOW_SETTINGS),$(SCREEN_SETTINGS) --set texture_size=256)
+SCREEN_SETTINGS := --set incremental=2 $(or $(SHOW_SETTINGS),$(SCREEN_SETTINGS) --set texture_size=256)
 include boards/apps/screen.mk
 undefine FW_SCENE_BOARD
 undefine FW_SCENE_DIR

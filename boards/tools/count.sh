@@ -8,13 +8,14 @@
 #   sh boards/tools/count.sh --ready BOARD        makes what every count needs. Status 3 with a line that says why, if this machine
 #                                                                   cannot count; 1 with a line, if nothing counts on this board
 #   sh boards/tools/count.sh --remove BOARD IMAGE  its files
-#   sh boards/tools/count.sh --stages             their names. What runs before the first, and from scene_frame to the next, is none
+#   sh boards/tools/count.sh --stages             their names: where several are given, the first that the image has. What runs before the first,
+#                                                 and from scene_frame to the next, is none
 # Environment: BUILD, JOBS (compilers at a time: 2).
 set -eu
 cd "$(dirname "$0")/../.."
 
 BUILD=${BUILD:-build}
-STAGES="gn_scene_validate gn_views_setup gn_atlas_render_tile gn_setup_triangles gn_bin_triangles gn_raster_tile gn_shade_tile bench_flush"
+STAGES="gn_scene_validate|gn_changes_sign gn_views_setup gn_atlas_render_tile gn_setup_triangles gn_bin_triangles gn_raster_tile gn_shade_tile bench_flush"
 
 board() { make -s --no-print-directory -j"${JOBS:-2}" BOARD="$board" APP=bench BUILD="$BUILD" "$@" </dev/null; }
 setting() { board --eval="setting: ; @echo \$($1)" setting; } # setting VARIABLE
@@ -40,7 +41,8 @@ count() { # count ARGS[,ARGS...] VARIABLE...
     "$(setting BOARD_CROSS)nm" "$dir/$image.elf" >"$dir/$image.symbols"
     plugin=
     for stage in $STAGES scene_frame; do
-        at=$(awk -v f="$stage" '$3 == f { print $1 }' "$dir/$image.symbols")
+        at=$(awk -v f="$stage" 'BEGIN { n = split(f, name, "|") } { for (i = 1; i <= n; i++) if ($3 == name[i]) at[i] = $1 }
+            END { for (i = 1; i <= n && !at[i]; i++) continue; print at[i] }' "$dir/$image.symbols")
         plugin=$plugin,stage=${at:-ffffffff}
     done
     while [ -n "$all" ]; do
@@ -51,7 +53,7 @@ count() { # count ARGS[,ARGS...] VARIABLE...
         board emulate IMAGE="$image" "$@" ARGS="$args" TIMEOUT=300 \
             EMULATOR_FLAGS="-display none -monitor none -serial none -plugin $BUILD/libstages.so,out=$dir/$image.stages$plugin" >"$log" 2>&1 ||
             { cat "$log" >&2; exit 1; }
-        awk -v names="$STAGES" 'BEGIN { n = split(names, name, " ") } $2 > 0 && $2 <= n { print "stage", name[$2], $3 }' "$dir/$image.stages"
+        awk -v names="$STAGES" 'BEGIN { n = split(names, name, " ") } { sub(/[|].*/, "", name[$2]) } $2 > 0 && $2 <= n { print "stage", name[$2], $3 }' "$dir/$image.stages"
         tr -d '\r' <"$log"
     done
 }

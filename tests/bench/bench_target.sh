@@ -18,6 +18,7 @@ DOC=docs/data/SPEED.md
 CASES="flat gouraud flat-shadow gouraud-shadow"
 SCENES="sundial avenue desk room fence mixed"
 MODELS="tests/bench/scenes/hound.gltf tests/bench/scenes/walker.gltf"
+CHANGES="tests/bench/scenes/gauge.gltf tests/bench/scenes/game.gltf:3 host/scenes/cube.gltf host/scenes/sundial.gltf host/scenes/desk.gltf host/scenes/mixed.gltf"
 STAGES=$(sh boards/tools/count.sh --stages)
 
 # core, board, and what it is configured by: built with -O2, or as the core's name ends; light found at vertices alone, the longest steps, bands as wide as the picture
@@ -89,12 +90,15 @@ models() { # models CORE FILE...
     done
 }
 
-# Frames by gn_render_changes: the first alone, and with four later ones
+# Frames by gn_render_changes: the first alone; with four later ones; and with the last of these four times more. Behind a scene: `incremental`
 changes() { # changes CORE
-    for scene in cube sundial desk mixed; do
-        for frames in first:0 later:0+4; do
-            one "changes $1 $scene ${frames%%:*}" "bench-$1-$scene-changes" "$1" "$(echo "${frames#*:}" | tr + ' ')" SCENE="host/scenes/$scene.gltf" PRESET=balanced \
-                SCENE_FLAGS="--frames 0-4 --set incremental=2"
+    for scene in $CHANGES; do
+        name=$(basename "${scene%.*}")
+        level=2
+        case $scene in *:?) level=${scene##*:} ;; esac
+        for frames in first:0 later:0+4 still:0+4+4; do
+            one "changes $1 $name ${frames%%:*}" "bench-$1-$name-changes" "$1" "$(echo "${frames#*:}" | tr + ' ')" SCENE="${scene%:?}" PRESET=balanced \
+                SCENE_FLAGS="--frames 0-4 --set incremental=$level --set fit=compiled"
         done
     done
 }
@@ -173,11 +177,11 @@ tables() {
                 }
             }
             if (n_changing) {
-                print "\nWhat changed (`incremental` 2): frames by `gn_render_changes`, 320×240, preset balanced, Cortex-M3. Millions of instructions:\n"
-                print "| scene | first | mean of the next four |\n| --- | --- | --- |"
+                print "\nWhat changed (`incremental` 2, of the game 3; `fit=compiled`): frames by `gn_render_changes`, 320×240, preset balanced, Cortex-M3. Millions of instructions:\n"
+                print "| scene | first | mean of the next four | of the first | nothing changed |\n| --- | --- | --- | --- | --- |"
                 for (i = 1; i <= n_changing; i++) {
-                    k = changing[i]; first = frames[k, "first"]
-                    printf "| %s | %s | %s |\n", k, million(first), million((frames[k, "later"] - first) / 4)
+                    k = changing[i]; first = frames[k, "first"]; later = (frames[k, "later"] - first) / 4
+                    printf "| %s | %s | %s | %.0f %% | %.3f |\n", k, million(first), million(later), 100 * later / first, (frames[k, "still"] - frames[k, "later"]) / 4e6
                 }
             }
             if (!n_names) exit

@@ -20,7 +20,7 @@ for name in sizes speed builds; do
     agrees README.md $name "$tmp/$name" "sh docs/cost.sh"
     agrees docs/COST.md $name "$tmp/$name" "sh docs/cost.sh"
 done
-for name in cores parts characters model; do
+for name in cores parts characters changes model; do
     sh docs/cost.sh --table $name >"$tmp/$name"
     agrees docs/COST.md $name "$tmp/$name" "sh docs/cost.sh"
 done

@@ -120,6 +120,19 @@ pocket() {
     else echo "pocket with 12 KB: $(head -n 1 "$tmp/pocket.12")"; fi
 }
 
+# A gauge over a scene: it is in the picture that GALLERY shows, and its hand turns by few tiles, as the host says.
+gauge() {
+    flags="$(sed -n 's/^! gauge avenue //p' docs/gallery.txt)"
+    for board in host mps2-an385; do
+        firmware emulate BOARD=$board APP=gauge SCENE=host/scenes/avenue.gltf SCENE_FLAGS="$flags" ARGS="$tmp/gauge.$board" >"$tmp/gauge.txt" 2>&1
+        grep -o 'the hand turns: .* drawn' "$tmp/gauge.txt" >"$tmp/turns.$board"
+        if build/rgb565_png 320 240 "$tmp/gauge.png" <"$tmp/gauge.$board" && cmp -s "$tmp/gauge.png" docs/pictures/gallery/r11-2.png; then echo ok
+        else echo "$board: the gauge is not docs/pictures/gallery/r11-2.png"; fi
+    done
+    set -- $(tr -c '0-9\n' ' ' <"$tmp/turns.host")
+    [ "${1:-0}" -gt 24 ] && [ $((10 * $1)) -lt "$2" ] && cmp -s "$tmp/turns.host" "$tmp/turns.mps2-an385" && echo ok || echo "gauge: $(cat "$tmp/turns.host")"
+}
+
 # A mesh of 70,000 triangles within 64 KB on a Cortex-M3, by groups: the picture that the host draws by records.
 large() {
     awk -v across=264 -v down=133 'BEGIN {
@@ -273,6 +286,7 @@ make -s build/rgb565_png >"$tmp/log" 2>&1 && pass || fail "rgb565_png does not b
     for board in $flashed; do echo "built $board"; done
     echo pocket
     echo large
+    echo gauge
 } >"$tmp/jobs"
 xargs -P 2 -I '{}' sh -c 'sh tests/firmware/test_boards.sh job "$1" $2' run "$tmp" '{}' <"$tmp/jobs" >"$tmp/results" 2>&1
 { hot; fast; pico_boot; pico_uf2; } >>"$tmp/results" 2>&1
@@ -281,7 +295,7 @@ failed=$((failed + $(grep -v -c '^ok$' "$tmp/results")))
 grep -v '^ok$' "$tmp/results"
 [ "$(echo "$emulated" | grep -c .)" -ge 9 ] && pass || fail "the emulated boards are $emulated"
 [ "$(echo "$flashed" | grep -c .)" -ge 4 ] && pass || fail "the boards with an image to flash are $flashed"
-[ "$(grep -c '^ok$' "$tmp/results")" -ge $((${THOROUGH:+22} + 69)) ] && pass || fail "jobs are missing"
+[ "$(grep -c '^ok$' "$tmp/results")" -ge $((${THOROUGH:+22} + 72)) ] && pass || fail "jobs are missing"
 
 echo "$passed passed, $failed failed"
 [ "$failed" = 0 ]

@@ -40,6 +40,16 @@ holds "one core" "($m3 * 1.4 / 64e6 * $(part nRF52840 first) - 1) ^ 2 < 1e-6"
 holds "two cores" "$(part RP2040 cores) == 2 && $(part "RP2350 Arm" first) > 1.2 * 150e6 / ($m3 * 1.4) && $(part "RP2350 Arm" first) < 2 * 150e6 / ($m3 * 1.4)"
 holds "shadow tiles that are kept" "$(of still instructions) < $(of animated instructions)"
 
+# Only what changes is drawn and sent; in a still frame nothing
+game="tests/bench/scenes/game.gltf --set incremental=3 --set fit=compiled"
+info $game && grep -q -E '^    RP2040 .* [0-9.]+p?  +[0-9.]+p?  +idle ' "$tmp/out" && pass || fail "info of the game: $(cat "$tmp/err"; grep RP2040 "$tmp/out")"
+info $game --json && pass || fail "info --json of the game: $(cat "$tmp/err")"
+holds "what is sent" "$(of first sent) == 1 && $(of animated sent) > 0.05 && $(of animated sent) < 0.4 && $(of still sent) == 0"
+[ -n "$(part RP2040 animated)" ] && [ -z "$(part RP2040 still)" ] && pass || fail "frames per second of a still frame: $(part RP2040 still)"
+counted=$(awk '$1 == "changes" && $3 == "game" { for (i = 5; i <= 12; i++) n[$4] += $i } END { print (n["later"] - n["first"]) / 4 }' tests/bench/bench_target_baseline.txt)
+guess=$(of animated instructions)
+holds "a later frame: the estimate $guess, counted $counted" "$guess > 0.7 * $counted && $guess < 1.3 * $counted"
+
 # ---- The estimate and the emulator ---------------------------------------------------------------------------------------------
 
 # near NAME SCENE BASELINE OPTION...: the estimate of a first frame, and what make bench counted on a Cortex-M3

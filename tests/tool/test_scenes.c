@@ -656,6 +656,8 @@ int main(void)
         test_committed_bytes(gallery[i].path, gallery[i].write, 100000);
     test_committed_bytes(hound_path, hound_write, 100000);
     test_committed_bytes(walker_path, walker_write, 250000);
+    test_committed_bytes("tests/bench/scenes/gauge.gltf", gauge_write, 20000);
+    test_committed_bytes("tests/bench/scenes/game.gltf", game_write, 20000);
     test_character(hound_path, 500, 700, 22, 18);
     test_character(walker_path, 4000, 5000, 19, 24);
     test_cube();

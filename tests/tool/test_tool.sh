@@ -872,7 +872,14 @@ good render "$cube" --size 40x30 --frames 0-3 -o "$tmp/moving.png"
 good render "$cube" --size 40x30 --frame 0 -o "$tmp/still.png"
 [ "$(grep -a -o fcTL "$tmp/moving.png" | wc -l)" = 4 ] && grep -q -a acTL "$tmp/moving.png" && pass || fail "an animation of four frames has $(grep -a -o fcTL "$tmp/moving.png" | wc -l)"
 grep -q -a acTL "$tmp/still.png" && fail "one frame is an animation" || pass
+# what later frames take of a first one: all but the shadow tiles, or what changed
+later() { good render "$@" -o "$tmp/moving.png"; sed -n 's/.*the next \([0-9]*\) on average [0-9.]* M (\([0-9]*\) %)$/\1 \2/p' "$tmp/out"; }
+[ "$(later docs/scenes/edge.gltf --frames 0-4 --set incremental=2)" = "4 0" ] && pass || fail "nothing moves: $(cat "$tmp/out")"
+set -- $(later tests/bench/scenes/game.gltf --frames 0-19 --set incremental=2) $(later tests/bench/scenes/game.gltf --frames 0-2)
+[ $# = 4 ] && [ $1 = 15 ] && [ $2 -gt 20 ] && [ $2 -lt 60 ] && [ $3 = 2 ] && [ $4 -gt 90 ] && pass || fail "boxes move: $*"
 good render "$cube" --size 40x30 --frames 2-2 -o "$tmp/one.png"
+grep -q "on average" "$tmp/out" && fail "one frame has later ones" || pass
+"$tool" render "$cube" --size 40x30 --frames 0-1 -o /dev/stdout >"$tmp/out" && tail -c 12 "$tmp/out" | grep -q -a IEND && pass || fail "more than the picture in it"
 bad 1 "cannot be written\|No such file" render "$cube" --size 8x8 --frames 0-1 -o "$tmp/no/x.png"
 bad 2 "bad value" render "$cube" --frames 3-1 -o "$tmp/x.png"
 

@@ -1,5 +1,5 @@
 /* make_scenes FOLDER GALLERY_FOLDER BENCH_FOLDER: writes the project's own scenes, the small ones of the gallery, and
- * the characters of the bench. */
+ * those of the bench. */
 #include <stdio.h>
 
 #include "scenes.h"
@@ -43,5 +43,7 @@ int main(int argc, char **argv)
     failed |= make(argv[2], "snake.gltf", gallery_snake_write);
     failed |= make(argv[3], "hound.gltf", hound_write);
     failed |= make(argv[3], "walker.gltf", walker_write);
+    failed |= make(argv[3], "gauge.gltf", gauge_write);
+    failed |= make(argv[3], "game.gltf", game_write);
     return failed ? 1 : 0;
 }

@@ -42,4 +42,8 @@ int gallery_isometric_write(FILE *file);
 int hound_write(FILE *file);  /* some 600 flat triangles */
 int walker_write(FILE *file); /* some 4,000 smooth ones */
 
+/* For tests/bench, too: pictures most of which stand still. */
+int gauge_write(FILE *file); /* a needle turns over a dial */
+int game_write(FILE *file);  /* three of thirty boxes move */
+
 #endif

@@ -9,6 +9,7 @@
 #include "../cli/remarks.h"
 #include "../cli/terminal.h"
 #include "../cli/tool.h"
+#include "../cost/cost.h"
 
 static int draw(engine_picture *p, const tool_options *o, const scene *s, const settings *set, char *error,
                 size_t bytes)
@@ -40,17 +41,18 @@ static void describe(const scene *s, char *out, size_t bytes)
     remarks_list_added(s, out + n, bytes - n);
 }
 
-/* Not where the picture itself may go to stdout. */
-static void say_done(const tool_options *o, int w, int h, const char *what)
+/* Not where the picture itself may go to stdout. Returns whether it was said. */
+static bool say_done(const tool_options *o, int w, int h, const char *what)
 {
     struct stat picture, line;
     if (!o->out_path) {
         printf("%dx%d, %s\n", w, h, what);
-        return;
+        return true;
     }
-    if (stat(o->out_path, &picture) != 0 || !S_ISREG(picture.st_mode)) return;
-    if (fstat(1, &line) == 0 && line.st_dev == picture.st_dev && line.st_ino == picture.st_ino) return;
+    if (stat(o->out_path, &picture) != 0 || !S_ISREG(picture.st_mode)) return false;
+    if (fstat(1, &line) == 0 && line.st_dev == picture.st_dev && line.st_ino == picture.st_ino) return false;
     printf("%s: %dx%d, %s\n", o->out_path, w, h, what);
+    return true;
 }
 
 /* The frame of the options, as it is seen: to free(). NULL: with one line on stderr. what: about the scene. */
@@ -72,6 +74,51 @@ static uint8_t *draw_frame(const tool_options *o, bool remarks, int *w, int *h, 
     }
     if (!rgb) tool_fail(o->scene_path, error);
     return rgb;
+}
+
+/* ---- Frames ------------------------------------------------------------------------------------------------------ */
+
+/* Instructions of a first frame, and the sum of those of later ones. */
+typedef struct {
+    double first, later;
+} frame_costs;
+
+static int add_cost(void *user, size_t frame, const uint8_t *rgb8, const count_all *counts, char *error, size_t bytes)
+{
+    frame_costs *costs = user;
+    (void)rgb8, (void)error, (void)bytes;
+    if (!frame) costs->first = cost_instructions(counts);
+    else costs->later += cost_instructions(counts);
+    return 0;
+}
+
+/* What firmware takes for the frames, as it keeps what `incremental` says from one to the next: of the first
+ * ENGINE_FRAMES_MAX. Returns how many those are; 0: it cannot be told. */
+static int find_costs(const tool_options *o, frame_costs *out)
+{
+    char error[TOOL_ERROR_BYTES];
+    scene frames[ENGINE_FRAMES_MAX] = {0};
+    settings set = {0};
+    tool_options now = *o;
+    int n = 0, failed = 0;
+    *out = (frame_costs){0, 0};
+    for (; now.frame <= o->last_frame && n < ENGINE_FRAMES_MAX && !failed; now.frame++) {
+        failed = tool_load(&now, &frames[n], &set);
+        n += !failed;
+    }
+    if (!failed) failed = engine_play(frames, (size_t)n, &set, o->width, o->height, add_cost, out, error, sizeof error);
+    for (int i = 0; i < n; i++) scene_free(&frames[i]);
+    return failed ? 0 : n;
+}
+
+static void say_costs(const tool_options *o)
+{
+    frame_costs costs;
+    const int n = strcmp(o->engine, "fixed") == 0 && o->last_frame > o->frame ? find_costs(o, &costs) : 0;
+    if (!n) return;
+    const double later = costs.later / (n - 1);
+    printf("  a first frame takes about %.3g M instructions of a Cortex-M3, the next %d on average %.3g M (%.0f %%)\n",
+           costs.first / 1e6, n - 1, later / 1e6, 100 * later / costs.first);
 }
 
 /* --frames: each drawn for itself, by a renderer that has kept nothing. */
@@ -96,7 +143,7 @@ static int render_frames(const tool_options *o)
     }
     if (animation.file && png_animation_end(&animation) && !status)
         status = tool_fail(o->out_path, "cannot be written");
-    if (!status && !o->json) say_done(o, w, h, what);
+    if (!status && !o->json && say_done(o, w, h, what)) say_costs(o);
     return status;
 }
 

@@ -39,8 +39,8 @@ static size_t panel_bytes(const compiled *c)
 
 static void find_speed(info_part *out, const info_parts *all, const compiled *c, const part *p)
 {
-    const double panel = part_panel_s(p, panel_bytes(c));
     for (int i = 0; i < COMPILE_WORKS; i++) {
+        const double panel = part_panel_s(p, panel_bytes(c)) * all->work[i].sent;
         const double render = part_render_s(p, out->n_cores, &all->work[i].prepare, &all->work[i].tiles);
         out->by_panel[i] = panel > render;
         out->fps[i] = 1 / fmax(panel, render);
@@ -75,6 +75,7 @@ void info_parts_find(info_parts *out, const tool_options *o, int n_frames)
 static void text_fps(const info_parts *all, const info_part *p, int frame)
 {
     if (frame == COMPILE_ANIMATED && !all->moves) printf(" %8s ", "-");
+    else if (!all->work[frame].sent) printf(" %8s ", "idle");
     else printf(" %8.3g%c", p->fps[frame], p->by_panel[frame] ? 'p' : ' ');
 }
 
@@ -100,7 +101,7 @@ void info_parts_text(const info_parts *p)
         return;
     }
     printf("  frames per second with -O2, an estimate: nine in ten are within %d %% (docs/COST.md); p: the panel takes "
-           "longer:\n",
+           "longer; idle: nothing is drawn:\n",
            cost_error_percent);
     printf("    part           core        MHz       first  animated     still    RAM, KB        flash, KB\n");
     for (int i = 0; i < PARTS; i++) text_part(p, i);
@@ -117,7 +118,7 @@ static void json_part(const info_parts *all, int i)
            p->n_cores);
     const char *gap = "";
     for (int frame = 0; frame < COMPILE_WORKS; frame++) {
-        if (frame == COMPILE_ANIMATED && !all->moves) continue;
+        if ((frame == COMPILE_ANIMATED && !all->moves) || !all->work[frame].sent) continue;
         printf("%s\"%s\": %.4g", gap, frame_names[frame], p->fps[frame]);
         gap = ", ";
     }
@@ -135,8 +136,8 @@ static void json_counts(const char *name, const count_all *counts)
 
 static void json_work(const compile_work *work, int frame)
 {
-    printf("%s\"%s\": {\"instructions\": %.0f, ", frame ? ", " : "", frame_names[frame],
-           cost_instructions(&work->prepare) + cost_instructions(&work->tiles));
+    printf("%s\"%s\": {\"instructions\": %.0f, \"sent\": %.4g, ", frame ? ", " : "", frame_names[frame],
+           cost_instructions(&work->prepare) + cost_instructions(&work->tiles), work->sent);
     json_counts("prepare", &work->prepare);
     printf(", ");
     json_counts("tiles", &work->tiles);

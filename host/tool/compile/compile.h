@@ -193,11 +193,12 @@ int compile_narrow(compiled *c, compile_stage *st, compile_narrowed what, bool r
 void compile_choose(compiled *c);
 void compile_write_config(FILE *file, const compiled *c);
 
-/* compile_work.c: the events of a first frame, of the next one, and of that again: until the screen tiles, and in them.
- * -1: out of memory, or a frame is refused. */
+/* compile_work.c: the events of a first frame, of the next one, and of that again: until the screen tiles, and in them;
+ * and the share of the picture that is sent. -1: out of memory, or a frame is refused. */
 typedef enum { COMPILE_FIRST, COMPILE_ANIMATED, COMPILE_STILL, COMPILE_WORKS } compile_frame_kind;
 typedef struct {
     count_all prepare, tiles;
+    double sent; /* 0: nothing changed, and nothing is drawn */
 } compile_work;
 int compile_count_work(const compiled *c, compile_work work[COMPILE_WORKS]);
 

@@ -1,9 +1,13 @@
 /* What the frames of a compiled scene make the library do: a first one, the next one, and that again. */
+#include <stdlib.h>
+
 #include "compile.h"
 
-static void ignore(void *user, int x, int y, int w, int h, const void *pixels)
+static void count_pixels(void *user, int x, int y, int w, int h, const void *pixels)
 {
-    (void)user, (void)x, (void)y, (void)w, (void)h, (void)pixels;
+    size_t *n = user;
+    (void)x, (void)y, (void)pixels;
+    *n += (size_t)w * (size_t)h;
 }
 
 /* A build without the static layer knows no hint of what moves. */
@@ -15,14 +19,19 @@ static const gn_scene *frame_of(compile_stage *st, const compiled *c, int frame)
     return now;
 }
 
-static gn_status draw(compile_stage *st, const compiled *c, int frame, compile_work *work)
+/* panel: of what changes is drawn alone; else NULL. */
+static gn_status draw(compile_stage *st, const compiled *c, int frame, void *panel, compile_work *work)
 {
     const gn_scene *now = frame_of(st, c, frame);
+    size_t n_sent = 0;
     count_reset();
     gn_status status = st->lib->prepare(st->renderer, now);
     work->prepare = count_get();
     count_reset();
-    if (!status) status = st->lib->screen_tiles(st->renderer, GN_FORMAT_RGB565, ignore, NULL);
+    if (!status)
+        status = panel ? st->lib->changed_tiles(st->renderer, panel, count_pixels, &n_sent)
+                       : st->lib->screen_tiles(st->renderer, GN_FORMAT_RGB565, count_pixels, &n_sent);
+    work->sent = (double)n_sent / ((double)c->options->width * c->options->height);
     work->tiles = count_get();
     work->tiles.n[GN_COUNT_tile_refs] += work->prepare.n[GN_COUNT_tile_refs]; /* what they cost is drawing them */
     work->prepare.n[GN_COUNT_tile_refs] = 0;
@@ -34,12 +43,14 @@ int compile_count_work(const compiled *c, compile_work work[COMPILE_WORKS])
     const gn_picture picture = {(uint16_t)c->options->width, (uint16_t)c->options->height, GN_FORMAT_RGB565,
                                 GN_VIEW_COLOUR, 0};
     const int next = c->n_frames > 1;
+    const int frames[COMPILE_WORKS] = {0, next, next};
     compile_stage st;
     if (compile_stage_open(&st, c)) return -1;
-    gn_status status = st.lib->begin(st.renderer, &picture, &c->set);
-    if (!status) status = draw(&st, c, 0, &work[COMPILE_FIRST]);
-    if (!status) status = draw(&st, c, next, &work[COMPILE_ANIMATED]);
-    if (!status) status = draw(&st, c, next, &work[COMPILE_STILL]);
+    void *panel = c->set.feature.incremental > 1 ? calloc(1, st.lib->panel_bytes) : NULL;
+    int failed = c->set.feature.incremental > 1 && !panel;
+    if (!failed) failed = st.lib->begin(st.renderer, &picture, &c->set) != GN_OK;
+    for (int i = 0; !failed && i < COMPILE_WORKS; i++) failed = draw(&st, c, frames[i], panel, &work[i]) != GN_OK;
+    free(panel);
     compile_stage_close(&st);
-    return status ? -1 : 0;
+    return failed ? -1 : 0;
 }

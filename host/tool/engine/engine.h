@@ -54,8 +54,9 @@ int engine_truth(engine_picture *out, const scene *s, const settings *set, int w
 void engine_free(engine_picture *p);
 
 /* The library's frames one after the other, colours alone, by one renderer: it keeps shadow tiles as firmware does
- * (A5), and follows the schedule of cascades. Calls each for every frame, the first of which is 0, with what drawing it
- * took; that returns 0, or -1 with one line in error, like this. */
+ * (A5), draws screen tiles that changed alone if `incremental` says so (R13), and follows the schedule of cascades.
+ * Calls each for every frame, the first of which is 0, with what drawing it took; that returns 0, or -1 with one line
+ * in error, like this. */
 enum { ENGINE_FRAMES_MAX = 16 };
 typedef int (*engine_each)(void *user, size_t frame, const uint8_t *rgb8, const count_all *counts, char *error,
                            size_t error_bytes);

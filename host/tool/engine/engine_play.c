@@ -10,7 +10,7 @@
 
 typedef struct {
     const library *lib;
-    void *renderer;
+    void *renderer, *panel;
     const settings *set;
     gn_picture picture;
     fixed_scene fixed[ENGINE_FRAMES_MAX]; /* all of them: an address that is used anew would look like a mesh that
@@ -41,7 +41,10 @@ static int draw(player *p, size_t frame, count_all *counts, char *error, size_t 
     output_panel panel = {p->rgb8, p->picture.width, p->picture.format};
     if (!p->set->feature.incremental) p->lib->forget_shadows(p->renderer);
     count_reset();
-    gn_status status = p->lib->render(p->renderer, &p->fixed[frame].scene, output_flush, &panel);
+    const gn_scene *now = &p->fixed[frame].scene;
+    gn_status status = p->set->feature.incremental > 1
+                           ? p->lib->render_changes(p->renderer, now, p->panel, output_flush, &panel)
+                           : p->lib->render(p->renderer, now, output_flush, &panel);
     *counts = count_get();
     if (status) snprintf(error, error_bytes, "frame %zu of those that are played: %s", frame, gn_status_text(status));
     return status ? -1 : 0;
@@ -52,8 +55,9 @@ static int begin(player *p, const settings *set, int width, int height, char *er
     *p = (player){.set = set, .picture = {(uint16_t)width, (uint16_t)height, set->output, GN_VIEW_COLOUR, 0}};
     p->lib = library_of(set);
     p->renderer = malloc(p->lib->renderer_bytes);
+    p->panel = calloc(1, p->lib->panel_bytes);
     p->rgb8 = malloc(3 * (size_t)width * (size_t)height);
-    if (!p->renderer || !p->rgb8) return no_memory(error, error_bytes);
+    if (!p->renderer || !p->panel || !p->rgb8) return no_memory(error, error_bytes);
     gn_status status = p->lib->begin(p->renderer, &p->picture, set);
     if (status) snprintf(error, error_bytes, "%s", gn_status_text(status));
     return status ? -1 : 0;
@@ -63,6 +67,7 @@ static void end(player *p)
 {
     for (size_t i = 0; i < p->n_fixed; i++) quantise_free(&p->fixed[i]);
     free(p->renderer);
+    free(p->panel);
     free(p->rgb8);
     free(p);
 }

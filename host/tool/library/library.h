@@ -5,14 +5,18 @@
 
 #include "../settings/settings.h"
 
-/* A renderer is memory of renderer_bytes. Each but begin is the call of gnomon.h that has this name. */
+/* A renderer is memory of renderer_bytes, a panel of panel_bytes that are 0 at first. Each but begin is the call of
+ * gnomon.h that has this name. */
 typedef struct {
-    size_t renderer_bytes;
+    size_t renderer_bytes, panel_bytes;
     gn_status (*begin)(void *renderer, const gn_picture *picture,
                        const settings *set); /* gn_init, the knobs, and the atlases' texels */
     gn_status (*render)(void *renderer, const gn_scene *now, gn_flush_fn flush, void *user);
     gn_status (*prepare)(void *renderer, const gn_scene *now); /* all stages before the screen tiles */
     gn_status (*screen_tiles)(void *renderer, gn_format format, gn_flush_fn flush, void *user);
+    gn_status (*render_changes)(void *renderer, const gn_scene *now, void *panel, gn_flush_fn flush, void *user);
+    /* what is left to do of that after prepare, one tile after the other */
+    gn_status (*changed_tiles)(void *renderer, void *panel, gn_flush_fn flush, void *user);
     void (*forget_shadows)(void *renderer);
     const gn_stats *(*get_stats)(const void *renderer);
     const gn_detail *(*get_detail)(const void *renderer);

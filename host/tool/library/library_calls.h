@@ -40,6 +40,20 @@ static gn_status screen_tiles(void *renderer, gn_format format, gn_flush_fn flus
     return status;
 }
 
+static gn_status render_changes(void *renderer, const gn_scene *now, void *panel, gn_flush_fn flush, void *user)
+{
+    return gn_render_changes(renderer, now, panel, flush, user, NULL);
+}
+
+static gn_status changed_tiles(void *renderer, void *panel, gn_flush_fn flush, void *user)
+{
+    gn_renderer *r = renderer;
+    gn_status status = GN_OK;
+    for (uint32_t i = 0; !status && i < gn_screen_tile_count(r); i++)
+        status = gn_screen_tile_if_changed(&r->frame, &r->scratch, i, panel, flush, user, NULL);
+    return status;
+}
+
 static void forget_shadows(void *renderer)
 {
     gn_forget_shadows(renderer);
@@ -69,8 +83,8 @@ static uint32_t get_shadow_tile(const void *renderer, uint32_t light_idx, uint32
 /* The initialiser of a library; the including file has get_turn and get_demand of its own. */
 #define LIBRARY_CALLS                                                                                                  \
     {                                                                                                                  \
-        sizeof(gn_renderer), begin, render, prepare, screen_tiles, forget_shadows, get_stats, get_detail,              \
-            get_light_shadow, get_shadow_tile, get_turn, get_demand                                                    \
+        sizeof(gn_renderer), sizeof(gn_panel), begin, render, prepare, screen_tiles, render_changes, changed_tiles,    \
+            forget_shadows, get_stats, get_detail, get_light_shadow, get_shadow_tile, get_turn, get_demand             \
     }
 
 #endif
