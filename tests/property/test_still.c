@@ -139,7 +139,7 @@ static void needle_turns(gn_fit fit)
     printf("a needle turns, fit %d: %.1f %% of the tiles are drawn, %.1f %% sent\n", fit, 100 * drawn / all,
            100 * sent / all);
 #if GN_CHANGES
-    CHECK(sent && drawn >= sent && 100 * drawn <= 35 * all);
+    CHECK(sent && drawn >= sent && 100 * drawn <= 40 * all); /* coarse atlases: more */
 #endif
 }
 
