@@ -62,9 +62,9 @@
       "620 bytes each, 84 with persp_step 1")                                                                          \
     X(max_objects, MAX_OBJECTS, 1, 65535, "objects in a scene", "41 bytes each, 29 without spot and point lights")     \
     X(max_shadow_tiles, MAX_SHADOW_TILES, 1, 16, "tiles of the directional atlas: lights times cascades",              \
-      "232 bytes each, 16 less without incremental, 8 less without automatic bias")                                    \
+      "272 bytes each, 64 less without tile_sizes, 16 without incremental, 8 without automatic bias")                  \
     X(max_other_tiles, MAX_OTHER_TILES, 1, 16, "tiles of the local-light atlas: 1 per spot, 6 per point light",        \
-      "232 bytes each, 16 less without incremental, 8 less without automatic bias")                                    \
+      "272 bytes each, 64 less without tile_sizes, 16 without incremental, 8 without automatic bias")                  \
     X(atlas_texels, ATLAS_TEXELS, 64, 1048576,                                                                         \
       "texels reserved for the tiles of the directional atlas, a multiple of 64; by default the whole atlas; tiles "   \
       "by worth share them",                                                                                           \

@@ -5,6 +5,10 @@
 
 #include "board.h"
 
+#if !GN_CHANGES
+#error "the gauge draws what changes: incremental=2"
+#endif
+
 enum { RADIUS = SCENE_HEIGHT / 5, MARGIN = SCENE_HEIGHT / 20, TICKS = 9 };
 #define WHITE 0xFFFFU
 #define RED   0xF965U

@@ -338,15 +338,16 @@ GN_HOT GN_NOINLINE uint64_t gn_far_signature_add(uint64_t signature, uint64_t wo
     return gn_signature_add_inline(signature, word);
 }
 
-/* Multiply with carry, for many bytes: the carry is the upper half. Where it is below the factor, as after every step,
- * a step is a bijection; what a word changes in it the next one cannot take back, as that meets the lower half. */
+/* For many bytes: half of the state is multiplied to 64 bits, to which the other half is added. A word that changes a
+ * little changes the upper half, too, which the next word cannot take back. */
 GN_HOT uint64_t gn_signature_bytes(uint64_t signature, const void *bytes, size_t n)
 {
     const uint8_t *at = (const uint8_t *)bytes;
     uint32_t word;
     for (; n >= sizeof word; n -= sizeof word, at += sizeof word) {
         GN_COPY_WORDS(&word, at, sizeof word);
-        signature = (uint64_t)((uint32_t)signature ^ word) * 0xFF51AFD7U + (signature >> 32);
+        word ^= (uint32_t)signature;
+        signature = (uint64_t)word * 0xFF51AFD7U + (signature >> 32) + ((uint64_t)word << 32);
     }
     for (word = 0; n; n--) word = word << 8 | *at++;
     return gn_signature_add_inline(signature, word);

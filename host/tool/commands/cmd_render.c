@@ -101,6 +101,7 @@ static int find_costs(const tool_options *o, frame_costs *out)
     settings set = {0};
     tool_options now = *o;
     int n = 0, failed = 0;
+    now.first_frame = o->frame;
     *out = (frame_costs){0, 0};
     for (; now.frame <= o->last_frame && n < ENGINE_FRAMES_MAX && !failed; now.frame++) {
         failed = tool_load(&now, &frames[n], &set);
@@ -114,10 +115,12 @@ static int find_costs(const tool_options *o, frame_costs *out)
 static void say_costs(const tool_options *o)
 {
     frame_costs costs;
-    const int n = strcmp(o->engine, "fixed") == 0 && o->last_frame > o->frame ? find_costs(o, &costs) : 0;
-    if (!n) return;
+    const int n = strcmp(o->engine, "fixed") == 0 && o->view == VIEW_COLOUR && o->last_frame > o->frame
+                      ? find_costs(o, &costs)
+                      : 0;
+    if (!n || costs.first <= 0) return; /* compact arithmetic counts nothing */
     const double later = costs.later / (n - 1);
-    printf("  a first frame takes about %.3g M instructions of a Cortex-M3, the next %d on average %.3g M (%.0f %%)\n",
+    printf("  a first frame takes about %.4g M instructions of a Cortex-M3, the next %d on average %.4g M (%.0f %%)\n",
            costs.first / 1e6, n - 1, later / 1e6, 100 * later / costs.first);
 }
 

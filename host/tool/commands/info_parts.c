@@ -75,7 +75,7 @@ void info_parts_find(info_parts *out, const tool_options *o, int n_frames)
 static void text_fps(const info_parts *all, const info_part *p, int frame)
 {
     if (frame == COMPILE_ANIMATED && !all->moves) printf(" %8s ", "-");
-    else if (all->work[frame].sent <= 0) printf(" %8s ", "idle");
+    else if (all->work[frame].idle) printf(" %8s ", "idle");
     else printf(" %8.3g%c", p->fps[frame], p->by_panel[frame] ? 'p' : ' ');
 }
 
@@ -118,7 +118,7 @@ static void json_part(const info_parts *all, int i)
            p->n_cores);
     const char *gap = "";
     for (int frame = 0; frame < COMPILE_WORKS; frame++) {
-        if ((frame == COMPILE_ANIMATED && !all->moves) || all->work[frame].sent <= 0) continue;
+        if ((frame == COMPILE_ANIMATED && !all->moves) || all->work[frame].idle) continue;
         printf("%s\"%s\": %.4g", gap, frame_names[frame], p->fps[frame]);
         gap = ", ";
     }

@@ -198,7 +198,8 @@ void compile_write_config(FILE *file, const compiled *c);
 typedef enum { COMPILE_FIRST, COMPILE_ANIMATED, COMPILE_STILL, COMPILE_WORKS } compile_frame_kind;
 typedef struct {
     count_all prepare, tiles;
-    double sent; /* 0: nothing changed, and nothing is drawn */
+    double sent;
+    bool idle; /* the frame is the one before: nothing is done */
 } compile_work;
 int compile_count_work(const compiled *c, compile_work work[COMPILE_WORKS]);
 

@@ -33,9 +33,15 @@ static gn_status draw(compile_stage *st, const compiled *c, int frame, void *pan
                        : st->lib->screen_tiles(st->renderer, GN_FORMAT_RGB565, count_pixels, &n_sent);
     work->sent = (double)n_sent / ((double)c->options->width * c->options->height);
     work->tiles = count_get();
-    work->tiles.n[GN_COUNT_tile_refs] += work->prepare.n[GN_COUNT_tile_refs]; /* what they cost is drawing them */
-    work->prepare.n[GN_COUNT_tile_refs] = 0;
     return status;
+}
+
+/* References cost what drawing them takes: of those of the frame, the tiles' that were drawn. */
+static void share_refs(compile_work *work, const compile_work *first)
+{
+    const uint64_t all = first->tiles.n[GN_COUNT_screen_tiles], refs = work->prepare.n[GN_COUNT_tile_refs];
+    if (all) work->tiles.n[GN_COUNT_tile_refs] += refs * work->tiles.n[GN_COUNT_screen_tiles] / all;
+    work->prepare.n[GN_COUNT_tile_refs] = 0;
 }
 
 int compile_count_work(const compiled *c, compile_work work[COMPILE_WORKS])
@@ -49,7 +55,13 @@ int compile_count_work(const compiled *c, compile_work work[COMPILE_WORKS])
     void *panel = c->set.feature.incremental > 1 ? calloc(1, st.lib->panel_bytes) : NULL;
     int failed = c->set.feature.incremental > 1 && !panel;
     if (!failed) failed = st.lib->begin(st.renderer, &picture, &c->set) != GN_OK;
-    for (int i = 0; !failed && i < COMPILE_WORKS; i++) failed = draw(&st, c, frames[i], panel, &work[i]) != GN_OK;
+    for (int i = 0; !failed && i < COMPILE_WORKS; i++) {
+        failed = draw(&st, c, frames[i], panel, &work[i]) != GN_OK;
+        if (failed) break;
+        share_refs(&work[i], &work[COMPILE_FIRST]);
+        if (panel && i && frames[i] == frames[i - 1] && !work[i].tiles.n[GN_COUNT_screen_tiles])
+            work[i] = (compile_work){.idle = true};
+    }
     free(panel);
     compile_stage_close(&st);
     return failed ? -1 : 0;

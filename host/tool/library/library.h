@@ -15,7 +15,8 @@ typedef struct {
     gn_status (*prepare)(void *renderer, const gn_scene *now); /* all stages before the screen tiles */
     gn_status (*screen_tiles)(void *renderer, gn_format format, gn_flush_fn flush, void *user);
     gn_status (*render_changes)(void *renderer, const gn_scene *now, void *panel, gn_flush_fn flush, void *user);
-    /* what is left to do of that after prepare, one tile after the other */
+    /* what is left to do of that after prepare, one tile after the other; of a scene that is the one before, that
+     * would not have prepared either */
     gn_status (*changed_tiles)(void *renderer, void *panel, gn_flush_fn flush, void *user);
     void (*forget_shadows)(void *renderer);
     const gn_stats *(*get_stats)(const void *renderer);
