@@ -73,6 +73,15 @@ static void ignore(void *user, int x, int y, int w, int h, const void *pixels)
     (void)user, (void)x, (void)y, (void)w, (void)h, (void)pixels;
 }
 
+/* Whether the panel shows what drawing everything would. */
+static int is_whole(const gn_scene *scene)
+{
+    static gn_panel anew;
+    int same = gn_render_changes(&renderer, scene, &anew, ignore, NULL, NULL) == GN_OK;
+    for (uint32_t i = 0; i < gn_screen_tile_count(&renderer); i++) same &= anew.signature[i] == shown.signature[i];
+    return same;
+}
+
 /* Turns the hand, and says how much of the picture that draws. */
 static gn_status turn_hand(const gn_scene *scene, gauge *dial)
 {
@@ -90,7 +99,7 @@ static gn_status turn_hand(const gn_scene *scene, gauge *dial)
     board_print_u32(drawn);
     board_print(" of ");
     board_print_u32(STEPS * gn_screen_tile_count(&renderer));
-    board_print(" tiles drawn\n");
+    board_print(!status && is_whole(scene) ? " tiles drawn\n" : " tiles drawn, some are missing\n");
     return status;
 }
 

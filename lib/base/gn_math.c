@@ -338,8 +338,9 @@ GN_HOT GN_NOINLINE uint64_t gn_far_signature_add(uint64_t signature, uint64_t wo
     return gn_signature_add_inline(signature, word);
 }
 
-/* For many bytes: half of the state is multiplied to 64 bits, to which the other half is added. A word that changes a
- * little changes the upper half, too, which the next word cannot take back. */
+/* For many bytes: the lower half x of the state, with a word, becomes x (2^32 + k) plus the upper half, modulo 2^64.
+ * Two x that differ by d differ in the upper half by d (1 + k / 2^32), rounded, which the next word cannot take back: 1
+ * to 2^32 - 1 for all |d| up to 2^31, 0 for no more than two d above. */
 GN_HOT uint64_t gn_signature_bytes(uint64_t signature, const void *bytes, size_t n)
 {
     const uint8_t *at = (const uint8_t *)bytes;

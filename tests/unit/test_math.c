@@ -512,6 +512,36 @@ static void test_focal(void)
     printf("gn_focal_from_fov_q24: relative 2^%.2Lf at %s\n", log2l(w.error), w.at);
 }
 
+/* The state that a signature of whole words came from: steps are bijections. */
+static uint64_t state_before_end(uint64_t signature)
+{
+    const uint64_t factor = 0xFF51AFD7ED558CCDU;
+    uint64_t inverse = factor; /* 3 bits are right, and twice as many with each step */
+    for (int i = 0; i < 5; i++) inverse *= 2 - factor * inverse;
+    return (signature ^ signature >> 32) * inverse;
+}
+
+/* Words that differ by up to 2^31, and the one after them that makes the lower halves equal: the upper ones differ. */
+static void test_signature_words(void)
+{
+    tally t = {0};
+    rng random = {2};
+    for (int i = 0; i < 200000; i++) {
+        const uint32_t d = i < 4096 ? (uint32_t)i + 1 : (rng_u32(&random) >> rng_below(&random, 32) >> 1) + 1;
+        const uint32_t x = rng_u32(&random), y = x > UINT32_MAX - d ? x - d : x + d; /* d up to 2^31 */
+        const uint32_t low = (uint32_t)GN_SIGNATURE_SEED, first[2] = {x ^ low, y ^ low};
+        uint32_t words[2][2] = {{first[0], rng_u32(&random)}, {first[1], 0}};
+        const uint64_t a = state_before_end(gn_signature_bytes(GN_SIGNATURE_SEED, first, 4)),
+                       b = state_before_end(gn_signature_bytes(GN_SIGNATURE_SEED, first + 1, 4));
+        words[1][1] = words[0][1] ^ (uint32_t)a ^ (uint32_t)b;
+        HOLDS(&t, a >> 32 != b >> 32, "%08x and %08x", (unsigned)x, (unsigned)y);
+        HOLDS(&t,
+              gn_signature_bytes(GN_SIGNATURE_SEED, words[0], 8) != gn_signature_bytes(GN_SIGNATURE_SEED, words[1], 8),
+              "after %08x and %08x", (unsigned)x, (unsigned)y);
+    }
+    CHECK_TALLY(t, "gn_signature_bytes, words");
+}
+
 /* One bit of many bytes changes their signature, and no other bit takes that back: also none of the uppermost, which
  * products by odd numbers leave alone. */
 static void test_signature_bytes(void)
@@ -543,6 +573,7 @@ static void test_signature_bytes(void)
 int main(int argc, char **argv)
 {
     test_signature_bytes();
+    test_signature_words();
     test_bits();
     test_shifts();
     test_products();

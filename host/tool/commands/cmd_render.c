@@ -107,7 +107,8 @@ static int find_costs(const tool_options *o, frame_costs *out)
         failed = tool_load(&now, &frames[n], &set);
         n += !failed;
     }
-    if (!failed) failed = engine_play(frames, (size_t)n, &set, o->width, o->height, add_cost, out, error, sizeof error);
+    if (!failed && engine_play(frames, (size_t)n, &set, o->width, o->height, add_cost, out, error, sizeof error))
+        failed = tool_fail(o->scene_path, error);
     for (int i = 0; i < n; i++) scene_free(&frames[i]);
     return failed ? 0 : n;
 }
