@@ -178,11 +178,10 @@ typedef enum { GN_DISTANCE_DEPTH, GN_DISTANCE_RADIUS } gn_distance_mode;
 #define GN_OBJECT_LIGHTS_MAX 8
 
 /* A box that stands still in the world: a tight tile of a directional light covers it in every frame that sees nothing
- * outside of it. Along the light's u, v, w from the world's origin, u and v turned by turn / 32 about the light. */
+ * outside of it. Along the light's u, v, w from the world's origin. */
 typedef struct {
     uint16_t light_idx;
     uint8_t cascade_idx; /* of a single tile: 0 */
-    uint8_t turn;        /* 0..7 */
     int32_t lo_q16[3], hi_q16[3];
     uint32_t worth_px; /* pixels that its tile is worth */
 } gn_fixed_fit;

@@ -61,7 +61,7 @@
 #endif
 #if GN_TIGHT_FIT
 #include "shadow/gn_seen.c"
-#include "shadow/gn_seen_directions.c"
+#include "shadow/gn_seen_directional.c"
 #endif
 #if GN_DISK_FILTER
 #include "shadow/gn_disk.c"

@@ -102,17 +102,12 @@ void ref_free(ref_picture *p);
  * surfaces are mixed with what is behind them when both have been rounded. */
 void ref_shown(const ref_picture *p, size_t pixel, const double levels[3], bool srgb, double rgb[3]);
 
-#define REF_TURNS 8 /* of a directional view about its light */
-
-/* What a frame sees in directional views: what tight fits cover, along u, v, w of each turn, from the world's origin.
- */
+/* What a frame sees in directional views: what tight fits cover, along u, v, w from the world's origin. */
 typedef struct {
     bool any;
     double worth_px;
     double radius; /* of the cascade's sphere */
-    struct {
-        double lo[3], hi[3];
-    } turn[REF_TURNS];
+    double lo[3], hi[3];
 } ref_view_sight;
 typedef struct {
     ref_view_sight view[REF_MAX_LIGHTS][REF_MAX_VIEWS];

@@ -190,7 +190,6 @@ static bool fit_tight(ref_light_view *view, const ref_seen *seen, const scene_li
     view->filter_index = ref_filter_index(view->filter, 0.0);
     const double least = 2.0 * lateral_texels(view, light, options, side) + 2.0;
     if (least + 8.0 > side) return false;
-    ref_turn_axes(view, seen->turn);
     tight_box box = {.seen = seen, .side = side};
     /* what is seen, alone, takes at least this texel */
     const double smallest = sqrt((seen->hi[0] - seen->lo[0]) * (seen->hi[1] - seen->lo[1])) / side;

@@ -48,7 +48,6 @@ typedef struct {
     double lo[3], hi[3]; /* directional: from the world's origin, along the view's axes; others: only lo[2], from the
                             light */
     double cast_lo[2], cast_hi[2]; /* directional: along u and v, what casters may cover */
-    int turn;                      /* of which u and v are turned about the light */
 } ref_seen;
 
 struct ref_surface;
@@ -161,8 +160,6 @@ double ref_box_distance2(const ref_instance *instance, vec3 p);
 bool ref_reaches(const scene_light *light, const ref_instance *instance);
 void ref_list_lights(ref_frame *frame);
 
-/* ref_seen.c */
-void ref_turn_axes(ref_light_view *view, int turn);
 void ref_find_seen(ref_frame *frame); /* of the lights that have tiles; needs the spheres */
 
 /* ref_tiles.c */

@@ -1,4 +1,4 @@
-/* What ref_seen.c and ref_seen_directions.c share. */
+/* What ref_seen.c and ref_seen_directional.c share. */
 #ifndef GNOMON_REF_SEEN_H
 #define GNOMON_REF_SEEN_H
 

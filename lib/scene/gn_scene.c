@@ -411,7 +411,7 @@ static int is_fixed_fit(const gn_fixed_fit *fit)
 {
     for (int k = 0; k < 3; k++)
         if (fit->lo_q16[k] > fit->hi_q16[k]) return 0;
-    return fit->turn <= 7;
+    return 1;
 }
 
 static gn_status check_fixed_fits(gn_frame *frame, const gn_shadow_settings *shadow)

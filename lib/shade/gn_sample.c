@@ -161,30 +161,18 @@ GN_HOT static void select_cascade(const gn_frame *frame, int32_t px, int32_t py,
     cascade_within(frame, across2_q32(frame, px, py, sample->value[GN_VALUE_Z]), sample);
 }
 
-/* Whether a view's u and v are not those that flat_offset_q16 was found along: a tight fit turned them. */
-GN_HOT static int turned(const gn_frame *frame, const gn_light_view *view)
-{
-    const gn_light_view *first = &frame->view[frame->light[view->light_idx].view_idx];
-    return GN_VIEW_TURN(view) != GN_VIEW_TURN(first->border_lit ? first : first + GN_LAST_CASCADE(frame));
-}
-
-/* The surface's offset in a view, if it differs between the views of a light: for smooth surfaces; for views that are
- * turned; for the disk, whose index and radius depend on the cascade; and for automatic bias, whose depth steps do. */
+/* The surface's offset in a view, if it differs between the views of a light: for smooth surfaces; for the disk, whose
+ * index and radius depend on the cascade; and for automatic bias, whose depth steps do. */
 GN_HOT static const int32_t *own_offset(const gn_frame *frame, const gn_surface *s, uint32_t slot,
                                         const gn_light_view *view, const int32_t n_q30[3], int32_t moved_q16[3])
 {
     const int32_t *flat = s->light[slot].flat_offset_q16;
     gn_auto_bias form = (gn_auto_bias)s->light[slot].state->auto_bias;
-    int32_t own[3];
     if (GN_AUTO_BIAS && form) {
-        if (turned(frame, view)) {
-            gn_bias_auto_face(view, form, GN_FACE_Q30(s), own);
-            flat = own;
-        }
         gn_bias_auto_ortho(view, form, flat, moved_q16);
         return moved_q16;
     }
-    if (!GN_SMOOTH(s) && !(GN_DISK_FILTER && view->filter == GN_FILTER_DISK) && !turned(frame, view)) return flat;
+    if (!GN_SMOOTH(s) && !(GN_DISK_FILTER && view->filter == GN_FILTER_DISK)) return flat;
     gn_bias_directional(frame, view, n_q30, moved_q16);
     return moved_q16;
 }

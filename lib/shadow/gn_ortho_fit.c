@@ -223,7 +223,6 @@ GN_COLD int gn_ortho_fit_tight(gn_frame *frame, gn_light_view *view, const gn_li
     int32_t least_q16 = 2 * margin_q16(frame, view, light, view->tile_texels) + (2 << 16);
     view->filter_idx = filter_idx;
     if (!gn_seen_any(seen) || least_q16 + (8 << 16) > (int32_t)view->tile_texels << 16) return 0;
-    gn_seen_turn_axes(view, seen->turn);
     find_texel(frame, view, light, &box);
     place_box(frame, view, light, &box);
     view->tight = 1;
@@ -240,7 +239,6 @@ GN_COLD int gn_ortho_covers(const gn_frame *frame, gn_light_view *view, const gn
     int32_t margin = margin_q16(frame, view, light, (uint32_t)gn_max32(GN_TILE_SIDE(view), 1 << (range_log2 - 1)));
     const int64_t size[3] = {view->tile_texels, view->tile_rows, (int64_t)1 << range_log2};
     if (!gn_seen_any(seen)) return 1;
-    if (seen->turn != view->turn) return 0;
     for (int k = 0; k < 3; k++) {
         int64_t from = -(int64_t)view->fit.ortho.origin[k] * 65536;
         int32_t cast_lo = k < 2 ? seen->cast_lo_q16[k] : -(1 << 30), cast_hi = k < 2 ? seen->cast_hi_q16[k] : 1 << 30;

@@ -69,25 +69,19 @@ static void widen_range(int32_t *lo, int32_t *hi, const int32_t *at, int n)
 
 static void widen(gn_seen_job *job, const int32_t at[6])
 {
-    int32_t along[GN_SEEN_DIRECTIONS];
-    if (!job->directional) {
-        widen_range(job->lo, job->hi, at, 6);
-        return;
-    }
-    gn_seen_directions(at + 3, along);
-    widen_range(job->along_lo, job->along_hi, along, GN_SEEN_DIRECTIONS);
+    if (job->directional) widen_range(job->along_lo, job->along_hi, at + 3, 3);
+    else widen_range(job->lo, job->hi, at, 6);
 }
 
 /* What the whole box adds to the bounds of a directional view, which then has it if `whole`. Returns 0 if nothing. */
 static GN_NOINLINE int box_adds(gn_seen_job *job, int whole)
 {
-    int32_t lo[GN_SEEN_DIRECTIONS], hi[GN_SEEN_DIRECTIONS];
+    const int32_t *lo = job->lo + 3, *hi = job->hi + 3;
     int adds = 0;
-    gn_seen_box_along(job, lo, hi);
-    for (int d = 0; d < GN_SEEN_DIRECTIONS; d++) adds |= lo[d] < job->along_lo[d] || hi[d] > job->along_hi[d];
+    for (int k = 0; k < 3; k++) adds |= lo[k] < job->along_lo[k] || hi[k] > job->along_hi[k];
     if (!whole) return adds;
-    widen_range(job->along_lo, job->along_hi, lo, GN_SEEN_DIRECTIONS);
-    widen_range(job->along_lo, job->along_hi, hi, GN_SEEN_DIRECTIONS);
+    widen_range(job->along_lo, job->along_hi, lo, 3);
+    widen_range(job->along_lo, job->along_hi, hi, 3);
     return adds;
 }
 
@@ -236,16 +230,17 @@ static uint64_t pixels_q16(const gn_frame *frame, int64_t x_q16, int64_t y_q16, 
 static void see_directional(gn_seen_job *job, gn_view_seen *seen)
 {
     const gn_frame *frame = job->frame;
-    for (int d = 0; d < GN_SEEN_DIRECTIONS; d++) job->along_lo[d] = INT32_MAX, job->along_hi[d] = INT32_MIN;
-    for (int k = 0; k < 3; k++) job->below[k] = INT32_MAX, job->above[k] = INT32_MIN;
+    for (int k = 0; k < 3; k++) {
+        job->along_lo[k] = job->below[k] = INT32_MAX;
+        job->along_hi[k] = job->above[k] = INT32_MIN;
+    }
     for (uint32_t o = 0; o < frame->scene->n_objects; o++) see_object(job, o);
     if (job->along_lo[0] > job->along_hi[0]) return;
-    uint32_t u = 2 * gn_seen_pick_turn(job), v = u + 1;
     seen->worth_q16 =
-        pixels_q16(frame, (int64_t)job->along_hi[u] - job->along_lo[u], (int64_t)job->along_hi[v] - job->along_lo[v],
+        pixels_q16(frame, (int64_t)job->along_hi[0] - job->along_lo[0], (int64_t)job->along_hi[1] - job->along_lo[1],
                    (int64_t)job->depth_q16[0] + job->depth_q16[1]);
     gn_seen_crop(job);
-    gn_seen_take(job, seen, gn_seen_pick_turn(job));
+    gn_seen_take(job, seen);
 }
 
 /* ---- Views of spot and point lights ------------------------------------------------------------------------------ */
@@ -417,7 +412,7 @@ static void see_light(gn_frame *frame, gn_seen_job *job, gn_view_seen *seen, uin
         see_cascade(frame, job, &seen[i], plan->cascaded, i);
         const gn_fixed_fit *fit = fixed_fit(&frame->scene->shadow, light_idx, i);
         if (!fit || gn_seen_take_fixed(job, &seen[i], fit)) continue;
-        gn_seen_take(job, &seen[i], gn_seen_pick_turn(job));
+        gn_seen_take(job, &seen[i]);
         frame->stats.n_outside_fixed_fit++;
     }
 }

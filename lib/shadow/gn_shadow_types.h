@@ -12,13 +12,11 @@
 #define GN_TILE_ROWS(view) ((view)->tile_rows)
 #define GN_TILE_SIDE(view) ((view)->tile_rows > (view)->tile_texels ? (view)->tile_rows : (view)->tile_texels)
 #define GN_UNSEEN(view)    ((view)->unseen)
-#define GN_VIEW_TURN(view) ((view)->turn)
 #define GN_TIGHT(view)     ((view)->tight)
 #else
 #define GN_TILE_ROWS(view) ((view)->tile_texels)
 #define GN_TILE_SIDE(view) ((view)->tile_texels)
 #define GN_UNSEEN(view)    ((void)(view), 0)
-#define GN_VIEW_TURN(view) ((void)(view), 0)
 #define GN_TIGHT(view)     ((void)(view), 0)
 #endif
 
@@ -30,12 +28,7 @@ typedef struct {
                                      lights: whether anything is seen, and lo[2] its nearest distance into the view */
     int32_t cast_lo_q16[2], cast_hi_q16[2]; /* directional: along u and v, what casters may cover */
     uint16_t side;                          /* of its tile, by worth; 0: none */
-    uint8_t turn;                           /* of a directional view's axes about the light */
 } gn_view_seen;
-
-/* A directional view's axes u and v may be turned by a multiple of 1 / 32: in GN_TURNS ways. */
-#define GN_TURNS           8
-#define GN_SEEN_DIRECTIONS (2 * GN_TURNS + 1)
 
 /* A part of the frustum, and one object's box, from the camera. Six coordinates: along the camera's axes, then along
  * the light's. */
@@ -52,9 +45,9 @@ typedef struct {
     int32_t lo[6], hi[6];          /* bounds of the box, then of what is seen of it */
     int32_t box[8][6];
     int directional;
-    int32_t along_lo[GN_SEEN_DIRECTIONS], along_hi[GN_SEEN_DIRECTIONS]; /* u and v of each turn, and w */
-    int32_t cast_lo[2 * GN_TURNS], cast_hi[2 * GN_TURNS];               /* of casters, u and v of each turn */
-    int32_t below[3], above[3]; /* along the world's axes, bounds of seen objects less 1/16 of each */
+    int32_t along_lo[3], along_hi[3]; /* of what a directional view sees, along the light's axes */
+    int32_t cast_lo[2], cast_hi[2];   /* of casters, along u and v */
+    int32_t below[3], above[3];       /* along the world's axes, bounds of seen objects less 1/16 of each */
 #if GN_PUNCTUAL_LIGHTS
     int32_t light_q16[3]; /* its position, along its axes */
     gn_bfloat tangent;    /* of half its view */
@@ -148,7 +141,6 @@ typedef struct {
     uint8_t tile_done;
     uint8_t stale; /* by its schedule it keeps the tile of an earlier frame, and the fit that goes with it */
 #if GN_TIGHT_FIT
-    uint8_t turn;   /* of a tight fit: see gn_view_seen */
     uint8_t tight;  /* beyond the tile, and within a filter's reach of its border, nothing casts */
     uint8_t unseen; /* no visible receiver looks into it: an empty tile of 8 x 8 texels that all such views share */
 #endif

@@ -137,7 +137,6 @@ static void set_size(const gn_frame *frame, gn_light_view *view, const gn_tile_p
     view->tile_log2 = plan->tile_log2;
 #if GN_TIGHT_FIT
     view->unseen = view->tight = 0;
-    view->turn = 0;
     if (GN_BY_WORTH(frame)) {
         uint32_t side = frame->seen[view - frame->view].side;
         view->unseen = side == 0;

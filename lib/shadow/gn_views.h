@@ -34,9 +34,6 @@ gn_status gn_tiles_plan(gn_frame *frame, gn_seen_job *job, gn_tile_plan plan[GN_
 /* Fills frame->seen, for the views of all lights with tiles, in their order. */
 void gn_seen_find(gn_frame *frame, gn_seen_job *job, const gn_tile_plan *plan);
 
-/* Axes u and v of a view become u c + v s and v c - u s. */
-void gn_seen_turn_axes(gn_light_view *view, uint32_t turn);
-
 /* Whether anything was seen that the view is looked up for. */
 GN_HOT static inline int gn_seen_any(const gn_view_seen *seen)
 {
@@ -47,7 +44,7 @@ GN_HOT static inline int gn_seen_any(const gn_view_seen *seen)
  * other those of the fourth root. */
 int32_t gn_seen_level(const gn_view_seen *seen, uint32_t in_other);
 
-/* What is seen in a directional view, along u and v of each turn about the light, and along w: parts of gn_seen. */
+/* What is seen in a directional view, along the light's axes: parts of gn_seen. */
 
 #define GN_SEEN_COORD_MAX ((1 << 30) - 1) /* differences fit 32 bits */
 
@@ -55,9 +52,6 @@ static inline int32_t gn_seen_limited(int64_t v)
 {
     return (int32_t)gn_clamp64(v, -GN_SEEN_COORD_MAX, GN_SEEN_COORD_MAX);
 }
-
-/* A point's coordinates along u, v, w in all directions. */
-void gn_seen_directions(const int32_t at[3], int32_t out[GN_SEEN_DIRECTIONS]);
 
 /* The job's box is that of an object, from the camera. */
 void gn_seen_from(gn_seen_job *job, uint32_t object_idx);
@@ -68,19 +62,12 @@ void gn_seen_note(gn_seen_job *job);
 /* Along an axis: the middle of the box, per axis of the world half of it, and its bounds. */
 void gn_seen_project_box(gn_seen_job *job, const int32_t axis_q30[3], uint32_t to);
 
-/* Bounds of the box in all directions. */
-void gn_seen_box_along(const gn_seen_job *job, int32_t lo[GN_SEEN_DIRECTIONS], int32_t hi[GN_SEEN_DIRECTIONS]);
-
 /* Leaves of the bounds along u and v what casters may shadow. */
 void gn_seen_crop(gn_seen_job *job);
 
-/* The turn with the smallest rectangle, of those within a 64th of it the first. None if that saves less than 5/16:
- * windows of texels are smallest where u is level. */
-uint32_t gn_seen_pick_turn(const gn_seen_job *job);
-
-/* Bounds along a turn's directions from the world's origin, no more than the sphere's, and along u and v at least an
- * eighth of its diameter wide. */
-void gn_seen_take(const gn_seen_job *job, gn_view_seen *seen, uint32_t turn);
+/* Bounds from the world's origin, no more than the sphere's, and along u and v at least an eighth of its diameter wide.
+ */
+void gn_seen_take(const gn_seen_job *job, gn_view_seen *seen);
 
 /* A fixed box in their place. Returns 0 if it does not hold all that is seen: they must be taken then. */
 int gn_seen_take_fixed(const gn_seen_job *job, gn_view_seen *seen, const gn_fixed_fit *fit);

@@ -418,8 +418,7 @@ static void random_fits(random_scene *g)
     s->n_fixed_fits = one_in(3) ? rnd() % (RANDOM_FITS + 1) : 0;
     for (uint32_t i = 0; i < s->n_fixed_fits; i++) {
         gn_fixed_fit *fit = &g->fit[i];
-        *fit = (gn_fixed_fit){
-            .light_idx = rnd() % 4, .cascade_idx = rnd() % 4, .turn = rnd() % 8, .worth_px = rnd() >> rnd() % 32};
+        *fit = (gn_fixed_fit){.light_idx = rnd() % 4, .cascade_idx = rnd() % 4, .worth_px = rnd() >> rnd() % 32};
         for (int k = 0; k < 3; k++) {
             fit->lo_q16[k] = -pick(0, one_in(4) ? 1 << 24 : 1 << 29);
             fit->hi_q16[k] = pick(0, one_in(4) ? 1 << 24 : 1 << 29);

@@ -179,11 +179,11 @@ typedef struct {
     scene_distance_mode distance_mode; /* D5 or D11, default depth */
 } scene_shadow;
 
-/* A box of a directional view that stands still in the world (D12): along u, v, w of a turn about the light, from the
+/* A box of a directional view that stands still in the world (D12): along u, v, w from the
  * origin. */
 typedef struct {
     size_t light_idx;
-    int cascade_idx, turn;
+    int cascade_idx;
     double lo[3], hi[3], worth_px;
 } scene_fixed_fit;
 

@@ -133,8 +133,8 @@ static void json_tiles(const engine_picture *p, size_t light)
     static const char *const none[] = {[GN_TILE_NO_SLICE] = "no_slice", [GN_TILE_UNSEEN] = "unseen"};
     printf(", \"tile_list\": [");
     for (int i = 0; i < p->n_tiles[light]; i++) {
-        printf("%s{\"texels\": %d, \"rows\": %d, \"worth_px\": %.0f, \"turn\": %d", i ? ", " : "",
-               p->tile_size[light][i][0], p->tile_size[light][i][1], p->tile_worth[light][i], p->tile_turn[light][i]);
+        printf("%s{\"texels\": %d, \"rows\": %d, \"worth_px\": %.0f", i ? ", " : "", p->tile_size[light][i][0],
+               p->tile_size[light][i][1], p->tile_worth[light][i]);
         if (!p->tile_size[light][i][0]) printf(", \"none\": \"%s\"", none[p->tile_state[light][i]]);
         printf("}");
     }
@@ -239,7 +239,7 @@ static void text_tiles(const engine_picture *p, size_t light, scene_light_kind k
                                        [GN_TILE_UNSEEN] = "none (nothing visible needs it)"};
     printf("shadow tiles of ");
     for (int i = 0; i < p->n_tiles[light]; i++) {
-        const int *size = p->tile_size[light][i], turn = p->tile_turn[light][i];
+        const int *size = p->tile_size[light][i];
         const double worth = p->tile_worth[light][i];
         if (i) printf(", ");
         if (kind == SCENE_LIGHT_POINT) printf("%c%c ", "+-"[i & 1], "XYZ"[i >> 1]);
@@ -248,9 +248,7 @@ static void text_tiles(const engine_picture *p, size_t light, scene_light_kind k
             continue;
         }
         printf("%dx%d", size[0], size[1]);
-        if (worth > 0) printf(" (worth %.*f pixels", worth < 10 ? 2 : 0, worth);
-        if (turn) printf("%sturned by %d/32 about the light", worth > 0 ? "; " : " (", turn);
-        if (worth > 0 || turn) printf(")");
+        if (worth > 0) printf(" (worth %.*f pixels)", worth < 10 ? 2 : 0, worth);
     }
     printf("\n");
 }

@@ -292,9 +292,9 @@ static const emit_field shadow_fields[] = {EMIT_FIELD(gn_shadow_settings, FIELD_
                                            EMIT_FIELD(gn_shadow_settings, FIELD_U32, n_fixed_fits)};
 
 static const emit_field fit_fields[] = {
-    EMIT_FIELD(gn_fixed_fit, FIELD_U16, light_idx),  EMIT_FIELD(gn_fixed_fit, FIELD_U8, cascade_idx),
-    EMIT_FIELD(gn_fixed_fit, FIELD_U8, turn),        EMIT_VECTOR(gn_fixed_fit, FIELD_I32, lo_q16, 3),
-    EMIT_VECTOR(gn_fixed_fit, FIELD_I32, hi_q16, 3), EMIT_FIELD(gn_fixed_fit, FIELD_U32, worth_px)};
+    EMIT_FIELD(gn_fixed_fit, FIELD_U16, light_idx), EMIT_FIELD(gn_fixed_fit, FIELD_U8, cascade_idx),
+    EMIT_VECTOR(gn_fixed_fit, FIELD_I32, lo_q16, 3), EMIT_VECTOR(gn_fixed_fit, FIELD_I32, hi_q16, 3),
+    EMIT_FIELD(gn_fixed_fit, FIELD_U32, worth_px)};
 
 static void write_fits(FILE *f, const compiled *c)
 {

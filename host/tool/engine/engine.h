@@ -32,7 +32,6 @@ typedef struct {
     gn_shadow_state shadow_state[ENGINE_LIGHTS_MAX];
     gn_tile_state tile_state[ENGINE_LIGHTS_MAX][ENGINE_TILES_MAX];
     double tile_worth[ENGINE_LIGHTS_MAX][ENGINE_TILES_MAX]; /* pixels, which decide its size; 0: they do not */
-    int tile_turn[ENGINE_LIGHTS_MAX][ENGINE_TILES_MAX];     /* of a tight fit about the light, 32nds of a turn */
     gn_stats stats;
     count_all counts; /* of drawing rgb8 */
     settings_demand demand;

@@ -15,12 +15,10 @@ static void add_frame(engine_fits *j, const scene *first, const scene *s)
             const ref_view_sight *from = &j->frame.view[l][i];
             ref_view_sight *to = &j->all.view[l][i];
             if (!from->any) continue;
-            for (int turn = 0; turn < REF_TURNS; turn++)
-                for (int k = 0; k < 3; k++) {
-                    double *lo = &to->turn[turn].lo[k], *hi = &to->turn[turn].hi[k];
-                    *lo = to->any ? fmin(*lo, from->turn[turn].lo[k]) : from->turn[turn].lo[k];
-                    *hi = to->any ? fmax(*hi, from->turn[turn].hi[k]) : from->turn[turn].hi[k];
-                }
+            for (int k = 0; k < 3; k++) {
+                to->lo[k] = to->any ? fmin(to->lo[k], from->lo[k]) : from->lo[k];
+                to->hi[k] = to->any ? fmax(to->hi[k], from->hi[k]) : from->hi[k];
+            }
             to->worth_px = fmax(to->worth_px, from->worth_px);
             to->radius = to->any ? fmin(to->radius, from->radius) : from->radius;
             to->any = true;
@@ -37,20 +35,13 @@ int engine_fits_add(engine_fits *j, const scene *first, const scene *s, const se
     return 0;
 }
 
-static double area(const ref_view_sight *v, int turn)
-{
-    return (v->turn[turn].hi[0] - v->turn[turn].lo[0]) * (v->turn[turn].hi[1] - v->turn[turn].lo[1]);
-}
-
 /* Bounds go outwards to steps of a 256th to a 512th, a 16th of a step at least: engines that round otherwise agree on
  * what a box holds, and a step is a whole number of the library's units. */
 static scene_fixed_fit smallest(const ref_view_sight *v, size_t light, int cascade, int world_exp)
 {
     scene_fixed_fit fit = {.light_idx = light, .cascade_idx = cascade, .worth_px = fmin(ceil(v->worth_px), 1 << 24)};
-    for (int turn = 1; turn < REF_TURNS; turn++)
-        if (area(v, turn) < area(v, fit.turn)) fit.turn = turn;
     for (int k = 0; k < 3; k++) {
-        const double lo = v->turn[fit.turn].lo[k], hi = v->turn[fit.turn].hi[k];
+        const double lo = v->lo[k], hi = v->hi[k];
         const double step = fmax(exp2(floor(log2(fmax(hi - lo, 1e-30))) - 8), ldexp(64, -16 - world_exp));
         fit.lo[k] = floor(lo / step - 1.0 / 16) * step;
         fit.hi[k] = ceil(hi / step + 1.0 / 16) * step;
@@ -66,7 +57,8 @@ static const char *refusal(const engine_fits *j, size_t light, const ref_view_si
     if (j->rescaled) return "frames differ in size";
     for (int k = 0; k < 3; k++)
         if (fmax(fabs(fit->lo[k]), fabs(fit->hi[k])) > ldexp(1, 14 - world_exp)) return "it is too far from the origin";
-    if (area(v, fit->turn) > 4 * v->radius * v->radius) return "the frames see more than a stable fit covers";
+    if ((v->hi[0] - v->lo[0]) * (v->hi[1] - v->lo[1]) > 4 * v->radius * v->radius)
+        return "the frames see more than a stable fit covers";
     return NULL;
 }
 

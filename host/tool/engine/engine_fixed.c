@@ -174,7 +174,6 @@ static int copy_tile(const job *j, engine_picture *out, size_t light, size_t idx
     const size_t n = (size_t)info.texels * info.rows;
     out->tile_size[light][idx][0] = (int)info.texels;
     out->tile_size[light][idx][1] = (int)info.rows;
-    out->tile_turn[light][idx] = j->lib->get_turn(j->renderer, (uint32_t)light, (uint32_t)idx);
     if (what != ENGINE_ALL) return 0;
     double *tile = malloc(n * sizeof *tile);
     out->atlas[light][idx] = tile;

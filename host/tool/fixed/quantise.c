@@ -236,7 +236,6 @@ static void quantise_fixed_fits(fixed_scene *f, const scene *s)
         gn_fixed_fit *out = &f->fixed_fits[i];
         out->light_idx = (uint16_t)fit->light_idx;
         out->cascade_idx = (uint8_t)fit->cascade_idx;
-        out->turn = (uint8_t)fit->turn;
         out->worth_px = (uint32_t)fixed(fit->worth_px, 0);
         for (int k = 0; k < 3; k++) {
             out->lo_q16[k] = (int32_t)fixed(fit->lo[k], 16 + f->world_exp);

@@ -24,7 +24,6 @@ typedef struct {
     gn_shadow_state (*get_light_shadow)(const void *renderer, uint32_t light_idx, uint32_t *n_tiles,
                                         uint32_t *tile_texels);
     uint32_t (*get_shadow_tile)(const void *renderer, uint32_t light_idx, uint32_t view_idx, gn_tile_info *info);
-    int (*get_turn)(const void *renderer, uint32_t light_idx, uint32_t view_idx); /* of a tile about the light, 32nds */
     void (*get_demand)(const void *renderer, settings_demand *out); /* what the frame that was drawn last took */
 } library;
 

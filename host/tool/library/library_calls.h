@@ -80,11 +80,11 @@ static uint32_t get_shadow_tile(const void *renderer, uint32_t light_idx, uint32
     return gn_get_shadow_tile(renderer, light_idx, view_idx, info);
 }
 
-/* The initialiser of a library; the including file has get_turn and get_demand of its own. */
+/* The initialiser of a library; the including file has a get_demand of its own. */
 #define LIBRARY_CALLS                                                                                                  \
     {                                                                                                                  \
         sizeof(gn_renderer), sizeof(gn_panel), begin, render, prepare, screen_tiles, render_changes, changed_tiles,    \
-            forget_shadows, get_stats, get_detail, get_light_shadow, get_shadow_tile, get_turn, get_demand             \
+            forget_shadows, get_stats, get_detail, get_light_shadow, get_shadow_tile, get_demand                       \
     }
 
 #endif

@@ -17,12 +17,6 @@
 #include "gnomon.c"
 #include "library_calls.h"
 
-static int get_turn(const void *renderer, uint32_t light_idx, uint32_t view_idx)
-{
-    (void)renderer, (void)light_idx, (void)view_idx;
-    return 0;
-}
-
 /* Screen tiles have no references to triangles, and the one shadow tile is the whole atlas. */
 static void get_demand(const void *renderer, settings_demand *out)
 {

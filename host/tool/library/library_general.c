@@ -3,12 +3,6 @@
 #include "../../record/uses.h"
 #include "shadow/gn_views.h"
 
-static int get_turn(const void *renderer, uint32_t light_idx, uint32_t view_idx)
-{
-    const gn_frame *frame = &((const gn_renderer *)renderer)->frame;
-    return frame->view[(uint32_t)frame->light[light_idx].view_idx + view_idx].turn;
-}
-
 /* Texels up to the end of each atlas's last tile. Views that nothing is seen in have an empty one; unused cascades
  * none, but with tiles by worth the library reserves it. */
 static void demand_texels(const gn_frame *frame, settings_demand *out)

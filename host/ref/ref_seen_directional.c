@@ -1,20 +1,11 @@
-/* What is seen in a directional view, along each turn about the light; of that, what may be shadowed. [D12] */
+/* What is seen in a directional view; of that, what may be shadowed. [D12] */
 #include "ref_seen.h"
 
 #include <stdio.h>
 #include <string.h>
 
-/* u and v, turned by so many 32nds of a turn. */
-void ref_turn_axes(ref_light_view *view, int turn)
-{
-    const vec3 u = vec3_load(view->axis[0]), v = vec3_load(view->axis[1]);
-    const double c = cos(turn * PI / 16.0), s = sin(turn * PI / 16.0);
-    vec3_store(view->axis[0], vec3_add(vec3_scale(u, c), vec3_scale(v, s)));
-    vec3_store(view->axis[1], vec3_sub(vec3_scale(v, c), vec3_scale(u, s)));
-}
-
-/* The rectangle of one turn. */
-static ref_seen rectangle(const ref_frame *frame, const ref_light_view *axes, const ref_frustum *f)
+/* Bounds of what is seen, from the camera. */
+static ref_seen bounds(const ref_frame *frame, const ref_light_view *axes, const ref_frustum *f)
 {
     ref_seen seen = {.any = false};
     for (size_t o = 0; o < frame->s->n_objects; o++) {
@@ -29,7 +20,7 @@ static ref_seen rectangle(const ref_frame *frame, const ref_light_view *axes, co
     return seen;
 }
 
-/* Bounds of an object's world box along u, v and w of a turn, from the world's origin. */
+/* Bounds of an object's world box along u, v and w, from the world's origin. */
 static ref_seen box_bounds(const ref_instance *instance, const ref_light_view *axes)
 {
     ref_seen b = {.any = true};
@@ -80,16 +71,12 @@ static bool shadows_nothing(const ref_instance *instance, const reach *seen, con
 }
 
 /* Whether an object's shadow may fall on what is seen: bounds from the world's origin. */
-static bool may_shadow(const ref_instance *instance, const ref_light_view axes[REF_TURNS],
-                       const ref_seen seen[REF_TURNS])
+static bool may_shadow(const ref_seen *b, const ref_seen *seen)
 {
-    for (int turn = 0; turn < REF_TURNS; turn++) {
-        const ref_seen b = box_bounds(instance, &axes[turn]);
-        if (b.lo[2] > seen[turn].hi[2]) return false;
-        for (int k = 0; k < 2; k++) {
-            const double near = (seen[turn].hi[k] - seen[turn].lo[k]) / 8.0;
-            if (b.lo[k] > seen[turn].hi[k] + near || b.hi[k] < seen[turn].lo[k] - near) return false;
-        }
+    if (b->lo[2] > seen->hi[2]) return false;
+    for (int k = 0; k < 2; k++) {
+        const double near = (seen->hi[k] - seen->lo[k]) / 8.0;
+        if (b->lo[k] > seen->hi[k] + near || b->hi[k] < seen->lo[k] - near) return false;
     }
     return true;
 }
@@ -104,81 +91,51 @@ static void widen_to_grid(double *lo, double *hi, double wide, double least)
 }
 
 /* Bounds of all casters that may shadow what is seen; they reach it. False: there are none. */
-static bool find_casters(const ref_frame *frame, const reach *near, const ref_light_view axes[REF_TURNS],
-                         ref_seen seen[REF_TURNS])
+static bool find_casters(const ref_frame *frame, const reach *near, const ref_light_view *axes, ref_seen *seen)
 {
     bool any = false;
     for (size_t o = 0; o < frame->s->n_objects; o++) {
-        if (!ref_casts(frame, o) || !may_shadow(&frame->instances[o], axes, seen) ||
-            shadows_nothing(&frame->instances[o], near, axes[0].axis[2]))
+        const ref_seen b = box_bounds(&frame->instances[o], axes);
+        if (!ref_casts(frame, o) || !may_shadow(&b, seen) || shadows_nothing(&frame->instances[o], near, axes->axis[2]))
             continue;
-        for (int turn = 0; turn < REF_TURNS; turn++) {
-            const ref_seen b = box_bounds(&frame->instances[o], &axes[turn]);
-            for (int k = 0; k < 2; k++) {
-                const double lo = fmin(b.lo[k], seen[turn].hi[k]), hi = fmax(b.hi[k], seen[turn].lo[k]);
-                seen[turn].cast_lo[k] = any ? fmin(seen[turn].cast_lo[k], lo) : lo;
-                seen[turn].cast_hi[k] = any ? fmax(seen[turn].cast_hi[k], hi) : hi;
-            }
+        for (int k = 0; k < 2; k++) {
+            const double lo = fmin(b.lo[k], seen->hi[k]), hi = fmax(b.hi[k], seen->lo[k]);
+            seen->cast_lo[k] = any ? fmin(seen->cast_lo[k], lo) : lo;
+            seen->cast_hi[k] = any ? fmax(seen->cast_hi[k], hi) : hi;
         }
         any = true;
     }
     return any;
 }
 
-/* Leaves of rectangles what casters may shadow. */
-static void crop(const ref_frame *frame, const reach *near, const ref_light_view axes[REF_TURNS],
-                 ref_seen seen[REF_TURNS])
+/* Leaves of the bounds what casters may shadow. */
+static void crop(const ref_frame *frame, const reach *near, const ref_light_view *axes, ref_seen *seen)
 {
     const bool any = find_casters(frame, near, axes, seen);
-    for (int turn = 0; turn < REF_TURNS; turn++)
-        for (int k = 0; k < 2; k++) {
-            double *lo = &seen[turn].lo[k], *hi = &seen[turn].hi[k];
-            double *cast_lo = &seen[turn].cast_lo[k], *cast_hi = &seen[turn].cast_hi[k];
-            if (any) widen_to_grid(cast_lo, cast_hi, fmin(*cast_hi, *hi) - fmax(*cast_lo, *lo), (*hi - *lo) / 8.0);
-            else *cast_lo = -HUGE_VAL, *cast_hi = HUGE_VAL;
-            *lo = fmax(*lo, *cast_lo);
-            *hi = fmin(*hi, *cast_hi);
-        }
-}
-
-/* The smallest rectangle of all turns; of those within a 64th of it the first. None if that saves less than 5/16.
- */
-static int best_turn(const ref_seen seen[REF_TURNS])
-{
-    double limit = HUGE_VAL;
-    int best = 0;
-    for (int turn = 0; turn < REF_TURNS; turn++) {
-        const double area = (seen[turn].hi[0] - seen[turn].lo[0]) * (seen[turn].hi[1] - seen[turn].lo[1]);
-        if (area >= limit) continue;
-        limit = area * (turn ? 63.0 / 64.0 : 11.0 / 16.0);
-        best = turn;
+    for (int k = 0; k < 2; k++) {
+        double *lo = &seen->lo[k], *hi = &seen->hi[k], *cast_lo = &seen->cast_lo[k], *cast_hi = &seen->cast_hi[k];
+        if (any) widen_to_grid(cast_lo, cast_hi, fmin(*cast_hi, *hi) - fmax(*cast_lo, *lo), (*hi - *lo) / 8.0);
+        else *cast_lo = -HUGE_VAL, *cast_hi = HUGE_VAL;
+        *lo = fmax(*lo, *cast_lo);
+        *hi = fmin(*hi, *cast_hi);
     }
-    return best;
 }
 
-/* All turns of a view, from the world's origin. Returns what it is worth, 0: nothing is seen. */
-static double see_turns(const ref_frame *frame, ref_seen all[REF_TURNS], const scene_light *light, double first,
-                        double last)
+/* What is seen between two depths, from the world's origin, and what that is worth. */
+static ref_seen see(const ref_frame *frame, const ref_light_view *axes, double first, double last)
 {
     const ref_frustum f = ref_frustum_part(&frame->camera, first, last);
-    ref_light_view axes[REF_TURNS];
-    for (int turn = 0; turn < REF_TURNS; turn++) {
-        ref_fit_axes(&axes[turn], vec3_load(light->direction));
-        ref_turn_axes(&axes[turn], turn);
-        all[turn] = rectangle(frame, &axes[turn], &f);
-        for (int k = 0; k < 3; k++) {
-            const double eye = vec3_dot(frame->camera.position, vec3_load(axes[turn].axis[k]));
-            all[turn].lo[k] += eye;
-            all[turn].hi[k] += eye;
-        }
+    ref_seen seen = bounds(frame, axes, &f);
+    if (!seen.any) return seen;
+    for (int k = 0; k < 3; k++) {
+        const double eye = vec3_dot(frame->camera.position, vec3_load(axes->axis[k]));
+        seen.lo[k] += eye;
+        seen.hi[k] += eye;
     }
-    if (!all[0].any) return 0.0;
-    const ref_seen *whole = &all[best_turn(all)];
-    const double worth =
-        ref_pixels(&frame->camera, whole->hi[0] - whole->lo[0], whole->hi[1] - whole->lo[1], (first + last) / 2.0);
-    const reach near = reach_of(frame, &f, &axes[0]);
-    crop(frame, &near, axes, all);
-    return worth;
+    seen.worth = ref_pixels(&frame->camera, seen.hi[0] - seen.lo[0], seen.hi[1] - seen.lo[1], (first + last) / 2.0);
+    const reach near = reach_of(frame, &f, axes);
+    crop(frame, &near, axes, &seen);
+    return seen;
 }
 
 /* From which depth on points of a cascade blend with the next: where the frustum's edges leave the inner sphere. */
@@ -231,27 +188,20 @@ static void limit(ref_seen *seen, const ref_sphere *sphere, const ref_light_view
     }
 }
 
-/* What a directional view is looked up for, along all turns; best: the turn that is taken. */
-static void find_turns(const ref_frame *frame, size_t l, int i, ref_seen all[REF_TURNS], int *best)
+/* What a directional view is looked up for. */
+static ref_seen find_seen(const ref_frame *frame, size_t l, int i)
 {
-    const scene_light *light = &frame->s->lights[l];
     const bool cascaded = frame->picture->grant[l].atlas == REF_DIRECTIONAL_ATLAS;
     const ref_sphere *sphere = cascaded ? &frame->sphere[i] : &frame->whole;
     double first = frame->camera.near, last = frame->s->shadow.max_distance;
-    memset(all, 0, REF_TURNS * sizeof *all);
-    *best = 0;
-    if (sphere->empty) return;
+    ref_seen seen = {.any = false};
+    ref_light_view axes;
+    if (sphere->empty) return seen;
     if (cascaded) cascade_depths(frame, i, &first, &last);
-    const double worth = first < last ? see_turns(frame, all, light, first, last) : 0.0;
-    if (all[0].any) *best = best_turn(all);
-    for (int turn = 0; all[0].any && turn < REF_TURNS; turn++) {
-        ref_light_view axes;
-        ref_fit_axes(&axes, vec3_load(light->direction));
-        ref_turn_axes(&axes, turn);
-        limit(&all[turn], sphere, &axes);
-        all[turn].turn = turn;
-        all[turn].worth = worth;
-    }
+    ref_fit_axes(&axes, vec3_load(frame->s->lights[l].direction));
+    if (first < last) seen = see(frame, &axes, first, last);
+    if (seen.any) limit(&seen, sphere, &axes);
+    return seen;
 }
 
 static const scene_fixed_fit *fixed_fit(const scene *s, size_t l, int i)
@@ -273,13 +223,11 @@ void ref_see_directional(ref_frame *frame, size_t l, int i)
 {
     const scene_fixed_fit *fit = fixed_fit(frame->s, l, i);
     const bool cascaded = frame->picture->grant[l].atlas == REF_DIRECTIONAL_ATLAS;
-    ref_seen all[REF_TURNS], *seen = &frame->seen[l][i];
-    int best;
+    ref_seen *seen = &frame->seen[l][i];
     if (cascaded ? frame->sphere[i].empty : frame->whole.empty) return;
-    find_turns(frame, l, i, all, &best);
-    *seen = all[best];
-    if (!fit || (seen->any && !holds(fit, &all[fit->turn]))) return;
-    *seen = (ref_seen){.any = true, .worth = fit->worth_px, .turn = fit->turn};
+    *seen = find_seen(frame, l, i);
+    if (!fit || (seen->any && !holds(fit, seen))) return;
+    *seen = (ref_seen){.any = true, .worth = fit->worth_px};
     for (int k = 0; k < 3; k++) {
         seen->lo[k] = fit->lo[k];
         seen->hi[k] = fit->hi[k];
@@ -295,17 +243,13 @@ int ref_see(ref_sight *out, const scene *s, const ref_options *options, char *er
     memset(out, 0, sizeof *out);
     for (size_t l = 0; !fault && l < s->n_lights; l++)
         for (int i = 0; s->lights[l].kind == SCENE_LIGHT_DIRECTIONAL && i < picture.grant[l].n_tiles; i++) {
-            ref_seen all[REF_TURNS];
-            int best;
-            find_turns(&frame, l, i, all, &best);
+            const ref_seen seen = find_seen(&frame, l, i);
             ref_view_sight *to = &out->view[l][i];
-            to->any = all[0].any;
-            to->worth_px = all[0].worth;
+            to->any = seen.any;
+            to->worth_px = seen.worth;
             to->radius = picture.grant[l].atlas == REF_DIRECTIONAL_ATLAS ? frame.sphere[i].radius : frame.whole.radius;
-            for (int turn = 0; turn < REF_TURNS; turn++) {
-                memcpy(to->turn[turn].lo, all[turn].lo, sizeof all[turn].lo);
-                memcpy(to->turn[turn].hi, all[turn].hi, sizeof all[turn].hi);
-            }
+            memcpy(to->lo, seen.lo, sizeof seen.lo);
+            memcpy(to->hi, seen.hi, sizeof seen.hi);
         }
     ref_end(&frame);
     ref_free(&picture);
