@@ -48,9 +48,7 @@ static void put_views(layout *l, const settings *s)
 {
     const long views = n_views(s);
     long view = 180 + (s->feature.shadows > 5 ? 4 : 0) + (s->feature.biases % 2 ? 8 : 0) +
-                (s->feature.tile_sizes > 1 ? 8
-                 : has_changes(s)          ? 4
-                                           : 0);
+                (s->feature.tile_sizes > 1 ? 4 : 0) + (has_changes(s) ? 4 : 0);
     put(l, views, (view + 7) / 8 * 8, 8);
     if (s->feature.tile_sizes > 1) put(l, views, 56, 8); /* seen */
 }
@@ -224,7 +222,7 @@ static void put_work(layout *out, const settings *s)
         put(&all, 1, lattice_bytes(s), 8);
     }
     pad(&all, all.align);
-    const long casting = casting_bytes(s), clipping = 264, seen = s->feature.other_lights % 2 ? 1008 : 988;
+    const long casting = casting_bytes(s), clipping = 264, seen = s->feature.other_lights % 2 ? 784 : 764;
     long largest = casting > clipping ? casting : clipping;
     if (s->feature.shadows && s->feature.tile_sizes > 1 && seen > largest) largest = seen;
     put(out, 1, all.size > largest ? all.size : largest, 8);
