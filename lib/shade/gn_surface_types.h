@@ -74,9 +74,6 @@ typedef struct {
 #endif
 #if GN_PLANES || GN_AUTO_BIAS
     int32_t face_q30[3]; /* normal of the face in the world; only if some light of the list needs it */
-#define GN_FACE_Q30(surface) ((surface)->face_q30)
-#else
-#define GN_FACE_Q30(surface) ((surface)->normal_q30[0])
 #endif
 #if GN_CHANGES
     gn_squares *squares; /* of the scratch: what is looked up */

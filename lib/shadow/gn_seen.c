@@ -411,9 +411,7 @@ static void see_light(gn_frame *frame, gn_seen_job *job, gn_view_seen *seen, uin
         if (plan->cascaded && !frame->cascade[i].radius2_q32) continue;
         see_cascade(frame, job, &seen[i], plan->cascaded, i);
         const gn_fixed_fit *fit = fixed_fit(&frame->scene->shadow, light_idx, i);
-        if (!fit || gn_seen_take_fixed(job, &seen[i], fit)) continue;
-        gn_seen_take(job, &seen[i]);
-        frame->stats.n_outside_fixed_fit++;
+        if (fit && !gn_seen_take_fixed(&seen[i], fit)) frame->stats.n_outside_fixed_fit++;
     }
 }
 

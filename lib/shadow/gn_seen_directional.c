@@ -49,20 +49,17 @@ GN_COLD void gn_seen_take(const gn_seen_job *job, gn_view_seen *seen)
     }
 }
 
-GN_COLD int gn_seen_take_fixed(const gn_seen_job *job, gn_view_seen *seen, const gn_fixed_fit *fit)
+GN_COLD int gn_seen_take_fixed(gn_view_seen *seen, const gn_fixed_fit *fit)
 {
-    int outside = 0;
-    if (gn_seen_any(seen)) gn_seen_take(job, seen);
+    for (int k = 0; gn_seen_any(seen) && k < 3; k++)
+        if (seen->lo_q16[k] < fit->lo_q16[k] || seen->hi_q16[k] > fit->hi_q16[k]) return 0;
     for (int k = 0; k < 3; k++) {
-        outside |= seen->lo_q16[k] < fit->lo_q16[k] || seen->hi_q16[k] > fit->hi_q16[k];
         seen->lo_q16[k] = fit->lo_q16[k];
         seen->hi_q16[k] = fit->hi_q16[k];
-        if (k == 2) break;
-        seen->cast_lo_q16[k] = INT32_MIN;
-        seen->cast_hi_q16[k] = INT32_MAX;
     }
-    if (!outside) seen->worth_q16 = (uint64_t)fit->worth_px << 16;
-    return !outside;
+    for (int k = 0; k < 2; k++) seen->cast_lo_q16[k] = INT32_MIN, seen->cast_hi_q16[k] = INT32_MAX;
+    seen->worth_q16 = (uint64_t)fit->worth_px << 16;
+    return 1;
 }
 
 /* ---- Casters ----------------------------------------------------------------------------------------------------- */

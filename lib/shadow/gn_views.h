@@ -69,8 +69,8 @@ void gn_seen_crop(gn_seen_job *job);
  */
 void gn_seen_take(const gn_seen_job *job, gn_view_seen *seen);
 
-/* A fixed box in their place. Returns 0 if it does not hold all that is seen: they must be taken then. */
-int gn_seen_take_fixed(const gn_seen_job *job, gn_view_seen *seen, const gn_fixed_fit *fit);
+/* A fixed box in their place. Returns 0 if it does not hold all that is seen, and leaves them. */
+int gn_seen_take_fixed(gn_view_seen *seen, const gn_fixed_fit *fit);
 
 #endif
 

@@ -345,7 +345,7 @@ static const row rows[] = {
      "cascade_blend=soft cascade_fade=0.6", "cascade_fade=0.6", 0.25},
     {"D7", "lane", ".camera=0.5,2,6,0,0.5,-8 cascades=4 filter=5x5 atlas_size=64",
      "cascade_blend=dither cascade_fade=0.6", "cascade_fade=0.6", 0.25},
-    /* each cascade is turned by itself */
+    /* each cascade is fitted by itself */
     {"D12", "lane", "cascades=4 atlas_size=64 tiles=equal fit=stable", "fit=tight", "", 0.25},
     {"D12", "lane", "cascades=3 atlas_size=64 tiles=equal fit=stable bias_normal=0 auto_bias=normal", "fit=tight", "",
      0.25},

@@ -179,8 +179,7 @@ typedef struct {
     scene_distance_mode distance_mode; /* D5 or D11, default depth */
 } scene_shadow;
 
-/* A box of a directional view that stands still in the world (D12): along u, v, w from the
- * origin. */
+/* A box of a directional view that stands still in the world (D12): along u, v, w from the origin. */
 typedef struct {
     size_t light_idx;
     int cascade_idx;
