@@ -13,7 +13,7 @@ DIR=${BUILD:-build}/bench
 BASELINE=tests/bench/bench_baseline.txt
 DOC=docs/data/SPEED.md
 CASES="flat gouraud flat-shadow gouraud-shadow"
-MODELS="hound walker"
+MODELS="hound walker crowd"
 TOOL=${BUILD:-build}/gnomon
 CFLAGS="-std=c11 -D_POSIX_C_SOURCE=200809L -O2 -gdwarf-4 -Wall -Wextra -Wconversion -Wsign-conversion -Wdouble-promotion -Wshadow \
   -Wundef -Werror -Ilib -Itests"

@@ -17,7 +17,7 @@ BASELINE=tests/bench/bench_target_baseline.txt
 DOC=docs/data/SPEED.md
 CASES="flat gouraud flat-shadow gouraud-shadow"
 SCENES="sundial avenue desk room fence mixed"
-MODELS="tests/bench/scenes/hound.gltf tests/bench/scenes/walker.gltf"
+MODELS="tests/bench/scenes/hound.gltf tests/bench/scenes/walker.gltf tests/bench/scenes/crowd.gltf"
 CHANGES="tests/bench/scenes/gauge.gltf tests/bench/scenes/game.gltf:3 host/scenes/cube.gltf host/scenes/sundial.gltf host/scenes/desk.gltf host/scenes/mixed.gltf"
 STAGES=$(sh boards/tools/count.sh --stages)
 

@@ -11,7 +11,7 @@ BUILD=${BUILD:-build}
 TOOL=$BUILD/gnomon
 DIR=$BUILD/calibrate
 BOARD=mps2-an385
-CHARACTERS="docs/scenes/snake.gltf tests/bench/scenes/hound.gltf tests/bench/scenes/walker.gltf host/scenes/cube.gltf"
+CHARACTERS="docs/scenes/snake.gltf tests/bench/scenes/hound.gltf tests/bench/scenes/walker.gltf tests/bench/scenes/crowd.gltf host/scenes/cube.gltf"
 SWEPT="host/scenes/sundial.gltf host/scenes/avenue.gltf host/scenes/desk.gltf host/scenes/room.gltf host/scenes/fence.gltf host/scenes/mixed.gltf \
   docs/scenes/lamps.gltf docs/scenes/materials.gltf docs/scenes/suns.gltf docs/scenes/slopes.gltf"
 EVERY=12 # of the sweep's configurations

@@ -161,12 +161,12 @@ static void make_mesh(const character *c, mesh_builder *m)
 
 /* ---- The skeleton ------------------------------------------------------------------------------------------------ */
 
-/* From the last joint to the root: a node names its children. */
-static void add_joints(gltf_document *d, const character *c, size_t *node)
+/* From the last joint to the root, which stands at a place: a node names its children. */
+static void add_joints(gltf_document *d, const character *c, mesh_point place, size_t *node)
 {
     for (size_t i = c->n_joints; i-- > 0;) {
         const character_joint *j = &c->joint[i];
-        const mesh_point zero = {0, 0, 0}, at = mesh_sub(j->at, j->parent < 0 ? zero : c->joint[j->parent].at);
+        const mesh_point at = j->parent < 0 ? mesh_add(j->at, place) : mesh_sub(j->at, c->joint[j->parent].at);
         char children[256] = "";
         size_t n = 0;
         for (size_t k = i + 1; k < c->n_joints; k++) {
@@ -179,38 +179,53 @@ static void add_joints(gltf_document *d, const character *c, size_t *node)
     }
 }
 
-static void add_steps(gltf_document *d, const character *c, const size_t *node)
+/* The keys of joints that swing, and their nodes. */
+typedef struct {
+    gltf_rotation key[CHARACTER_MAX_SWINGS][KEYS];
+    size_t node[CHARACTER_MAX_SWINGS], n;
+} swings;
+
+static void add_swings(swings *s, const character *c, double phase, const size_t *node)
 {
-    gltf_rotation keys[CHARACTER_MAX_JOINTS][KEYS];
-    size_t moved[CHARACTER_MAX_JOINTS], n = 0;
     for (size_t i = 0; i < c->n_joints; i++) {
         const character_joint *j = &c->joint[i];
         if (j->swing_deg == 0) continue;
-        for (int k = 0; k < KEYS; k++)
-            keys[n][k] =
-                gltf_turn((mesh_point){1, 0, 0}, j->swing_deg * sin(2 * MESH_PI * ((double)k / (KEYS - 1) + j->phase)));
-        moved[n++] = node[i];
+        if (s->n < CHARACTER_MAX_SWINGS) {
+            for (int k = 0; k < KEYS; k++)
+                s->key[s->n][k] =
+                    gltf_turn((mesh_point){1, 0, 0},
+                              j->swing_deg * sin(2 * MESH_PI * ((double)k / (KEYS - 1) + j->phase + phase)));
+            s->node[s->n] = node[i];
+        }
+        s->n++;
     }
-    gltf_add_clip(d, "walk", moved, n, c->step_s / (KEYS - 1), &keys[0][0], KEYS);
 }
 
-void character_add(gltf_document *d, const character *c, mesh_builder *m, size_t material_idx)
+void character_add(gltf_document *d, const character *c, mesh_builder *m, size_t material_idx,
+                   const character_place *place, size_t n_places)
 {
-    size_t node[CHARACTER_MAX_JOINTS];
+    static swings s;
+    size_t node[CHARACTER_MAX_JOINTS], mesh = 0;
     mesh_point at[CHARACTER_MAX_JOINTS];
     make_mesh(c, m);
-    add_joints(d, c, node);
+    s.n = 0;
     for (size_t i = 0; i < c->n_joints; i++) at[i] = c->joint[i].at;
-    const size_t skin = gltf_add_skin(d, c->name, node, at, c->n_joints);
-    const size_t mesh = gltf_add_mesh(d, c->name, &(gltf_surface){m, material_idx}, 1);
-    gltf_add_node(d, c->name, "\"mesh\": %zu, \"skin\": %zu", mesh, skin);
-    add_steps(d, c, node);
+    for (size_t i = 0; i < n_places; i++) {
+        add_joints(d, c, place[i].at, node);
+        const size_t skin = gltf_add_skin(d, c->name, node, at, c->n_joints);
+        if (!i) mesh = gltf_add_mesh(d, c->name, &(gltf_surface){m, material_idx}, 1);
+        gltf_add_node(d, c->name, "\"mesh\": %zu, \"skin\": %zu", mesh, skin);
+        add_swings(&s, c, place[i].phase, node);
+    }
+    d->overflow |= s.n > CHARACTER_MAX_SWINGS;
+    if (!d->overflow) gltf_add_clip(d, "walk", s.node, s.n, c->step_s / (KEYS - 1), &s.key[0][0], KEYS);
 }
 
 /* ---- The scene --------------------------------------------------------------------------------------------------- */
 
 int character_write(const character_scene *s, FILE *file)
 {
+    static const character_place middle = {{0, 0, 0}, 0};
     static gltf_document d;
     static mesh_builder ground, body;
     const double far = 4;
@@ -224,7 +239,8 @@ int character_write(const character_scene *s, FILE *file)
     character_add(
         &d, s->of, &body,
         gltf_add_surface_material(
-            &d, &(gltf_material_text){.name = "skin", .rgb = {1, 1, 1}, .has_texture = true, .texture_idx = texture}));
+            &d, &(gltf_material_text){.name = "skin", .rgb = {1, 1, 1}, .has_texture = true, .texture_idx = texture}),
+        s->place ? s->place : &middle, s->place ? s->n_places : 1);
     gltf_add_light_node(
         &d, (mesh_point){0, 3, 0}, gltf_look((mesh_point){-0.6, -1, -0.5}),
         &(gltf_light_text){.name = "sun", .kind = GLTF_DIRECTIONAL, .rgb = {1, 0.95, 0.85}, .intensity = 3});

@@ -4,7 +4,7 @@
 
 #include "gltf_writer.h"
 
-enum { CHARACTER_MAX_JOINTS = 24, CHARACTER_LIMB_JOINTS = 6 };
+enum { CHARACTER_MAX_JOINTS = 24, CHARACTER_LIMB_JOINTS = 6, CHARACTER_MAX_SWINGS = 320 };
 
 /* Parents come before their children; the root's parent is -1. */
 typedef struct {
@@ -35,12 +35,22 @@ typedef struct {
     double step_s;
 } character;
 
-/* The mesh, its skin, a node of both, and a clip in which joints swing. */
-void character_add(gltf_document *d, const character *c, mesh_builder *m, size_t material_idx);
+/* Where one stands, and by how many steps it is ahead. */
+typedef struct {
+    mesh_point at;
+    double phase;
+} character_place;
 
-/* A scene of one character on the ground, under a sun. */
+/* The mesh, a skin and a node of it for each place, and a clip in which all joints swing. At most CHARACTER_MAX_SWINGS
+ * joints do, or the document overflows. */
+void character_add(gltf_document *d, const character *c, mesh_builder *m, size_t material_idx,
+                   const character_place *place, size_t n_places);
+
+/* A scene of a character on the ground, under a sun: one in the middle, or one at each place. */
 typedef struct {
     const character *of;
+    const character_place *place; /* NULL: in the middle */
+    size_t n_places;
     const uint8_t *rgba; /* the texture */
     int side;
     gltf_camera camera;

@@ -16,7 +16,7 @@
 #define GLTF_WRITER_PRINTF(format_idx, first_idx)
 #endif
 
-enum { GLTF_TEXT_BYTES = 48 * 1024, GLTF_BUFFER_BYTES = 192 * 1024, GLTF_MAX_NODES = 128, GLTF_MAX_TEXTURE_SIDE = 64 };
+enum { GLTF_TEXT_BYTES = 48 * 1024, GLTF_BUFFER_BYTES = 192 * 1024, GLTF_MAX_NODES = 512, GLTF_MAX_TEXTURE_SIDE = 64 };
 
 typedef struct {
     size_t n_items, n_chars;

@@ -92,16 +92,16 @@ int hound_write(FILE *file)
     static uint8_t rgba[SIDE * SIDE * 4];
     static const character dog = {"hound", joints, JOINTS, limbs, sizeof limbs / sizeof *limbs, true, 0.75};
     paint(rgba);
-    return character_write(&(character_scene){&dog,
-                                              rgba,
-                                              SIDE,
-                                              {.fov_deg = 34,
-                                               .near_distance = 0.5,
-                                               .far_distance = 20,
-                                               .target = {0, 0.5, -0.05},
-                                               .distance = 4.3,
-                                               .yaw_deg = -52,
-                                               .pitch_deg = -18},
-                                              "A dog that trots, 22 joints: 0.75 s."},
+    return character_write(&(character_scene){.of = &dog,
+                                              .rgba = rgba,
+                                              .side = SIDE,
+                                              .camera = {.fov_deg = 34,
+                                                         .near_distance = 0.5,
+                                                         .far_distance = 20,
+                                                         .target = {0, 0.5, -0.05},
+                                                         .distance = 4.3,
+                                                         .yaw_deg = -52,
+                                                         .pitch_deg = -18},
+                                              .comment = "A dog that trots, 22 joints: 0.75 s."},
                            file);
 }

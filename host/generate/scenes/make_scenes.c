@@ -43,6 +43,7 @@ int main(int argc, char **argv)
     failed |= make(argv[2], "snake.gltf", gallery_snake_write);
     failed |= make(argv[3], "hound.gltf", hound_write);
     failed |= make(argv[3], "walker.gltf", walker_write);
+    failed |= make(argv[3], "crowd.gltf", crowd_write);
     failed |= make(argv[3], "gauge.gltf", gauge_write);
     failed |= make(argv[3], "game.gltf", game_write);
     return failed ? 1 : 0;

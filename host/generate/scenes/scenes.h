@@ -41,6 +41,7 @@ int gallery_isometric_write(FILE *file);
 /* Characters for tests/bench, as the models that people load. */
 int hound_write(FILE *file);  /* some 600 flat triangles */
 int walker_write(FILE *file); /* some 4,000 smooth ones */
+int crowd_write(FILE *file);  /* 100 of some 70 smooth ones, each with a skin of its own */
 
 /* For tests/bench, too: pictures most of which stand still. */
 int gauge_write(FILE *file); /* a needle turns over a dial */

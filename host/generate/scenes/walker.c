@@ -107,16 +107,16 @@ int walker_write(FILE *file)
     static uint8_t rgba[SIDE * SIDE * 4];
     static const character man = {"walker", joints, JOINTS, limbs, sizeof limbs / sizeof *limbs, false, 1};
     paint(rgba);
-    return character_write(&(character_scene){&man,
-                                              rgba,
-                                              SIDE,
-                                              {.fov_deg = 34,
-                                               .near_distance = 0.5,
-                                               .far_distance = 20,
-                                               .target = {0, 0.88, 0},
-                                               .distance = 3.9,
-                                               .yaw_deg = -28,
-                                               .pitch_deg = -14},
-                                              "A man who walks, 19 joints: 1 s."},
+    return character_write(&(character_scene){.of = &man,
+                                              .rgba = rgba,
+                                              .side = SIDE,
+                                              .camera = {.fov_deg = 34,
+                                                         .near_distance = 0.5,
+                                                         .far_distance = 20,
+                                                         .target = {0, 0.88, 0},
+                                                         .distance = 3.9,
+                                                         .yaw_deg = -28,
+                                                         .pitch_deg = -14},
+                                              .comment = "A man who walks, 19 joints: 1 s."},
                            file);
 }
