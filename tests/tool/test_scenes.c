@@ -16,6 +16,7 @@ static const char sundial_path[] = "host/scenes/sundial.gltf", avenue_path[] = "
 static const char desk_path[] = "host/scenes/desk.gltf", room_path[] = "host/scenes/room.gltf";
 static const char fence_path[] = "host/scenes/fence.gltf", mixed_path[] = "host/scenes/mixed.gltf";
 static const char hound_path[] = "tests/bench/scenes/hound.gltf", walker_path[] = "tests/bench/scenes/walker.gltf";
+static const char crowd_path[] = "tests/bench/scenes/crowd.gltf";
 
 static int load(scene *s, const char *path, int frame)
 {
@@ -622,6 +623,35 @@ static void test_character(const char *path, size_t n_least, size_t n_most, size
     test_closed_casters(path, 3 * n_least);
 }
 
+/* Figures of one mesh, each posed by joints of its own: none leans as its neighbour. */
+static void test_crowd(void)
+{
+    enum { FIGURES = 100 };
+    scene s;
+    size_t n = 0;
+    const scene_object *before = NULL;
+    if (!load(&s, crowd_path, 24)) return;
+    CHECK_EQ_INT(s.n_notes, 0);
+    for (size_t i = 0; i < s.n_objects; i++) {
+        const scene_object *o = &s.objects[i];
+        if (!o->n_joints) continue;
+        n++;
+        CHECK_EQ_INT(o->n_joints, 3);
+        CHECK(o->moving);
+        if (before) {
+            CHECK_EQ_INT(o->mesh_idx, before->mesh_idx);
+            double apart = 0;
+            for (int k = 1; k < 3; k++) apart += fabs(o->joints[k].now.m[1][2] - before->joints[k].now.m[1][2]);
+            CHECK(apart > 0.01);
+        }
+        before = o;
+    }
+    CHECK_EQ_INT(n, FIGURES);
+    CHECK_EQ_INT(s.n_objects, FIGURES + 1);
+    CHECK_EQ_INT(s.n_meshes, 2);
+    scene_free(&s);
+}
+
 int main(void)
 {
     static const struct {
@@ -658,6 +688,8 @@ int main(void)
     test_committed_bytes(walker_path, walker_write, 250000);
     test_committed_bytes("tests/bench/scenes/gauge.gltf", gauge_write, 20000);
     test_committed_bytes("tests/bench/scenes/game.gltf", game_write, 20000);
+    test_committed_bytes(crowd_path, crowd_write, 250000);
+    test_crowd();
     test_character(hound_path, 500, 700, 22, 18);
     test_character(walker_path, 4000, 5000, 19, 24);
     test_cube();
