@@ -293,6 +293,14 @@ GN_HOT static inline int32_t gn_cell_fade_log2(const gn_frame *frame)
     return GN_K(frame, persp_step) == 16 ? 3 : GN_K(frame, persp_step) == 8 ? 4 : 5;
 }
 
+/* Of strengths of shadows at corners: 1: they do not fade; -1: they begin or end to, and change by more than the
+ * tolerance: nothing linear is near; 0: on a ramp. */
+GN_HOT static inline int gn_cell_fading(const gn_frame *frame, uint32_t least_uq16, uint32_t most_uq16)
+{
+    if (least_uq16 == 65536) return 1;
+    return (!least_uq16 || most_uq16 == 65536) && most_uq16 - least_uq16 > 65536U >> gn_cell_fade_log2(frame) ? -1 : 0;
+}
+
 /* Cells of this size are not split any more, unless they have no corners. */
 GN_HOT static inline int32_t gn_cell_finest_log2(const gn_frame *frame)
 {

@@ -331,8 +331,7 @@ GN_HOT static int is_even(const gn_lattice_cell *cell)
     return cell->kink_q24 << log2 <= most - (most >> 2); /* rims and ends are seen sooner */
 }
 
-/* 1: shadows do not fade in the cell; -1: they begin or end to, and change by more than the tolerance: no bilinear
- * function is near; 0: on a ramp. */
+/* Whether shadows fade in the cell: gn_cell_fading(). */
 GN_HOT static int fading_of(const gn_frame *frame, gn_corner *const corner[4])
 {
     uint32_t least = 65536, most = 0;
@@ -342,8 +341,7 @@ GN_HOT static int fading_of(const gn_frame *frame, gn_corner *const corner[4])
         least = g < least ? g : least;
         most = g > most ? g : most;
     }
-    if (least == 65536) return 1;
-    return (!least || most == 65536) && most - least > 65536U >> gn_cell_fade_log2(frame) ? -1 : 0;
+    return gn_cell_fading(frame, least, most);
 }
 
 /* Returns 0 if the cell is too steep or its textures too uneven. */

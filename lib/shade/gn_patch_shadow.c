@@ -4,6 +4,7 @@
 #include "base/gn_count.h"
 #include "base/gn_q.h"
 #include "light/gn_lights.h"
+#include "shade/gn_lattice.h"
 #include "shade/gn_patch.h"
 #include "shade/gn_surface.h"
 #include "shadow/gn_filter.h"
@@ -67,7 +68,7 @@ GN_HOT static int32_t cascade_of_corner(const gn_shading *s, int k, uint32_t *fa
 }
 
 /* The cascade of all three corners, and the strength of shadows at each. Returns 0 if the corners differ, or cascades
- * are blended, or distance is measured from the camera. Found once. */
+ * are blended, or strength is not close to linear between them, or distance is measured from the camera. Found once. */
 GN_HOT static int find_patch_reach(gn_shading *s)
 {
     gn_patch *p = &s->lattice.from.patch;
@@ -80,18 +81,22 @@ GN_HOT static int find_patch_reach(gn_shading *s)
     gn_record_find_depths(&p->record, frame);
     p->cascade = 0;
     for (int k = 0; k < 3; k++) {
-        uint32_t fade = 65536;
-        p->strength_uq16[k] = gn_shadow_distance_fade(frame, gn_record_depth(&p->record, k));
+        uint32_t fade = 65536, *strength = &p->strength_uq16[k];
+        *strength = gn_shadow_distance_fade(frame, gn_record_depth(&p->record, k));
         if (!frame->has_cascades) continue;
         if (gn_record_depth(&p->record, k) >> p->shared->sphere_down >> 21)
             return 0; /* many times as far as the spheres reach */
         const int32_t cascade = cascade_of_corner(s, k, &fade);
         if (k && cascade != p->cascade) return 0;
         p->cascade = cascade;
-        if (cascade == GN_CASCADE_NONE) p->strength_uq16[k] = 0;
-        else if (cascade == GN_LAST_CASCADE(frame)) p->strength_uq16[k] = gn_mul_uq16(p->strength_uq16[k], fade);
+        if (cascade == GN_CASCADE_NONE) *strength = 0;
+        else if (cascade == GN_LAST_CASCADE(frame)) *strength = gn_mul_uq16(*strength, fade);
         else if (blends && fade != 65536) return 0;
     }
+    const uint32_t *of = p->strength_uq16;
+    const int32_t a = (int32_t)of[0], b = (int32_t)of[1], c = (int32_t)of[2];
+    if (gn_cell_fading(frame, (uint32_t)gn_min32(gn_min32(a, b), c), (uint32_t)gn_max32(gn_max32(a, b), c)) < 0)
+        return 0;
     p->reach = GN_REACH_EVEN;
     return 1;
 }

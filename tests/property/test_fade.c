@@ -1,6 +1,6 @@
-/* Shadows that fade over depth, in cells and pixel by pixel: a ground under a roof, all in shadow up to where that
- * ends, or that fade to a mask; by cameras with parallel rays, too, some of which hardly look down. By NUMERICS 4.12
- * cells are off by 1/32 at kinks and by a quarter of 1/4 along each axis of a ramp. */
+/* Shadows that fade over depth, in cells, in small triangles and pixel by pixel: a ground under a roof, all in shadow
+ * up to where that ends, or that fade to a mask; by cameras with parallel rays, too, some of which hardly look down. By
+ * NUMERICS 4.12 cells are off by 1/32 at kinks and by a quarter of 1/4 along each axis of a ramp. */
 #include <math.h>
 
 #include "canvas.h"
@@ -10,12 +10,36 @@
 
 enum { W = 96, H = 72, N_SCENES = 120 };
 enum { ROOF, MASK, MASK_THAT_VARIES, N_GROUNDS };
+enum { QUADS = 30, TRIANGLES = 2 * QUADS * QUADS }; /* of the ground where its triangles are small */
 
 static gn_renderer renderer;
 static light_scene ls;
 static rng random_state = {11};
 
 static const uint16_t baked_uq12[12]; /* none: surfaces with baked light are shaded in cells */
+
+static int32_t pos[3 * (QUADS + 1) * (QUADS + 1)];
+static uint16_t idx[3 * TRIANGLES];
+static gn_mesh fine;
+
+/* The ground of the demo, of small triangles. */
+static void make_fine(void)
+{
+    uint16_t *to = idx;
+    for (int i = 0; i <= QUADS; i++)
+        for (int k = 0; k <= QUADS; k++) {
+            int32_t *p = &pos[3 * ((QUADS + 1) * i + k)];
+            p[0] = GN_Q16(12) / QUADS * k - GN_Q16(6);
+            p[2] = GN_Q16(12) / QUADS * i - GN_Q16(6);
+        }
+    for (int i = 0; i < QUADS; i++)
+        for (int k = 0; k < QUADS; k++) {
+            const int a = (QUADS + 1) * i + k, c = a + QUADS + 1, quad[6] = {a, c, c + 1, a, c + 1, a + 1};
+            for (int j = 0; j < 6; j++) *to++ = (uint16_t)quad[j];
+        }
+    fine = (gn_mesh){
+        .pos = pos, .idx = idx, .n_vertices = (QUADS + 1) * (QUADS + 1), .n_triangles = TRIANGLES, .pos_frac_bits = 16};
+}
 
 static void add_roof(void)
 {
@@ -33,14 +57,16 @@ static void add_masks(gn_light *light, int ground)
     light->mask_channel = 0;
 }
 
-static void begin_ground(rng *r, int ground, int flat)
+static void begin_ground(rng *r, int ground, int flat, int small)
 {
     ls_begin(&ls);
     ls.scene.n_objects = 1;
-    ls.object[0].baked_uq12 = GN_BAKED_LIGHT ? baked_uq12 : NULL;
+    if (small) ls.object[0].mesh = &fine;
+    else ls.object[0].baked_uq12 = GN_BAKED_LIGHT ? baked_uq12 : NULL;
     if (ground != MASK) add_roof();
     gn_light *light = ls_add_light(&ls, GN_LIGHT_DIRECTIONAL);
     light->direction[0] = light->direction[2] = 0;
+    light->auto_bias = small ? GN_AUTO_BIAS_DEPTH : GN_AUTO_BIAS_OFF;
     if (ground != ROOF) add_masks(light, ground);
     for (int k = 0; k < 3; k++) {
         ls.object[0].albedo_uq16[k] = light->colour_uq16[k] = 65536;
@@ -94,8 +120,10 @@ int main(void)
     static const int32_t steps[] = {4, 8, 16};
     long n_between = 0;
     double worst = 0;
-    for (int i = 0; i < N_SCENES; i++) {
-        begin_ground(&random_state, GN_MASKS ? i % N_GROUNDS : ROOF, i & 1);
+    make_fine();
+    for (int i = 0; i < 2 * N_SCENES; i++) {
+        const int small = i >= N_SCENES;
+        begin_ground(&random_state, GN_MASKS && !small ? i % N_GROUNDS : ROOF, i & 1, small);
         for (int k = 0; k < 3; k++) worst = fmax(worst, worst_of(steps[k], &n_between));
     }
     printf("%ld pixels of ramps; off by %.4f\n", n_between, worst);
