@@ -41,12 +41,11 @@ GN_HOT void gn_patch_begin_reach(gn_shading *s)
         sphere->inner2 =
             c->radius2_q32 ? (uint32_t)(c->inner2_q32 >> 2 * shared->sphere_down) : 0; /* else of any frame */
         shared->coarse |= c->radius2_q32 && sphere->radius2 >> 20 == 0; /* 10 bits: beside a far larger one */
-        sphere->per_fade = 0xFFFFFFFFU / (sphere->radius2 - sphere->inner2 + 1);
     }
 }
 
-/* The cascade of a corner, GN_CASCADE_NONE: none; and its fade factor. [D4] [D6] */
-GN_HOT static int32_t cascade_of_corner(const gn_shading *s, int k, uint32_t *fade_uq16)
+/* The cascade of a corner, GN_CASCADE_NONE: none. *fades: it lies where that cascade's factor is below 1. [D4] [D6] */
+GN_HOT static int32_t cascade_of_corner(const gn_shading *s, int k, int *fades)
 {
     const gn_frame *frame = s->frame;
     const gn_patch *p = &s->lattice.from.patch;
@@ -59,16 +58,15 @@ GN_HOT static int32_t cascade_of_corner(const gn_shading *s, int k, uint32_t *fa
         const gn_patch_sphere *c = &p->shared->sphere[i];
         const int64_t dz = (int64_t)z - c->centre;
         const uint64_t d2 = across + (uint64_t)(dz * dz);
-        if (d2 >= c->radius2) continue;
-        *fade_uq16 = 65536;
-        if (d2 > c->inner2) *fade_uq16 = (uint32_t)((c->radius2 - d2) * c->per_fade >> 16);
-        return i;
+        *fades = d2 > c->inner2;
+        if (d2 < c->radius2) return i;
     }
     return GN_CASCADE_NONE;
 }
 
-/* The cascade of all three corners, and the strength of shadows at each. Returns 0 if the corners differ, or cascades
- * are blended, or strength is not close to linear between them, or distance is measured from the camera. Found once. */
+/* The cascade of all three corners, and the strength of shadows at each. Returns 0 if the corners differ, or a cascade
+ * fades at one, or strength is not close to linear between them, or distance is measured from the camera. Found once.
+ */
 GN_HOT static int find_patch_reach(gn_shading *s)
 {
     gn_patch *p = &s->lattice.from.patch;
@@ -79,24 +77,24 @@ GN_HOT static int find_patch_reach(gn_shading *s)
     if (p->shared->coarse) return 0;
     if (frame->scene->shadow.distance_mode == GN_DISTANCE_RADIUS || frame->tan2_q24 >> 26) return 0; /* tan < 2 */
     gn_record_find_depths(&p->record, frame);
-    p->cascade = 0;
+    int32_t of[3];
     for (int k = 0; k < 3; k++) {
-        uint32_t fade = 65536, *strength = &p->strength_uq16[k];
-        *strength = gn_shadow_distance_fade(frame, gn_record_depth(&p->record, k));
-        if (!frame->has_cascades) continue;
+        p->strength_uq16[k] = gn_shadow_distance_fade(frame, gn_record_depth(&p->record, k));
+        of[k] = (int32_t)p->strength_uq16[k];
+    }
+    if (gn_cell_fading(frame, (uint32_t)gn_min32(gn_min32(of[0], of[1]), of[2]),
+                       (uint32_t)gn_max32(gn_max32(of[0], of[1]), of[2])) < 0)
+        return 0;
+    p->cascade = 0;
+    for (int k = 0; k < 3 && frame->has_cascades && (of[0] | of[1] | of[2]); k++) {
+        int fades = 0;
         if (gn_record_depth(&p->record, k) >> p->shared->sphere_down >> 21)
             return 0; /* many times as far as the spheres reach */
-        const int32_t cascade = cascade_of_corner(s, k, &fade);
+        const int32_t cascade = cascade_of_corner(s, k, &fades);
         if (k && cascade != p->cascade) return 0;
+        if (fades && (blends || cascade >= GN_LAST_CASCADE(frame))) return 0; /* none, too: a sphere may lie between */
         p->cascade = cascade;
-        if (cascade == GN_CASCADE_NONE) *strength = 0;
-        else if (cascade == GN_LAST_CASCADE(frame)) *strength = gn_mul_uq16(*strength, fade);
-        else if (blends && fade != 65536) return 0;
     }
-    const uint32_t *of = p->strength_uq16;
-    const int32_t a = (int32_t)of[0], b = (int32_t)of[1], c = (int32_t)of[2];
-    if (gn_cell_fading(frame, (uint32_t)gn_min32(gn_min32(a, b), c), (uint32_t)gn_max32(gn_max32(a, b), c)) < 0)
-        return 0;
     p->reach = GN_REACH_EVEN;
     return 1;
 }

@@ -276,10 +276,10 @@ typedef struct {
 } gn_patch_object;
 
 /* A cascade's sphere in units of 2^down of Q16, in which it has 15 bits: depth of its centre, squares of its radius and
- * of where it begins to fade, and 2^32 over their difference. */
+ * of where it begins to fade. */
 typedef struct {
     int32_t centre;
-    uint32_t radius2, inner2, per_fade;
+    uint32_t radius2, inner2;
 } gn_patch_sphere;
 
 /* What lasts while a screen tile is shaded. */
