@@ -158,23 +158,29 @@ GN_HOT static inline void patch_normal(gn_shading *s, int k, int32_t out_q14[3])
 }
 #endif
 
-/* Normals at the corners, Q14; of a flat triangle all are the face's. Returns 0 if they turn so much that light between
- * them is not linear. */
+#if GN_VERTEX_NORMALS
+/* Whether normals turn so much that light between them is not linear. */
+GN_HOT static int normals_turn(const gn_patch *p, const int32_t n[3][3])
+{
+    int32_t nearest = 1 << 14;
+    for (int k = 0; k < 3; k++) {
+        const int32_t *a = n[k], *b = n[k == 2 ? 0 : k + 1];
+        nearest = gn_min32(nearest, (a[0] * b[0] + a[1] * b[1] + a[2] * b[2]) >> 14);
+    }
+    return nearest < (p->record.px > 12 ? 15 << 10 : 14 << 10);
+}
+#endif
+
+/* Normals at the corners, Q14; of a flat triangle all are the face's. Returns 0 if they turn too much for suns. */
 GN_HOT static int find_patch_normals(gn_shading *s, int32_t n[3][3])
 {
     gn_patch *p = &s->lattice.from.patch;
 #if GN_VERTEX_NORMALS
     const gn_normal *nrm = p->shared->of.object->mesh->nrm_q15;
     if (nrm) {
-        int32_t nearest = 1 << 14;
         for (int k = 0; k < 3; k++) patch_normal(s, k, n[k]);
         p->smooth = 1;
-        if (GN_K(s->frame, vertex_light)) return 1;
-        for (int k = 0; k < 3; k++) {
-            const int32_t *a = n[k], *b = n[k == 2 ? 0 : k + 1];
-            nearest = gn_min32(nearest, (a[0] * b[0] + a[1] * b[1] + a[2] * b[2]) >> 14);
-        }
-        return nearest >= (p->record.px > 12 ? 15 << 10 : 14 << 10);
+        return GN_K(s->frame, vertex_light) || !normals_turn(p, (const int32_t(*)[3])n);
     }
 #endif
     const int32_t *face = gn_patch_face(s);
@@ -220,6 +226,10 @@ GN_HOT static int lamp_is_even(const int32_t from[3][3], const int32_t e_q24[3])
 GN_HOT static int lamp_irradiance(gn_shading *s, const gn_light_state *light, const int32_t n[3][3], int32_t e_q24[3])
 {
     int32_t(*from)[3] = s->lattice.from.patch.from_q16;
+#if GN_VERTEX_NORMALS
+    if (GN_K(s->frame, vertex_light) && s->lattice.from.patch.smooth && normals_turn(&s->lattice.from.patch, n))
+        return 0;
+#endif
     gn_record_find_depths(&s->lattice.from.patch.record, s->frame);
     for (int i = 0; i < 3; i++) {
         int32_t at[3];
@@ -244,19 +254,14 @@ GN_HOT static int lamp_irradiance(gn_shading *s, const gn_light_state *light, co
 
 /* ---- Lights ------------------------------------------------------------------------------------------------------ */
 
-/* A colour times irradiance, Q24, limited to 8. */
-GN_HOT static inline int32_t product_q24(uint32_t colour_uq16, int32_t e_q24)
-{
-    const uint64_t product = (uint64_t)colour_uq16 * (uint32_t)gn_max32(e_q24, 0);
-    return product >> 43 ? 1 << 27 : (int32_t)(product >> 16);
-}
-
-/* Light that pixels do not ask for. Returns 0 if it is too bright. */
+/* Light that pixels do not ask for. Returns 0 if it is brighter than 8, which limits it. */
 GN_HOT static int add_patch_light(gn_patch *p, const uint32_t colour_uq16[3], const int32_t e_q24[3])
 {
     for (int c = 0; c < 3; c++)
         for (int k = 0; k < 3; k++) {
-            p->colour_q24[c][k] += product_q24(colour_uq16[c], e_q24[k]);
+            const uint64_t product = (uint64_t)colour_uq16[c] * (uint32_t)gn_max32(e_q24[k], 0);
+            if (product >> 43) return 0;
+            p->colour_q24[c][k] += (int32_t)(product >> 16);
             if (p->colour_q24[c][k] > 1 << 27) return 0;
         }
     return 1;
