@@ -378,6 +378,33 @@ static void test_accuracy(const look *l, int32_t step)
     canvas_end(&picture), canvas_end(&other);
 }
 
+/* Light above 8 is not limited before dim colours of vertices multiply it. */
+static void test_bright(int32_t step)
+{
+    static const look bright = {"bright", COLOURED, 1, 1, GN_FILTER_HARD, GN_BLEND_HARD};
+    const way exact = usual(1), w = usual(step);
+    int n_off = 0, brightest = 0;
+    if (!is_built(&bright)) return;
+    for (int v = 0; v < 3 * VERTICES; v++) rgb[v] /= 24;
+    make_scene(&bright);
+    ls.light[0].colour_exp = 5;
+    for (int c = 0; c < 3; c++) ls.scene.ambient_uq16[c] = 0;
+    if (draw(&picture, &exact)) {
+        if (draw(&other, &w)) {
+            for (long i = 0; i < 3 * W * H; i++) {
+                const int a = picture.pixels[i], b = other.pixels[i];
+                n_off += a - b > 12 || b - a > 12;
+                brightest = a > brightest ? a : brightest;
+            }
+            canvas_end(&other);
+            if (!CHECK(n_off <= 3 * 12 && brightest > 100)) /* 12 pixels at edges of shadows */
+                printf("  bright, step %d: %d values are off, of up to %d\n", (int)step, n_off, brightest);
+        }
+        canvas_end(&picture);
+    }
+    vertices();
+}
+
 int main(void)
 {
     make_ball();
@@ -387,6 +414,7 @@ int main(void)
                 test_purity(&looks[i], step);
                 if (step > 4) test_accuracy(&looks[i], step);
             }
+    for (int32_t step = 4; step <= 16; step *= 2) test_bright(step);
     return check_report();
 }
 
