@@ -7,6 +7,9 @@
 #include "check.h"
 #include "knobs.h"
 #include "light_scene.h"
+#if GN_COUNTERS
+#include "../host/tool/cost/count.h"
+#endif
 
 enum { W = 96, H = 72, N_SCENES = 120 };
 enum { ROOF, MASK, MASK_THAT_VARIES, N_GROUNDS };
@@ -78,6 +81,9 @@ static void begin_ground(rng *r, int ground, int flat, int small)
     ls.scene.shadow.n_cascades = 1;
     ls.scene.shadow.max_distance_q16 = ls_q16(r, 4, 9);
     ls.scene.shadow.distance_fade_uq16 = 1000 + rng_below(r, flat ? 60000 : 20000);
+    if (!small) return;
+    if (GN_MANY_CASCADES) ls.scene.shadow.n_cascades = (uint8_t)(1 + rng_below(r, 4));
+    ls.scene.shadow.cascade_fade_uq16 = 4000 + rng_below(r, 28000);
 }
 
 static int draw(canvas *picture, int32_t step)
@@ -97,13 +103,19 @@ static double linear(uint8_t encoded)
     return v <= 0.04045 ? v / 12.92 : pow((v + 0.055) / 1.055, 2.4);
 }
 
-/* How far cells are from pixels, and whether there is a ramp. */
-static double worst_of(int32_t step, long *n_between)
+/* How far cells are from pixels, and whether there is a ramp, and small triangles as patches. */
+static double worst_of(int32_t step, long *n_between, long *n_patches)
 {
     canvas exact, cells;
     double worst = 0;
     if (!draw(&exact, 1)) return 0;
+#if GN_COUNTERS
+    count_reset();
+#endif
     if (draw(&cells, step)) {
+#if GN_COUNTERS
+        *n_patches += (long)count_get().n[GN_COUNT_patches];
+#endif
         for (int i = 0; i < W * H; i++) {
             const double a = linear(exact.pixels[3 * i]), b = linear(cells.pixels[3 * i]);
             worst = fmax(worst, fabs(a - b));
@@ -118,16 +130,17 @@ static double worst_of(int32_t step, long *n_between)
 int main(void)
 {
     static const int32_t steps[] = {4, 8, 16};
-    long n_between = 0;
+    long n_between = 0, n_patches = 0;
     double worst = 0;
     make_fine();
     for (int i = 0; i < 2 * N_SCENES; i++) {
         const int small = i >= N_SCENES;
-        begin_ground(&random_state, GN_MASKS && !small ? i % N_GROUNDS : ROOF, i & 1, small);
-        for (int k = 0; k < 3; k++) worst = fmax(worst, worst_of(steps[k], &n_between));
+        begin_ground(&random_state, GN_MASKS && !small ? i % N_GROUNDS : ROOF, !small && (i & 1), small);
+        for (int k = 0; k < 3; k++) worst = fmax(worst, worst_of(steps[k], &n_between, &n_patches));
     }
     printf("%ld pixels of ramps; off by %.4f\n", n_between, worst);
     CHECK(n_between > 1000 || !GN_RUNTIME_KNOBS);
+    CHECK(n_patches > 10000 || !GN_COUNTERS || !GN_RUNTIME_KNOBS || !GN_AUTO_BIAS);
     CHECK(worst < 1.0 / 32 + 2.0 / 16 + 1.0 / 128);
     return check_report();
 }
