@@ -412,10 +412,9 @@ int main(void)
         check_scene(&f, i);
         end(&f);
     }
-    printf(
-        "%ld views, %ld unseen, %ld otherwise chosen; %ld near planes are raised; of %ld shadowed points "
-        "%ld are lost, %ld lie beyond their tile; %ld texels are flattened; off: tight %ld, stable %ld\n",
-        n_views, n_unseen, n_other_choice, n_raised, n_dark, n_lost, n_beyond, n_flat, n_off[0], n_off[1]);
+    printf("%ld views, %ld unseen, %ld otherwise chosen; %ld near planes are raised; of %ld shadowed points "
+           "%ld are lost, %ld lie beyond their tile; %ld texels are flattened; off: tight %ld, stable %ld\n",
+           n_views, n_unseen, n_other_choice, n_raised, n_dark, n_lost, n_beyond, n_flat, n_off[0], n_off[1]);
     CHECK(n_unseen > n_views / 50 && n_raised > n_views / 8);
     CHECK(n_dark > 100 * n_scenes && n_beyond > n_dark / 50);
     CHECK_EQ_INT(n_lost, 0);
