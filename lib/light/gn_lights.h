@@ -73,6 +73,7 @@ typedef struct {
     int32_t scale_shift;  /* of scale_root */
     int32_t colour_exp;   /* the light's colour is colour_uq16 * 2^colour_exp */
     int32_t within_inner; /* 1: inside a spot's inner cone, where its angle has no effect */
+    int32_t beyond_q30;   /* of spots: the cosine less that of the cone's edge; -2^30 behind it, or out of range */
 } gn_punctual_point;
 
 /* Fills `out` for a surface point; `from_light` is the point minus the light's position, world axes, Q16. Returns 0

@@ -94,9 +94,8 @@ GN_HOT static uint32_t inverse_root(uint64_t v, int32_t newton_steps, int32_t *s
 }
 
 /* clamp((cos - cos outer) / (cos inner - cos outer), 0, 1)^2, Q30 [P3] */
-GN_HOT static uint32_t angle_q30(const gn_light_state *light, int32_t cosine_q30)
+GN_HOT static uint32_t angle_q30(const gn_light_state *light, int32_t beyond)
 {
-    int64_t beyond = (int64_t)cosine_q30 - light->cos_outer_q30;
     if (beyond <= 0) return 0;
     int32_t share = (int32_t)gn_clamp64(gn_bf_apply(beyond, light->angle_scale, 30), 0, GN_ONE_Q30);
     return (uint32_t)gn_mul_q30(share, share);
@@ -112,6 +111,8 @@ GN_HOT int gn_punctual_at(const gn_frame *frame, const gn_light_state *light, co
                           gn_punctual_point *out)
 {
     uint64_t d2 = 0;
+    out->within_inner = 0;
+    out->beyond_q30 = -GN_ONE_Q30;
     for (int i = 0; i < 3; i++) d2 += (uint64_t)((int64_t)from_light_q16[i] * from_light_q16[i]);
     if (d2 >= light->range2_q32 || d2 == 0) return 0;
     int32_t steps = root_steps(frame, light);
@@ -120,11 +121,11 @@ GN_HOT int gn_punctual_at(const gn_frame *frame, const gn_light_state *light, co
     if (d2 < frame->min2_q32) out->scale_root = inverse_root(frame->min2_q32, steps, &out->scale_shift);
     out->colour_exp = light->colour_exp;
     out->factor_q30 = window_q30(light, d2);
-    out->within_inner = 0;
     if (light->kind == GN_LIGHT_SPOT) {
         /* against the axis towards the light: the ratio of light-plane distance to distance */
         int32_t along = gn_sat32(-gn_dot_q30(from_light_q16, light->to_light_q30));
-        uint32_t angle = along > 0 ? angle_q30(light, gn_punctual_cosine_q30(out, along)) : 0;
+        if (along > 0) out->beyond_q30 = gn_punctual_cosine_q30(out, along) - light->cos_outer_q30;
+        uint32_t angle = angle_q30(light, out->beyond_q30);
         out->within_inner = angle == GN_ONE_Q30;
         out->factor_q30 = (uint32_t)gn_mul_q30((int32_t)out->factor_q30, (int32_t)angle);
     }

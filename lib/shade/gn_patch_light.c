@@ -205,9 +205,22 @@ GN_HOT static void sun_irradiance(const gn_shading *s, const gn_light_state *lig
 }
 
 #if GN_PUNCTUAL_LIGHTS
+/* Whether no point of a triangle is brighter than linear between its corners by a cone's rim: it lies outside, or
+ * changes little. A point is within a third of the longest side's square of a corner, and so many cosines beyond it. */
+GN_HOT static int cone_is_even(const gn_light_state *light, uint64_t longest, uint64_t nearest, int32_t beyond_q30)
+{
+    const int32_t down = gn_max32(32 - gn_clz64(nearest), 0);
+    const int32_t far2_q30 =
+        (int32_t)gn_quotient_q30((uint32_t)(longest >> down), (uint32_t)(nearest >> down)) / 3 + 2; /* 2^30 / 96 */
+    if (beyond_q30 < 0 && (int64_t)beyond_q30 * beyond_q30 >> 30 > far2_q30) return 1;
+    const int64_t share = gn_bf_apply(gn_bf_apply(far2_q30, light->angle_scale, 30), light->angle_scale, 30);
+    return share <= 1 << 24; /* an eighth of the rim, squared */
+}
+
 /* Whether light that is linear between the corners is close enough: the triangle is small beside the light's distance,
- * and neither range nor cone ends near it. */
-GN_HOT static int lamp_is_even(const int32_t from[3][3], const int32_t e_q24[3])
+ * and neither range nor cone ends near it. `spot`: NULL: none, or all of it lies within the inner cone. */
+GN_HOT static int lamp_is_even(const int32_t from[3][3], const int32_t e_q24[3], const gn_light_state *spot,
+                               int32_t beyond_q30)
 {
     uint64_t nearest = UINT64_MAX, longest = 0;
     for (int k = 0; k < 3; k++) {
@@ -219,7 +232,8 @@ GN_HOT static int lamp_is_even(const int32_t from[3][3], const int32_t e_q24[3])
     }
     const int32_t lo = gn_min32(gn_min32(e_q24[0], e_q24[1]), e_q24[2]),
                   hi = gn_max32(gn_max32(e_q24[0], e_q24[1]), e_q24[2]);
-    return longest <= nearest >> 5 && hi - lo <= gn_max32(hi >> 1, 1 << 17);
+    if (longest > nearest >> 5 || hi - lo > gn_max32(hi >> 1, 1 << 17)) return 0;
+    return !spot || cone_is_even(spot, longest, nearest, beyond_q30);
 }
 
 /* Of a spot or point light. Returns 0 if it is not even. */
@@ -237,18 +251,27 @@ GN_HOT static int lamp_irradiance(gn_shading *s, const gn_light_state *light, co
             return 0;
         for (int k = 0; k < 3; k++) from[k][i] = at[k];
     }
+    int64_t facing[3];
+    for (int k = 0; k < 3; k++) {
+        const int32_t n_q30[3] = {n[k][0] * 65536, n[k][1] * 65536, n[k][2] * 65536};
+        facing[k] = gn_clamp64(-(gn_dot64(n_q30, from[k]) >> 30), 0, INT32_MAX);
+        e_q24[k] = 0;
+    }
+    if (!(facing[0] | facing[1] | facing[2])) return 1;
+    int32_t within = 1, beyond_q30 = INT32_MIN;
     for (int k = 0; k < 3; k++) {
         gn_punctual_point point;
-        const int32_t n_q30[3] = {n[k][0] * 65536, n[k][1] * 65536, n[k][2] * 65536};
-        const int64_t facing = -(gn_dot64(n_q30, from[k]) >> 30);
-        e_q24[k] = 0;
-        if (facing <= 0 || !gn_punctual_at(s->frame, light, from[k], &point)) continue;
+        const int arrives = gn_punctual_at(s->frame, light, from[k], &point);
+        within &= point.within_inner;
+        beyond_q30 = gn_max32(beyond_q30, point.beyond_q30);
+        if (!facing[k] || !arrives) continue;
         GN_COUNT(lights_punctual, 1);
-        const int32_t cosine = gn_punctual_cosine_q30(&point, (int32_t)gn_clamp64(facing, 0, INT32_MAX));
+        const int32_t cosine = gn_punctual_cosine_q30(&point, (int32_t)facing[k]);
         e_q24[k] = (int32_t)gn_punctual_irradiance_q24(&point, cosine);
         if (e_q24[k] > 1 << 27) return 0;
     }
-    return lamp_is_even((const int32_t(*)[3])from, e_q24);
+    return lamp_is_even((const int32_t(*)[3])from, e_q24, light->kind == GN_LIGHT_SPOT && !within ? light : NULL,
+                        beyond_q30);
 }
 #endif
 
