@@ -1,7 +1,6 @@
 /* Cones of spots on a ground of small triangles, and its pixels each for itself: cones that lie between the corners of
  * a triangle, soft and hard rims, wide and narrow ones. */
 #include <math.h>
-#include <stdlib.h>
 
 #include "canvas.h"
 #include "check.h"
@@ -64,7 +63,8 @@ static void begin_spot(rng *r)
         ls.scene.ambient_uq16[k] = ls.scene.background_uq20[k] = 0;
     }
     light->colour_exp = 0;
-    ls_look(&ls, ls_q16(r, -3, 3), ls_q16(r, 4, 8), ls_q16(r, 4, 8));
+    const int32_t x = ls_q16(r, -3, 3), y = ls_q16(r, 4, 8), z = ls_q16(r, 4, 8);
+    ls_look(&ls, x, y, z);
 }
 
 static int draw(canvas *picture, int32_t step)
@@ -107,7 +107,7 @@ int main(void)
                 here = fmax(here, fabs(a - b));
                 n_lit += a > 0.1;
             }
-            if (here > 0.15 && getenv("SAY")) printf("%d step %d: %.3f\n", i, (int)steps[k], here);
+            if (here >= 0.1) printf("scene %d, step %d: off by %.3f\n", i, (int)steps[k], here);
             worst = fmax(worst, here);
             canvas_end(&fast);
         }
