@@ -2,6 +2,7 @@
  * a triangle, soft and hard rims, wide and narrow ones. */
 #include <math.h>
 
+#include "base/gn_count.h"
 #include "canvas.h"
 #include "check.h"
 #include "knobs.h"

@@ -3,6 +3,7 @@
  * NUMERICS 4.12 cells are off by 1/32 at kinks and by a quarter of 1/4 along each axis of a ramp. */
 #include <math.h>
 
+#include "base/gn_count.h"
 #include "canvas.h"
 #include "check.h"
 #include "knobs.h"
@@ -115,6 +116,8 @@ static double worst_of(int32_t step, long *n_between, long *n_patches)
     if (draw(&cells, step)) {
 #if GN_COUNTERS
         *n_patches += (long)count_get().n[GN_COUNT_patches];
+#else
+        (void)n_patches;
 #endif
         for (int i = 0; i < W * H; i++) {
             const double a = linear(exact.pixels[3 * i]), b = linear(cells.pixels[3 * i]);
