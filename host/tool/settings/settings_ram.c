@@ -143,7 +143,7 @@ static long patch_shared_bytes(const settings *s)
     put(&all, 1, 56, 4); /* of */
     if (s->feature.vertex_values % 2) put(&all, 32, 8, 4);
     if (s->feature.vertex_values % 2 && s->feature.vertex_joints) put(&all, 16, 40, 4);
-    if (s->feature.shadows && s->feature.biases % 2) put(&all, 1, 72, 4);
+    if (s->feature.shadows && s->feature.biases % 2) put(&all, 1, 56, 4);
     return all.size;
 }
 
