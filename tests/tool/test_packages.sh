@@ -29,7 +29,7 @@ done
 spin=$package/examples/cmake/spin.c
 ok gcc -std=c99 -Wall -Wextra -Werror -I"$package/single" -c -o "$tmp/single.o" "$package/single/gnomon.c"
 ok gcc -std=c99 -Wall -Wextra -Werror -I"$package/single" -o "$tmp/single" "$tmp/single.o" "$spin"
-ok clang -std=c99 -Wall -Wextra -Werror -Ilib -o "$tmp/parts" lib/gnomon.c "$spin"
+ok gcc -std=c99 -Wall -Wextra -Werror -Ilib -o "$tmp/parts" lib/gnomon.c "$spin"
 ok g++ -x c++ -std=c++11 -Wall -Wextra -Werror -I"$package/single" -fsyntax-only "$spin"
 "$tmp/parts" >"$tmp/wanted"
 same() { "$1" >"$tmp/shown" 2>&1 && cmp -s "$tmp/shown" "$tmp/wanted" && pass || fail "$1 shows another picture: $(head -n 1 "$tmp/shown")"; }
@@ -429,7 +429,7 @@ wizard() {
 ok wizard "$package/cmsis/config/gnomon_config.h"
 pre_include=$(sed -n '/<Pre_Include_Global_h>/,/<\/Pre_Include_Global_h>/s/^ *#define \([A-Z_]*\) \(.*\)/-D\1=\2/p' "$pdsc")
 cmsis="-std=c99 -Wall -Wextra -Werror -I$package/cmsis/src -I$package/cmsis/config"
-ok clang $cmsis "$pre_include" -o "$tmp/cmsis" "$spin" "$package/cmsis/src/gnomon.c"
+ok gcc $cmsis "$pre_include" -o "$tmp/cmsis" "$spin" "$package/cmsis/src/gnomon.c"
 same "$tmp/cmsis"
 sed 's/GN_MAX_TRIANGLES 500/GN_MAX_TRIANGLES 501/' "$package/cmsis/config/gnomon_config.h" >"$tmp/sdk/gnomon_config.h"
 ok gcc -std=c99 -I"$tmp/sdk" -I"$package/cmsis/src" "$pre_include" -c -o "$tmp/other.o" "$package/cmsis/src/gnomon.c"
@@ -454,8 +454,8 @@ void panel_write(int x, int y, int w, int h, const void *pixels)
 int button_is_down(int left_or_right) { return n_pictures == 1 + 2 * (unsigned long)left_or_right; }
 C
 for file in $(sed -n 's/^ *- file: //p; s/^ *- project: //p' "$package"/cmsis/examples/lamp/*.yml); do [ -e "$package/cmsis/examples/lamp/$file" ] && pass || fail "cmsis: there is no $file"; done
-ok clang $cmsis "$pre_include" -o "$tmp/lamp-example" "$package"/cmsis/examples/lamp/*.c "$package/cmsis/src/gnomon.c"
-ok clang $cmsis "$pre_include" -o "$tmp/lamp" "$package/cmsis/examples/lamp/lamp.c" "$tmp/lamp_board.c" "$package/cmsis/src/gnomon.c"
+ok gcc $cmsis "$pre_include" -o "$tmp/lamp-example" "$package"/cmsis/examples/lamp/*.c "$package/cmsis/src/gnomon.c"
+ok gcc $cmsis "$pre_include" -o "$tmp/lamp" "$package/cmsis/examples/lamp/lamp.c" "$tmp/lamp_board.c" "$package/cmsis/src/gnomon.c"
 "$tmp/lamp" | awk '{ sum[NR] = $1 } END { exit !(NR == 10 && sum[1] != sum[2] && sum[2] == sum[3] && sum[4] == sum[1] && sum[10] == sum[1]) }' && pass ||
     fail "the lamp does not go there and back"
 
@@ -464,7 +464,7 @@ ok clang $cmsis "$pre_include" -o "$tmp/lamp" "$package/cmsis/examples/lamp/lamp
 mkdir -p "$tmp/micropython"
 standins=$root/tests/tool/packages
 view=$package/examples/lvgl/gnomon_view.c
-ok clang -std=c99 -g -fsanitize=address,undefined -fno-sanitize-recover=all -Wall -Wextra -Werror -I"$package/single" -I"$standins/lvgl" -o "$tmp/view" "$view" "$standins/lvgl/main.c" "$package/single/gnomon.c"
+ok gcc -std=c99 -g -fsanitize=address,undefined -fno-sanitize-recover=all -Wall -Wextra -Werror -I"$package/single" -I"$standins/lvgl" -o "$tmp/view" "$view" "$standins/lvgl/main.c" "$package/single/gnomon.c"
 "$tmp/view" >"$tmp/view.rgb565" && pass || fail "lvgl: a view draws beside its rows, or not at all, or stays when it is deleted: status $?"
 if [ -n "$LVGL" ]; then ok gcc -std=c99 -Wall -Wextra -Werror -DLV_CONF_SKIP -isystem "$LVGL" -isystem "$LVGL/include" -I"$package/single" -fsyntax-only "$view"; fi
 
