@@ -156,7 +156,7 @@ static void test_random_scenes(long n_scenes)
     /* enough of them are drawn with shadows, though few where capacities are short or positions compact, and many kinds
      * of refusal occur */
     /* of compact arithmetic, which refuses most features, a 14th to a 22nd; few scenes are alike ones in series */
-    CHECK(r.drawn > n_scenes / (GN_MAX_OBJECTS < RANDOM_OBJECTS ? 500 : GN_COMPACT ? 100 : GN_RUNTIME_KNOBS ? 8 : 20));
+    CHECK(r.drawn > n_scenes / (GN_MAX_OBJECTS < RANDOM_OBJECTS ? 300 : GN_COMPACT ? 100 : GN_RUNTIME_KNOBS ? 8 : 20));
     CHECK(r.after_refused > n_scenes / 100);
     int kinds = 0;
     for (int i = 1; i < GN_STATUS_COUNT; i++) kinds += r.count[i] > 0;
