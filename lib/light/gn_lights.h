@@ -73,11 +73,12 @@ typedef struct {
     int32_t scale_shift;  /* of scale_root */
     int32_t colour_exp;   /* the light's colour is colour_uq16 * 2^colour_exp */
     int32_t within_inner; /* 1: inside a spot's inner cone, where its angle has no effect */
-    int32_t beyond_q30;   /* of spots: the cosine less that of the cone's edge; -2^30 behind it, or out of range */
+    int32_t beyond_q30;   /* of spots, also where nothing arrives: the cosine less that of the cone's edge, -2^30 behind
+                             the light; INT32_MAX out of range */
 } gn_punctual_point;
 
 /* Fills `out` for a surface point; `from_light` is the point minus the light's position, world axes, Q16. Returns 0
- * where no light arrives: `out` is then undefined. */
+ * where no light arrives: of `out` only the last two are then defined. */
 int gn_punctual_at(const gn_frame *frame, const gn_light_state *light, const int32_t from_light_q16[3],
                    gn_punctual_point *out);
 

@@ -112,7 +112,7 @@ GN_HOT int gn_punctual_at(const gn_frame *frame, const gn_light_state *light, co
 {
     uint64_t d2 = 0;
     out->within_inner = 0;
-    out->beyond_q30 = -GN_ONE_Q30;
+    out->beyond_q30 = INT32_MAX;
     for (int i = 0; i < 3; i++) d2 += (uint64_t)((int64_t)from_light_q16[i] * from_light_q16[i]);
     if (d2 >= light->range2_q32 || d2 == 0) return 0;
     int32_t steps = root_steps(frame, light);
@@ -124,7 +124,7 @@ GN_HOT int gn_punctual_at(const gn_frame *frame, const gn_light_state *light, co
     if (light->kind == GN_LIGHT_SPOT) {
         /* against the axis towards the light: the ratio of light-plane distance to distance */
         int32_t along = gn_sat32(-gn_dot_q30(from_light_q16, light->to_light_q30));
-        if (along > 0) out->beyond_q30 = gn_punctual_cosine_q30(out, along) - light->cos_outer_q30;
+        out->beyond_q30 = along > 0 ? gn_punctual_cosine_q30(out, along) - light->cos_outer_q30 : -GN_ONE_Q30;
         uint32_t angle = angle_q30(light, out->beyond_q30);
         out->within_inner = angle == GN_ONE_Q30;
         out->factor_q30 = (uint32_t)gn_mul_q30((int32_t)out->factor_q30, (int32_t)angle);

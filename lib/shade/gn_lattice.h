@@ -293,12 +293,18 @@ GN_HOT static inline int32_t gn_cell_fade_log2(const gn_frame *frame)
     return GN_K(frame, persp_step) == 16 ? 3 : GN_K(frame, persp_step) == 8 ? 4 : 5;
 }
 
-/* Of strengths of shadows at corners: 1: they do not fade; -1: they begin or end to, and change by more than the
+/* Of strengths of shadows at n corners: 1: they do not fade; -1: they begin or end to, and change by more than the
  * tolerance: nothing linear is near; 0: on a ramp. */
-GN_HOT static inline int gn_cell_fading(const gn_frame *frame, uint32_t least_uq16, uint32_t most_uq16)
+GN_HOT static inline int gn_cell_fading(const gn_frame *frame, const uint32_t *strength_uq16, int n)
 {
-    if (least_uq16 == 65536) return 1;
-    return (!least_uq16 || most_uq16 == 65536) && most_uq16 - least_uq16 > 65536U >> gn_cell_fade_log2(frame) ? -1 : 0;
+    uint32_t least = 65536, most = 0;
+    GN_UNROLL
+    for (int i = 0; i < n; i++) {
+        least = strength_uq16[i] < least ? strength_uq16[i] : least;
+        most = strength_uq16[i] > most ? strength_uq16[i] : most;
+    }
+    if (least == 65536) return 1;
+    return (!least || most == 65536) && most - least > 65536U >> gn_cell_fade_log2(frame) ? -1 : 0;
 }
 
 /* Cells of this size are not split any more, unless they have no corners. */

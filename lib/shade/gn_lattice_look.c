@@ -331,19 +331,6 @@ GN_HOT static int is_even(const gn_lattice_cell *cell)
     return cell->kink_q24 << log2 <= most - (most >> 2); /* rims and ends are seen sooner */
 }
 
-/* Whether shadows fade in the cell: gn_cell_fading(). */
-GN_HOT static int fading_of(const gn_frame *frame, gn_corner *const corner[4])
-{
-    uint32_t least = 65536, most = 0;
-    GN_UNROLL
-    for (int i = 0; i < 4; i++) {
-        uint32_t g = corner[i]->g_uq16;
-        least = g < least ? g : least;
-        most = g > most ? g : most;
-    }
-    return gn_cell_fading(frame, least, most);
-}
-
 /* Returns 0 if the cell is too steep or its textures too uneven. */
 GN_HOT static GN_NOINLINE int begin_look(gn_lattice *lattice, const gn_frame *frame, const gn_surface *surface,
                                          int32_t size_log2)
@@ -354,7 +341,8 @@ GN_HOT static GN_NOINLINE int begin_look(gn_lattice *lattice, const gn_frame *fr
     lattice->by.look.ask = (gn_wanted_window){-1, 0, 0};
     *cell = (gn_lattice_cell){lattice, frame, surface, corner, size_log2, {0, 0}, 1, 0, 0, 0, look};
     if (!gn_cell_find_bend(cell) || !gn_cell_textures_hold(cell) || !gn_cell_masks_hold(cell)) return 0;
-    if (surface->n_lights) cell->near = fading_of(frame, corner);
+    const uint32_t g_uq16[4] = {corner[0]->g_uq16, corner[1]->g_uq16, corner[2]->g_uq16, corner[3]->g_uq16};
+    if (surface->n_lights) cell->near = gn_cell_fading(frame, g_uq16, 4);
 #if GN_SHADOWS
     if (!cell->near && size_log2 > gn_cell_finest_log2(frame) && gn_cell_ramp_bends(cell)) cell->near = -1;
 #endif

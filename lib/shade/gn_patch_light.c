@@ -205,20 +205,23 @@ GN_HOT static void sun_irradiance(const gn_shading *s, const gn_light_state *lig
 }
 
 #if GN_PUNCTUAL_LIGHTS
-/* Whether no point of a triangle is brighter than linear between its corners by a cone's rim: it lies outside, or
- * changes little. A point is within a third of the longest side's square of a corner, and so many cosines beyond it. */
+/* Whether a cone's rim leaves light linear: all of the triangle lies outside, or little of the rim in it. Squares of
+ * its longest side, and of a corner's least distance from the light, 5 sides or more. Each point is within far of a
+ * corner, far^2 a third of the side's square; over its distance, by so much its cosine is beyond the corner's at most,
+ * and a 700th of that. beyond: the largest at a corner. */
 GN_HOT static int cone_is_even(const gn_light_state *light, uint64_t longest, uint64_t nearest, int32_t beyond_q30)
 {
     const int32_t down = gn_max32(32 - gn_clz64(nearest), 0);
-    const int32_t far2_q30 =
-        (int32_t)gn_quotient_q30((uint32_t)(longest >> down), (uint32_t)(nearest >> down)) / 3 + 2; /* 2^30 / 96 */
+    int32_t far2_q30 = (int32_t)gn_quotient_q30((uint32_t)(longest >> down), (uint32_t)(nearest >> down)) / 3;
+    far2_q30 += (far2_q30 >> 8) + 2; /* below 2^24 */
     if (beyond_q30 < 0 && (int64_t)beyond_q30 * beyond_q30 >> 30 > far2_q30) return 1;
-    const int64_t share = gn_bf_apply(gn_bf_apply(far2_q30, light->angle_scale, 30), light->angle_scale, 30);
-    return share <= 1 << 24; /* an eighth of the rim, squared */
+    const int64_t share2_q30 = gn_bf_apply(gn_bf_apply(far2_q30, light->angle_scale, 30), light->angle_scale, 30);
+    return share2_q30 <= 1 << 22; /* a 16th of the rim */
 }
 
 /* Whether light that is linear between the corners is close enough: the triangle is small beside the light's distance,
- * and neither range nor cone ends near it. `spot`: NULL: none, or all of it lies within the inner cone. */
+ * and neither range nor cone ends near it. `spot`: NULL: none, or the corners lie all within the inner cone, or all out
+ * of range, from where less than a 2000th arrives in between. */
 GN_HOT static int lamp_is_even(const int32_t from[3][3], const int32_t e_q24[3], const gn_light_state *spot,
                                int32_t beyond_q30)
 {
@@ -258,11 +261,12 @@ GN_HOT static int lamp_irradiance(gn_shading *s, const gn_light_state *light, co
         e_q24[k] = 0;
     }
     if (!(facing[0] | facing[1] | facing[2])) return 1;
-    int32_t within = 1, beyond_q30 = INT32_MIN;
+    int32_t within = 1, outside = 1, beyond_q30 = INT32_MIN;
     for (int k = 0; k < 3; k++) {
         gn_punctual_point point;
         const int arrives = gn_punctual_at(s->frame, light, from[k], &point);
         within &= point.within_inner;
+        outside &= point.beyond_q30 == INT32_MAX;
         beyond_q30 = gn_max32(beyond_q30, point.beyond_q30);
         if (!facing[k] || !arrives) continue;
         GN_COUNT(lights_punctual, 1);
@@ -270,8 +274,8 @@ GN_HOT static int lamp_irradiance(gn_shading *s, const gn_light_state *light, co
         e_q24[k] = (int32_t)gn_punctual_irradiance_q24(&point, cosine);
         if (e_q24[k] > 1 << 27) return 0;
     }
-    return lamp_is_even((const int32_t(*)[3])from, e_q24, light->kind == GN_LIGHT_SPOT && !within ? light : NULL,
-                        beyond_q30);
+    const int rim = light->kind == GN_LIGHT_SPOT && !within && !outside;
+    return lamp_is_even((const int32_t(*)[3])from, e_q24, rim ? light : NULL, beyond_q30);
 }
 #endif
 

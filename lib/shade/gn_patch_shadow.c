@@ -77,16 +77,12 @@ GN_HOT static int find_patch_reach(gn_shading *s)
     if (p->shared->coarse) return 0;
     if (frame->scene->shadow.distance_mode == GN_DISTANCE_RADIUS || frame->tan2_q24 >> 26) return 0; /* tan < 2 */
     gn_record_find_depths(&p->record, frame);
-    int32_t of[3];
-    for (int k = 0; k < 3; k++) {
-        p->strength_uq16[k] = gn_shadow_distance_fade(frame, gn_record_depth(&p->record, k));
-        of[k] = (int32_t)p->strength_uq16[k];
-    }
-    if (gn_cell_fading(frame, (uint32_t)gn_min32(gn_min32(of[0], of[1]), of[2]),
-                       (uint32_t)gn_max32(gn_max32(of[0], of[1]), of[2])) < 0)
-        return 0;
+    uint32_t any = 0;
+    for (int k = 0; k < 3; k++)
+        any |= p->strength_uq16[k] = gn_shadow_distance_fade(frame, gn_record_depth(&p->record, k));
+    if (gn_cell_fading(frame, p->strength_uq16, 3) < 0) return 0;
     p->cascade = 0;
-    for (int k = 0; k < 3 && frame->has_cascades && (of[0] | of[1] | of[2]); k++) {
+    for (int k = 0; k < 3 && frame->has_cascades && any; k++) {
         int fades = 0;
         if (gn_record_depth(&p->record, k) >> p->shared->sphere_down >> 21)
             return 0; /* many times as far as the spheres reach */
