@@ -293,16 +293,16 @@ GN_HOT static void texture_at(const gn_surface *s, const corner_point *p, int32_
 }
 #endif
 
+/* Baked light is below 0 at corners outside of the triangle where it has to be, for what is between. */
 GN_HOT static void attributes_at(const gn_surface *s, const corner_point *p, gn_corner *c)
 {
     for (int i = 0; i < 3; i++) {
-        uint32_t q20 = s->base_q20[i]; /* < 2^28 */
+        int32_t q20 = (int32_t)s->base_q20[i]; /* < 2^28 */
         if (GN_BAKED_LIGHT && s->baked) {
-            uint64_t baked =
-                (uint64_t)s->albedo_uq16[i] * (uint32_t)gn_max32(attribute(s, p, GN_ATTRIBUTE_BAKED + i), 0) >> 12;
-            q20 = baked > 1U << 23 ? 1U << 23 : q20 + (uint32_t)baked;
+            const int64_t baked = (int64_t)s->albedo_uq16[i] * attribute(s, p, GN_ATTRIBUTE_BAKED + i) >> 12;
+            q20 += (int32_t)gn_clamp64(baked, -(1 << 23), 1 << 23);
         }
-        c->base_q24[i] = (int32_t)(q20 > 1U << 23 ? 1U << 23 : q20) << 4;
+        c->base_q24[i] = gn_min32(q20, 1 << 23) * 16;
 #if GN_VERTEX_COLOURS
         if (GN_COLOURED(s)) c->tint_q16[i] = attribute(s, p, GN_ATTRIBUTE_RGB + i);
 #endif
@@ -317,12 +317,14 @@ GN_HOT static void attributes_at(const gn_surface *s, const corner_point *p, gn_
 }
 
 #if GN_MASKS
-GN_HOT static uint32_t mask_at(const gn_surface *s, const corner_point *p, const gn_corner *c, int32_t channel)
+/* Beyond 0 and 1 at corners outside of the triangle. */
+GN_HOT static int32_t mask_at(const gn_surface *s, const corner_point *p, const gn_corner *c, int32_t channel)
 {
     if (!s->masked || channel < 0) return 65536;
     if (s->object->mask_image)
-        return gn_texture_mask(s->object->mask_image, c->mask_uv_uq16[0], c->mask_uv_uq16[1], (uint32_t)channel);
-    return (uint32_t)gn_max32(0, gn_min32(attribute(s, p, GN_ATTRIBUTE_MASK + channel), 65536));
+        return (int32_t)gn_texture_mask(s->object->mask_image, c->mask_uv_uq16[0], c->mask_uv_uq16[1],
+                                        (uint32_t)channel);
+    return attribute(s, p, GN_ATTRIBUTE_MASK + channel);
 }
 #endif
 
@@ -413,7 +415,7 @@ GN_HOT static void light_at(const gn_lattice *l, const gn_frame *frame, const gn
     (void)l;
     if (GN_RAW_VIEWS && frame->picture.format == GN_FORMAT_RAW32) at->irradiance_q24 = at->arrives > 0 ? 1 << 24 : 0;
 #if GN_MASKS
-    at->mask_uq16 = l->light[slot].masked || c->g_uq16 != 65536 ? mask_at(s, p, c, light->state->mask_channel) : 65536;
+    at->mask_q16 = l->light[slot].masked || c->g_uq16 != 65536 ? mask_at(s, p, c, light->state->mask_channel) : 65536;
 #endif
 #if GN_SHADOWS
     at->placed = GN_VIEW_NONE;

@@ -287,7 +287,7 @@ GN_HOT static GN_NOINLINE uint32_t share_of(gn_shading *s, gn_corner *c, uint32_
     const gn_light_state *light = s->surface.light[slot].state;
     uint32_t mask = 65536;
 #if GN_MASKS
-    mask = c->light[slot].mask_uq16;
+    mask = gn_corner_mask_uq16(&c->light[slot]);
 #endif
     if (!(s->surface.shadowed | s->surface.masked)) return 65536;
     if (!s->surface.shadowed || !gn_shadow_is_realtime(light, c->g_uq16)) return gn_shadow_baked(light, mask);
@@ -300,7 +300,7 @@ GN_HOT static inline int light_corner(gn_shading *s, gn_corner *c, int32_t sum_q
     const gn_surface *surface = &s->surface;
     const int dims = surface->textured | GN_COLOURED(surface);
     if (surface->shadowed && is_blended(s->frame, c)) return 0;
-    for (int i = 0; i < 3; i++) sum_q24[i] = c->base_q24[i];
+    for (int i = 0; i < 3; i++) sum_q24[i] = gn_max32(c->base_q24[i], 0);
     if (dims && (sum_q24[0] | sum_q24[1] | sum_q24[2]) >> 27) return 0;
     for (uint32_t slot = 0; slot < surface->n_lights; slot++) {
         const uint32_t *colour = surface->light[slot].radiance_uq16;

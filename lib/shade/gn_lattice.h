@@ -394,6 +394,7 @@ int gn_cell_find_bend(gn_lattice_cell *cell);
 /* Whether texture coordinates may be interpolated; the same of a mask image: a corner per texel. */
 int gn_cell_textures_hold(const gn_lattice_cell *cell);
 int gn_cell_masks_hold(const gn_lattice_cell *cell);
+int gn_cell_normals_hold(const gn_lattice_cell *cell);
 
 /* By how much the square of a distance is off between the corners: a quarter of the squares of the cell's sides. */
 uint64_t gn_cell_bend2_q32(const gn_lattice_cell *cell);

@@ -165,7 +165,7 @@ GN_HOT int gn_cell_masks_hold(const gn_lattice_cell *cell)
         least[i] = gn_min32(gn_min32(a, b), gn_min32(d, e));
         most[i] = gn_max32(gn_max32(a, b), gn_max32(d, e));
         uint32_t change = (uint32_t)most[i] - (uint32_t)least[i];
-        holds &= change * gn_texture_size(image, i) <= 65536;
+        holds &= change * gn_texture_size(image, i) <= 16384;
     }
     return holds || gn_texture_mask_is_even(image, least, most);
 #else
@@ -235,6 +235,13 @@ GN_HOT static uint32_t turn_q12(const gn_lattice_cell *cell)
     return 0;
 }
 
+/* Whether normals turn by so little that light between the corners is near to theirs, whatever size the cell has: up to
+ * 7/8 radians. A cell can be larger than a triangle, whose normals at corners outside it have turned further. */
+GN_HOT int gn_cell_normals_hold(const gn_lattice_cell *cell)
+{
+    return !cell->s->n_lights || turn_q12(cell) <= 7U << 9; /* else corners have none */
+}
+
 #if GN_PUNCTUAL_LIGHTS
 /* Once per cell, the same for all lights: squares of its longest sides along rows and down columns, a quarter of their
  * sum. Rays are below 2^30. */
@@ -286,6 +293,20 @@ GN_HOT static void find_distance(gn_lattice_cell *cell, const gn_light_state *li
         if (square > d->farthest_q32) d->farthest_q32 = square;
     }
     d->is_far = sides_q30(cell) < d->nearest_q32 >> 4 && !(d->nearest_q32 >> 62);
+}
+
+/* Whether a light is so near that it may be much brighter between the corners. */
+GN_HOT static int light_is_near(const gn_lattice_cell *cell, const light_distance *d)
+{
+    return cell->sides_q30 >= d->nearest_q32 >> 2;
+}
+
+/* The same by one corner, which is at most the cell's diagonal farther: (2 + root 8)^2. */
+GN_HOT static int light_may_be_near(gn_lattice_cell *cell, const gn_light_state *light)
+{
+    int32_t p[3];
+    gn_corner_from(cell->corner[0], light, p);
+    return gn_corner_distance2_q32(p) >> 5 < sides_q30(cell);
 }
 
 /* How much a light bends over its distance, K of NUMERICS 4.12, Q8. */
@@ -392,11 +413,18 @@ GN_HOT GN_NOINLINE int gn_cell_stays_dark(gn_lattice_cell *cell, uint32_t slot)
     return 1;
 }
 
-/* The most that a light can give in the cell where its cone is full: by the distance alone, a power of two. */
+/* The most that a light can give in the cell where its cone is full: by the distance alone, a power of two. Of a plane
+ * nothing is nearer than the light is high above it. */
 GN_HOT static uint32_t full_light_q24(const gn_lattice_cell *cell, const gn_light_state *light, const light_distance *d)
 {
     uint64_t nearer = 3 * cell->sides_q30, least = cell->frame->min2_q32;
     if (d->nearest_q32 > nearer && d->nearest_q32 - nearer > least) least = d->nearest_q32 - nearer;
+    if (!GN_SMOOTH(cell->s)) {
+        int32_t p[3];
+        gn_corner_from(cell->corner[0], light, p);
+        uint64_t height = gn_abs64(gn_dot_q30(cell->s->normal_q30[0], p));
+        if (height * height > least) least = height * height;
+    }
     return 1U << gn_max32(gn_min32(gn_clz64(least) - 7 + light->colour_exp, 27), 0);
 }
 
@@ -450,8 +478,7 @@ GN_HOT uint32_t gn_cell_unevenness_q24(gn_lattice_cell *cell, uint32_t slot, int
     if (asked) bend = turn > 1 << 12 ? 1U << 30 : turn * turn << 6;
 #if GN_PUNCTUAL_LIGHTS
     int ends = light->kind == GN_LIGHT_SPOT && lo < 32;
-    int edge_on = cell->bend_q16[0] + cell->bend_q16[1] >= 1U << 11;
-    if (light->kind != GN_LIGHT_DIRECTIONAL && (ends || asked || edge_on)) {
+    if (light->kind != GN_LIGHT_DIRECTIONAL && (ends || asked || light_may_be_near(cell, light))) {
         light_distance d;
         find_distance(cell, light, &d);
         if (asked) bend = bend_q30(cell, light, &d);
@@ -462,7 +489,8 @@ GN_HOT uint32_t gn_cell_unevenness_q24(gn_lattice_cell *cell, uint32_t slot, int
             uint32_t unit = top > 1 ? (uint32_t)most_q24 / (top * top) : full_light_q24(cell, light, &d) >> 10;
             kink += 2 * rim_error_q24(light, lo, hi, unit, change, size2_q24(cell, &d));
         }
-        if (edge_on && cell->sides_q30 >= d.nearest_q32 >> 2) kink += 4 * (uint32_t)most_q24; /* it hides more */
+        if (light_is_near(cell, &d))
+            kink += full_light_q24(cell, light, &d); /* corners need not see how bright it is */
     }
 #endif
     (void)hi;

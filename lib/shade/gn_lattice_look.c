@@ -43,7 +43,12 @@ GN_HOT static int find_highlight(const gn_lattice_cell *cell, uint32_t slot, gn_
     if (!highlight_holds(cell, slot, &any)) return 0;
     if (!any) return 1;
     if (cell->s->textured) return 0; /* the texture does not tint it */
-    for (int i = 0; i < 4; i++) out->highlight_q24[i] = cell->corner[i]->light[slot].highlight_q24;
+    int lit = 0;
+    for (int i = 0; i < 4; i++) {
+        lit += cell->corner[i]->light[slot].irradiance_q24 > 0;
+        out->highlight_q24[i] = cell->corner[i]->light[slot].highlight_q24;
+    }
+    if (lit < 4) return 0; /* what faces away has no highlight */
     for (int j = 0; j < 3; j++)
         out->shine_uq16[j] = gn_mul_uq16(cell->s->light[slot].state->colour_uq16[j], cell->s->object->specular_uq16[j]);
 #else
@@ -51,6 +56,8 @@ GN_HOT static int find_highlight(const gn_lattice_cell *cell, uint32_t slot, gn_
 #endif
     return 1;
 }
+
+enum { MASK_BEYOND = 65536 >> 4 }; /* where masks end at 0 and 1 they bend what is between */
 
 /* What is left of a light at the corners. Returns whether a realtime shadow is part of that, -1 if the cell is to be
  * split: a mask that limits the shadow bends it, and at a radius it ends at once. */
@@ -71,7 +78,9 @@ GN_HOT static GN_NOINLINE int find_shares(const gn_lattice_cell *cell, uint32_t 
     for (int i = 0; i < 4; i++) {
         uint32_t g = cell->corner[i]->g_uq16, mask = 65536, lit = 65536, dark = 0;
 #if GN_MASKS
-        mask = cell->corner[i]->light[slot].mask_uq16;
+        const gn_corner_light *at = &cell->corner[i]->light[slot];
+        if (at->mask_q16 < -MASK_BEYOND || at->mask_q16 > 65536 + MASK_BEYOND) return -1;
+        mask = gn_corner_mask_uq16(at);
 #endif
         const uint32_t of[2] = {mask, g};
         for (int k = 0; k < 2; k++) {
@@ -185,7 +194,7 @@ GN_HOT static int products_hold(const gn_lattice_cell *cell)
 
 /* Whether all that a light adds is less than half a step of the picture: what shadows it, and how uneven it is, cannot
  * be seen. Of a channel of 6 bits half a step is 1/32 or more of what is there, up to 1/4, and of black 2^-11. A cone
- * may be brighter between corners in its rim. */
+ * may be brighter between corners in its rim, and what is near to a lamp anywhere. */
 GN_HOT static GN_NOINLINE int is_faint(gn_lattice_cell *cell, uint32_t slot, int32_t least_q24, int32_t most_q24)
 {
     const gn_lattice_look *look = cell->out;
@@ -198,7 +207,7 @@ GN_HOT static GN_NOINLINE int is_faint(gn_lattice_cell *cell, uint32_t slot, int
     for (int i = 0; i < 4; i++) least = gn_min32(least, gn_min32(c[i][0], gn_min32(c[i][1], c[i][2])));
     least = gn_max32(1 << 13, least >> 5);
     if (gn_corner_times(strongest, most_q24) >= least) return 0;
-    if (!GN_PUNCTUAL_LIGHTS || light->state->kind != GN_LIGHT_SPOT) return 1;
+    if (!GN_PUNCTUAL_LIGHTS || light->state->kind == GN_LIGHT_DIRECTIONAL) return 1;
     gn_cell_unevenness_q24(cell, slot, least_q24, most_q24, &kink);
     return gn_corner_times(strongest, kink >> 27 ? 1 << 27 : (int32_t)kink) < least;
 }
@@ -224,10 +233,27 @@ GN_HOT static int limit_is_seen(const uint32_t colour_uq16[3], const gn_contribu
     return 0;
 }
 
+/* How much a unit of a light's irradiance adds to the strongest channel, with its highlight. */
+GN_HOT static uint32_t strongest_uq16(const gn_lattice_cell *cell, uint32_t slot, int32_t most_q24)
+{
+    uint32_t of = gn_cell_strongest(cell->s->light[slot].radiance_uq16);
+#if GN_SPECULAR
+    const gn_contribution *light = &cell->lattice->by.look.light;
+    const int32_t *h = light->highlight_q24;
+    uint32_t brightest = (uint32_t)gn_max32(gn_max32(h[0], h[1]), gn_max32(h[2], h[3]));
+    if (brightest) {
+        uint64_t shine = (uint64_t)gn_cell_strongest(light->shine_uq16) * brightest / (uint32_t)most_q24;
+        of += shine >> 24 ? 1U << 24 : (uint32_t)shine;
+    }
+#endif
+    (void)most_q24;
+    return of;
+}
+
 /* Adds what interpolated light is off by. */
 GN_HOT static GN_NOINLINE void add_error(gn_lattice_cell *cell, uint32_t slot, int32_t least_q24, int32_t most_q24)
 {
-    uint32_t kink, strongest = gn_cell_strongest(cell->s->light[slot].radiance_uq16);
+    uint32_t kink, strongest = strongest_uq16(cell, slot, most_q24);
     uint32_t error = gn_cell_unevenness_q24(cell, slot, least_q24, most_q24, &kink);
     int32_t log2 = gn_cell_light_log2(cell->frame); /* where it arrives it is part of the light itself */
     if ((uint64_t)error << log2 > (uint32_t)least_q24) cell->error_q24 += (uint64_t)strongest * error >> 16;
@@ -269,10 +295,11 @@ GN_HOT static int add_light(gn_lattice_cell *cell, uint32_t slot)
     return 1;
 }
 
-#if GN_VERTEX_COLOURS
-/* Whether the vertices' colours, which perspective bends, are close enough to bilinear, in each channel. */
+/* Whether the vertices' colours and baked light, which perspective bends, are close enough to bilinear, in each
+ * channel. */
 GN_HOT static int colours_hold(const gn_lattice_cell *cell)
 {
+    if (!GN_COLOURED(cell->s) && !(GN_BAKED_LIGHT && cell->s->baked)) return 1;
     const gn_lattice_look *look = cell->out;
     for (int j = 0; j < 3; j++) {
         int32_t at[4];
@@ -286,7 +313,6 @@ GN_HOT static int colours_hold(const gn_lattice_cell *cell)
     }
     return 1;
 }
-#endif
 
 /* Times the vertices' colours, with highlights; limits it. Returns 0 where the limit hides how bright the rest is, or
  * perspective bends it. */
@@ -296,7 +322,7 @@ GN_HOT static int finish_colours(const gn_lattice_cell *cell)
     uint32_t all = 0;
     for (int i = 0; i < 4; i++)
         all |= (uint32_t)(cell->out->colour_q24[i][0] | cell->out->colour_q24[i][1] | cell->out->colour_q24[i][2]);
-    if (!GN_COLOURED(cell->s) && !cell->s->specular && all < 1U << 27) return 1;
+    if (!GN_COLOURED(cell->s) && !cell->s->specular && all < 1U << 27) return colours_hold(cell);
     if (!products_hold(cell)) return 0;
     for (int i = 0; i < 4; i++)
         for (int j = 0; j < 3; j++) {
@@ -311,10 +337,7 @@ GN_HOT static int finish_colours(const gn_lattice_cell *cell)
             dim |= product < 1 << 24;
             *colour = (int32_t)gn_clamp64(product, -(1 << 27), 1 << 27);
         }
-#if GN_VERTEX_COLOURS
-    if (GN_COLOURED(cell->s) && !colours_hold(cell)) return 0;
-#endif
-    return !(limited & dim);
+    return colours_hold(cell) && !(limited & dim);
 }
 
 /* Whether the interpolated light is close enough, as a share of the least that there is. */
@@ -331,7 +354,7 @@ GN_HOT static int is_even(const gn_lattice_cell *cell)
     return cell->kink_q24 << log2 <= most - (most >> 2); /* rims and ends are seen sooner */
 }
 
-/* Returns 0 if the cell is too steep or its textures too uneven. */
+/* Returns 0 if the cell is too steep, its normals turn too far or its textures are too uneven. */
 GN_HOT static GN_NOINLINE int begin_look(gn_lattice *lattice, const gn_frame *frame, const gn_surface *surface,
                                          int32_t size_log2)
 {
@@ -340,7 +363,9 @@ GN_HOT static GN_NOINLINE int begin_look(gn_lattice *lattice, const gn_frame *fr
     gn_lattice_cell *cell = &lattice->by.look.cell;
     lattice->by.look.ask = (gn_wanted_window){-1, 0, 0};
     *cell = (gn_lattice_cell){lattice, frame, surface, corner, size_log2, {0, 0}, 1, 0, 0, 0, look};
-    if (!gn_cell_find_bend(cell) || !gn_cell_textures_hold(cell) || !gn_cell_masks_hold(cell)) return 0;
+    if (!gn_cell_find_bend(cell) || !gn_cell_normals_hold(cell) || !gn_cell_textures_hold(cell) ||
+        !gn_cell_masks_hold(cell))
+        return 0;
     const uint32_t g_uq16[4] = {corner[0]->g_uq16, corner[1]->g_uq16, corner[2]->g_uq16, corner[3]->g_uq16};
     if (surface->n_lights) cell->near = gn_cell_fading(frame, g_uq16, 4);
 #if GN_SHADOWS

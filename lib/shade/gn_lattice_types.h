@@ -18,7 +18,7 @@ typedef struct {
 typedef struct {
     int32_t irradiance_q24; /* of a light whose colour is 1, before shadows; at most 2^27 */
 #if GN_MASKS
-    uint32_t mask_uq16;
+    int32_t mask_q16; /* beyond 0 and 1 at corners outside of the triangle */
 #endif
 #if GN_SHADOWS
     int32_t u_q16, v_q16, depth_q30;

@@ -109,7 +109,19 @@ static void test_cones(void)
 }
 
 #if GN_VERTEX_NORMALS
-/* An octahedron with the normals of a ball, some pixels large: vertex_light is of suns alone. */
+/* How far cells of an octahedron that is shaded as a ball are off, if not farther than `worst`. */
+static double cells_off(int32_t step, double worst)
+{
+    canvas exact, cells;
+    if (!draw(&exact, 1, 0) || !draw(&cells, step, 0)) return worst;
+    for (int i = 0; i < W * H; i++)
+        worst = fmax(worst, fabs(light_of(exact.pixels[3 * i]) - light_of(cells.pixels[3 * i])));
+    canvas_end(&exact), canvas_end(&cells);
+    return worst;
+}
+
+/* An octahedron with the normals of a ball. Some pixels large: vertex_light is of suns alone. And of any size, in cells
+ * that are larger than its triangles: NUMERICS 4.12. */
 static void test_normals(void)
 {
     static const int32_t pos[18] = {65536, 0, 0, -65536, 0, 0, 0, 65536, 0, 0, -65536, 0, 0, 0, 65536, 0, 0, -65536};
@@ -128,6 +140,21 @@ static void test_normals(void)
     printf("normals: %ld patches, %ld lit pixels; off by %.4f\n", f.n_patches, f.n_lit, f.worst);
     CHECK(f.n_lit > 50);
     CHECK(f.worst < 0.1);
+    double worst = 0;
+    static const gn_light_kind kinds[3] = {GN_LIGHT_SPOT, GN_LIGHT_POINT, GN_LIGHT_DIRECTIONAL};
+    for (int i = 0; i < 3; i++) {
+        light->kind = kinds[i];
+        if (light->kind == GN_LIGHT_DIRECTIONAL) {
+            light->colour_exp = 0;
+            for (int k = 0; k < 3; k++) light->colour_uq16[k] = 65536;
+        }
+        for (int32_t z = GN_Q16(3); z < GN_Q16(30); z += z >> 2) {
+            ls_look(&ls, z / 6, z / 3, z);
+            for (int32_t step = 4; step <= 16; step *= 2) worst = cells_off(step, worst);
+        }
+    }
+    printf("normals in cells: off by %.4f\n", worst);
+    CHECK(worst < 0.1);
 }
 #else
 static void test_normals(void)

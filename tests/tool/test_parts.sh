@@ -81,6 +81,12 @@ info docs/scenes/edge.gltf --size 96x64 --set atlas_size=256 --set fit=stable --
 holds "RAM of parts" "$(part RP2040 ram_bytes) > 131072 && $(part STM32F103 ram_bytes) > $(part STM32F103 ram_of)"
 [ "$(part STM32F103 fits)" = false ] && [ "$(part STM32H743 fits)" = true ] && pass || fail "fits: F103 $(part STM32F103 fits), H743 $(part STM32H743 fits)"
 
+# compact arithmetic counts nothing: no speed rather than the panel's
+info host/scenes/sundial.gltf --size 64x48 --set compact=1
+grep -q 'how fast compact arithmetic draws is not estimated' "$tmp/out" && grep -q '^    STM32H743 .* 480  *-  *-  *-  .* fits$' "$tmp/out" && pass || fail "compact arithmetic: $(grep H743 "$tmp/out")"
+info host/scenes/sundial.gltf --size 64x48 --set compact=1 --json
+grep -q '"fps": {}' "$tmp/out" && ! grep -q -e '"first": ' -e '"work"' "$tmp/out" && pass || fail "compact arithmetic, --json: $(tail -c 300 "$tmp/out")"
+
 # what cannot be compiled says why, and what is no scene is an error of one line
 info host/scenes/cube.gltf --size 32x24 --frames 0-20001
 grep -q '^  on parts: .*more than 20000' "$tmp/out" && pass || fail "too many frames: $(grep 'on parts' "$tmp/out")"

@@ -61,11 +61,12 @@ void info_parts_find(info_parts *out, const tool_options *o, int n_frames)
         snprintf(out->refused, sizeof out->refused, "%.150s", error);
         return;
     }
-    if (compile_count_work(&c, out->work))
+    out->counted = !c.set.build.compact;
+    if (out->counted && compile_count_work(&c, out->work))
         snprintf(out->refused, sizeof out->refused, "a frame of the compiled scene is refused");
     for (int i = 0; !out->refused[0] && i < PARTS; i++) {
         judge(&out->part[i], &c, &parts[i]);
-        find_speed(&out->part[i], out, &c, &parts[i]);
+        if (out->counted) find_speed(&out->part[i], out, &c, &parts[i]);
     }
     compile_free(&c);
 }
@@ -74,7 +75,7 @@ void info_parts_find(info_parts *out, const tool_options *o, int n_frames)
 
 static void text_fps(const info_parts *all, const info_part *p, int frame)
 {
-    if (frame == COMPILE_ANIMATED && !all->moves) printf(" %8s ", "-");
+    if (!all->counted || (frame == COMPILE_ANIMATED && !all->moves)) printf(" %8s ", "-");
     else if (all->work[frame].idle) printf(" %8s ", "idle");
     else printf(" %8.3g%c", p->fps[frame], p->by_panel[frame] ? 'p' : ' ');
 }
@@ -100,9 +101,11 @@ void info_parts_text(const info_parts *p)
         printf("  on parts: %s\n", p->refused);
         return;
     }
-    printf("  frames per second with -O2, an estimate: nine in ten are within %d %% (docs/COST.md); p: the panel takes "
-           "longer; idle: nothing is drawn:\n",
-           cost_error_percent);
+    if (!p->counted) printf("  RAM and flash with -O2; how fast compact arithmetic draws is not estimated:\n");
+    else
+        printf("  frames per second with -O2, an estimate: nine in ten are within %d %% (docs/COST.md); p: the panel "
+               "takes longer; idle: nothing is drawn:\n",
+               cost_error_percent);
     printf("    part           core        MHz       first  animated     still    RAM, KB        flash, KB\n");
     for (int i = 0; i < PARTS; i++) text_part(p, i);
 }
@@ -118,7 +121,7 @@ static void json_part(const info_parts *all, int i)
            p->n_cores);
     const char *gap = "";
     for (int frame = 0; frame < COMPILE_WORKS; frame++) {
-        if ((frame == COMPILE_ANIMATED && !all->moves) || all->work[frame].idle) continue;
+        if (!all->counted || (frame == COMPILE_ANIMATED && !all->moves) || all->work[frame].idle) continue;
         printf("%s\"%s\": %.4g", gap, frame_names[frame], p->fps[frame]);
         gap = ", ";
     }
@@ -153,7 +156,9 @@ void info_parts_json(const info_parts *p)
     }
     printf(", \"error_percent\": %d, \"parts\": [", cost_error_percent);
     for (int i = 0; i < PARTS; i++) json_part(p, i);
-    printf("], \"work\": {");
+    printf("]");
+    if (!p->counted) return;
+    printf(", \"work\": {");
     for (int frame = 0; frame < COMPILE_WORKS; frame++) json_work(&p->work[frame], frame);
     printf("}");
 }

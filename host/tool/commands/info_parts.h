@@ -16,6 +16,7 @@ typedef struct {
 typedef struct {
     info_part part[PARTS];
     compile_work work[COMPILE_WORKS];
+    bool counted;      /* compact arithmetic counts nothing: there are no frames per second */
     bool moves;        /* else there is no animated frame */
     char refused[160]; /* why the scene cannot be compiled; empty: it can */
 } info_parts;
