@@ -391,7 +391,8 @@ GN_HOT static inline int gn_cell_row_bends_by_less(const uint32_t change[2], con
 /* Returns 0 if the cell is seen so steeply that nothing is close to bilinear. */
 int gn_cell_find_bend(gn_lattice_cell *cell);
 
-/* Whether texture coordinates may be interpolated; the same of a mask image: a corner per texel. */
+/* Whether texture coordinates may be interpolated; the same of a mask image: four corners per texel. Whether normals
+ * turn by little enough. */
 int gn_cell_textures_hold(const gn_lattice_cell *cell);
 int gn_cell_masks_hold(const gn_lattice_cell *cell);
 int gn_cell_normals_hold(const gn_lattice_cell *cell);

@@ -150,7 +150,7 @@ GN_HOT int gn_cell_textures_hold(const gn_lattice_cell *cell)
     return cell->out->texture_bends < 4;
 }
 
-/* Whether a mask image may be interpolated: it is the same all over the cell, or has a corner per texel. */
+/* Whether a mask image may be interpolated: it is the same all over the cell, or has four corners per texel. */
 GN_HOT int gn_cell_masks_hold(const gn_lattice_cell *cell)
 {
     gn_corner *const *c = cell->corner;
@@ -301,7 +301,7 @@ GN_HOT static int light_is_near(const gn_lattice_cell *cell, const light_distanc
     return cell->sides_q30 >= d->nearest_q32 >> 2;
 }
 
-/* The same by one corner, which is at most the cell's diagonal farther: (2 + root 8)^2. */
+/* Whether it may be, by one corner, which is at most the cell's diagonal farther away: less than 24 times the sides. */
 GN_HOT static int light_may_be_near(gn_lattice_cell *cell, const gn_light_state *light)
 {
     int32_t p[3];

@@ -49,7 +49,7 @@ measure() {
 }
 
 # counts FRAME: of the tool's JSON in $DIR/info, until the screen tiles and in them
-counts() { grep -o "\"$1\": {\"instructions\": [0-9]*, \"prepare\": {[^}]*}, \"tiles\": {[^}]*}" "$DIR/info" | sed 's/^[^{]*{[^{]*{//; s/"[a-z0-9_]*": //g; s/[^0-9]\{1,\}/ /g'; }
+counts() { sed -n "s/.*\"$1\": {\"instructions\": [0-9]*, \"sent\": [^,]*, \(\"prepare\": {[^}]*}, \"tiles\": {[^}]*}\)}.*/\1/p" "$DIR/info" | sed 's/"[a-z0-9_]*": //g; s/[^0-9]\{1,\}/ /g'; }
 
 # What gen_costs reads: the scene, instructions, counts
 count_events() {
