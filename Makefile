@@ -41,7 +41,7 @@ TESTS := $(basename $(notdir $(TEST_SRC)))
 ALONE := $(patsubst tests/%.c,$(BUILD)/%,$(subst unit/,,$(subst property/,,$(wildcard tests/unit/test_*.c tests/property/test_*.c))))
 ALONE := $(filter-out %/test_culling %/test_golden %/test_golden_random %/test_groups %/test_stages,$(ALONE))
 # And those that are built with constants for knobs, too. The others choose their knobs: casters
-# corner and radiance sweep what may be lost over all presets, arrival has the finest, cones and fade all steps, refused what a knob
+# corner and radiance sweep what may be lost over all presets, arrival has the finest, cells, cones and fade all steps, refused what a knob
 # refuses, runs and tiles have sizes of their own.
 CONSTANT := $(filter-out %/test_arrival %/test_casters %/test_cells %/test_cones %/test_corner %/test_fade %/test_radiance %/test_refused %/test_runs %/test_tiles,$(ALONE))
 

@@ -293,11 +293,11 @@ GN_HOT static void texture_at(const gn_surface *s, const corner_point *p, int32_
 }
 #endif
 
-/* Baked light is below 0 at corners outside of the triangle where it has to be, for what is between. */
+/* Baked light goes on outside of the triangle and may be negative there: limited to 0 it would bend what is between. */
 GN_HOT static void attributes_at(const gn_surface *s, const corner_point *p, gn_corner *c)
 {
     for (int i = 0; i < 3; i++) {
-        int32_t q20 = (int32_t)s->base_q20[i]; /* < 2^28 */
+        int32_t q20 = (int32_t)s->base_q20[i]; /* < 2^29 */
         if (GN_BAKED_LIGHT && s->baked) {
             const int64_t baked = (int64_t)s->albedo_uq16[i] * attribute(s, p, GN_ATTRIBUTE_BAKED + i) >> 12;
             q20 += (int32_t)gn_clamp64(baked, -(1 << 23), 1 << 23);
@@ -317,7 +317,7 @@ GN_HOT static void attributes_at(const gn_surface *s, const corner_point *p, gn_
 }
 
 #if GN_MASKS
-/* Beyond 0 and 1 at corners outside of the triangle. */
+/* A mask of the vertices may leave 0 .. 1 at corners outside of the triangle; one of an image does not. */
 GN_HOT static int32_t mask_at(const gn_surface *s, const corner_point *p, const gn_corner *c, int32_t channel)
 {
     if (!s->masked || channel < 0) return 65536;

@@ -166,6 +166,13 @@ GN_HOT static inline void gn_corner_forget_forms(gn_lattice *l)
     (void)l;
 }
 
+#if GN_MASKS
+GN_HOT static inline uint32_t gn_corner_mask_uq16(const gn_corner_light *light)
+{
+    return (uint32_t)gn_max32(0, gn_min32(light->mask_q16, 65536));
+}
+#endif
+
 #if GN_PUNCTUAL_LIGHTS
 /* Irradiance of a light whose colour is 1: gn_punctual_irradiance_q24() in 32 bits, which sets out->arrives. `d2` is
  * the square of the distance, `facing` the way against the normal. rim_q20 not NULL: sets, in place of out->arrives,
@@ -180,13 +187,6 @@ GN_HOT static inline void gn_corner_from(const gn_corner *c, const gn_light_stat
     GN_UNROLL
     for (int i = 0; i < 3; i++) from_q16[i] = c->ray_q16[i] + (int32_t)light->from_light[i].d_q16;
 }
-
-#if GN_MASKS
-GN_HOT static inline uint32_t gn_corner_mask_uq16(const gn_corner_light *light)
-{
-    return (uint32_t)gn_max32(0, gn_min32(light->mask_q16, 65536));
-}
-#endif
 
 /* The square of the distance, of components below 2^31. */
 GN_HOT static inline uint64_t gn_corner_distance2_q32(const int32_t from_q16[3])

@@ -391,10 +391,11 @@ GN_HOT static inline int gn_cell_row_bends_by_less(const uint32_t change[2], con
 /* Returns 0 if the cell is seen so steeply that nothing is close to bilinear. */
 int gn_cell_find_bend(gn_lattice_cell *cell);
 
-/* Whether texture coordinates may be interpolated; the same of a mask image: four corners per texel. Whether normals
- * turn by little enough. */
+/* Whether texture coordinates may be interpolated. */
 int gn_cell_textures_hold(const gn_lattice_cell *cell);
+/* Whether a mask image changes by at most a quarter of a texel along each axis, or is the same all over the cell. */
 int gn_cell_masks_hold(const gn_lattice_cell *cell);
+/* Whether normals turn by so little that light may be interpolated. */
 int gn_cell_normals_hold(const gn_lattice_cell *cell);
 
 /* By how much the square of a distance is off between the corners: a quarter of the squares of the cell's sides. */
@@ -409,7 +410,7 @@ int gn_cell_ramp_bends(const gn_lattice_cell *cell);
 int gn_cell_stays_dark(gn_lattice_cell *cell, uint32_t slot);
 
 /* How far interpolation between the corners is off, of a light's irradiance: NUMERICS 4.12. *kink: because it ends in
- * the cell, or its cone does. */
+ * the cell, or its cone does, or it is near. */
 uint32_t gn_cell_unevenness_q24(gn_lattice_cell *cell, uint32_t slot, int32_t least_q24, int32_t most_q24,
                                 uint32_t *kink_q24);
 

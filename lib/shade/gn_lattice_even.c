@@ -150,7 +150,8 @@ GN_HOT int gn_cell_textures_hold(const gn_lattice_cell *cell)
     return cell->out->texture_bends < 4;
 }
 
-/* Whether a mask image may be interpolated: it is the same all over the cell, or has four corners per texel. */
+/* Whether a mask image may be interpolated: it changes by at most a quarter of a texel along each axis, or
+ * is the same all over the cell. */
 GN_HOT int gn_cell_masks_hold(const gn_lattice_cell *cell)
 {
     gn_corner *const *c = cell->corner;
@@ -239,7 +240,7 @@ GN_HOT static uint32_t turn_q12(const gn_lattice_cell *cell)
  * 7/8 radians. A cell can be larger than a triangle, whose normals at corners outside it have turned further. */
 GN_HOT int gn_cell_normals_hold(const gn_lattice_cell *cell)
 {
-    return !cell->s->n_lights || turn_q12(cell) <= 7U << 9; /* else corners have none */
+    return !cell->s->n_lights || turn_q12(cell) <= 7U << 9; /* without lights corners have no normals */
 }
 
 #if GN_PUNCTUAL_LIGHTS
@@ -301,7 +302,8 @@ GN_HOT static int light_is_near(const gn_lattice_cell *cell, const light_distanc
     return cell->sides_q30 >= d->nearest_q32 >> 2;
 }
 
-/* Whether it may be, by one corner, which is at most the cell's diagonal farther away: less than 24 times the sides. */
+/* Never misses light_is_near(): one corner is at most the cell's diagonal farther away than the nearest, its square
+ * below 24 sides_q30. */
 GN_HOT static int light_may_be_near(gn_lattice_cell *cell, const gn_light_state *light)
 {
     int32_t p[3];
@@ -347,6 +349,17 @@ GN_HOT static GN_NOINLINE uint32_t bend_of_smooth_q30(uint32_t flat_q30, uint32_
     return t_q12 >= 1 << 13 ? UINT32_MAX : t_q12 * t_q12 << 6;
 }
 
+/* The least of n . p at the corners, or of -n . p. Nothing between them has less. */
+GN_HOT static int64_t least_along(const int32_t n_q30[3], int32_t p[4][3], int sign)
+{
+    int64_t least = INT64_MAX;
+    for (int i = 0; i < 4; i++) {
+        int64_t at = sign * gn_dot_q30(n_q30, p[i]);
+        if (at < least) least = at;
+    }
+    return least;
+}
+
 /* The square of the cell's size over its distance from a light, Q24, up to 4. */
 GN_HOT static uint32_t size2_q24(const gn_lattice_cell *cell, const light_distance *d)
 {
@@ -371,8 +384,7 @@ GN_HOT static uint64_t scatter_q32(int32_t p[4][3])
  */
 GN_HOT static int faces_away(gn_lattice_cell *cell, int32_t p[4][3])
 {
-    const int32_t *n = cell->s->normal_q30[0];
-    if (!GN_SMOOTH(cell->s)) return gn_dot_q30(n, p[0]) >= 0; /* all of it, or nothing */
+    if (!GN_SMOOTH(cell->s)) return least_along(cell->s->normal_q30[0], p, 1) >= 0;
 #if GN_VERTEX_NORMALS
     int64_t least = INT64_MAX;
     GN_UNROLL
@@ -413,17 +425,18 @@ GN_HOT GN_NOINLINE int gn_cell_stays_dark(gn_lattice_cell *cell, uint32_t slot)
     return 1;
 }
 
-/* The most that a light can give in the cell where its cone is full: by the distance alone, a power of two. Of a plane
- * nothing is nearer than the light is high above it. */
+/* The most that a light can give in the cell where its cone is full: by the distance alone, a power of two. Along a
+ * normal that does not turn nothing is nearer than the nearest corner. */
 GN_HOT static uint32_t full_light_q24(const gn_lattice_cell *cell, const gn_light_state *light, const light_distance *d)
 {
     uint64_t nearer = 3 * cell->sides_q30, least = cell->frame->min2_q32;
     if (d->nearest_q32 > nearer && d->nearest_q32 - nearer > least) least = d->nearest_q32 - nearer;
     if (!GN_SMOOTH(cell->s)) {
-        int32_t p[3];
-        gn_corner_from(cell->corner[0], light, p);
-        uint64_t height = gn_abs64(gn_dot_q30(cell->s->normal_q30[0], p));
-        if (height * height > least) least = height * height;
+        int32_t p[4][3];
+        for (int i = 0; i < 4; i++) gn_corner_from(cell->corner[i], light, p[i]);
+        int64_t above = least_along(cell->s->normal_q30[0], p, -1), below = least_along(cell->s->normal_q30[0], p, 1);
+        const int64_t height = above > below ? above : below;
+        if (height > 0 && (uint64_t)height * (uint64_t)height > least) least = (uint64_t)(height * height);
     }
     return 1U << gn_max32(gn_min32(gn_clz64(least) - 7 + light->colour_exp, 27), 0);
 }

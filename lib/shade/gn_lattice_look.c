@@ -48,7 +48,7 @@ GN_HOT static int find_highlight(const gn_lattice_cell *cell, uint32_t slot, gn_
         lit += cell->corner[i]->light[slot].irradiance_q24 > 0;
         out->highlight_q24[i] = cell->corner[i]->light[slot].highlight_q24;
     }
-    if (lit < 4) return 0; /* what faces away has no highlight */
+    if (lit < 4) return 0; /* a highlight ends where the light does */
     for (int j = 0; j < 3; j++)
         out->shine_uq16[j] = gn_mul_uq16(cell->s->light[slot].state->colour_uq16[j], cell->s->object->specular_uq16[j]);
 #else
@@ -57,7 +57,7 @@ GN_HOT static int find_highlight(const gn_lattice_cell *cell, uint32_t slot, gn_
     return 1;
 }
 
-enum { MASK_BEYOND = 65536 >> 4 }; /* where masks end at 0 and 1 they bend what is between */
+enum { MASK_BEYOND = 65536 >> 4 }; /* a mask that is limited is not linear any more: off by that */
 
 /* What is left of a light at the corners. Returns whether a realtime shadow is part of that, -1 if the cell is to be
  * split: a mask that limits the shadow bends it, and at a radius it ends at once. */
@@ -193,8 +193,8 @@ GN_HOT static int products_hold(const gn_lattice_cell *cell)
 #endif
 
 /* Whether all that a light adds is less than half a step of the picture: what shadows it, and how uneven it is, cannot
- * be seen. Of a channel of 6 bits half a step is 1/32 or more of what is there, up to 1/4, and of black 2^-11. A cone
- * may be brighter between corners in its rim, and what is near to a lamp anywhere. */
+ * be seen. Of a channel of 6 bits half a step is 1/32 or more of what is there, up to 1/4, and of black 2^-11. Between
+ * the corners a cone's rim, and what is near a lamp, may be brighter. */
 GN_HOT static GN_NOINLINE int is_faint(gn_lattice_cell *cell, uint32_t slot, int32_t least_q24, int32_t most_q24)
 {
     const gn_lattice_look *look = cell->out;
@@ -243,7 +243,7 @@ GN_HOT static uint32_t strongest_uq16(const gn_lattice_cell *cell, uint32_t slot
     uint32_t brightest = (uint32_t)gn_max32(gn_max32(h[0], h[1]), gn_max32(h[2], h[3]));
     if (brightest) {
         uint64_t shine = (uint64_t)gn_cell_strongest(light->shine_uq16) * brightest / (uint32_t)most_q24;
-        of += shine >> 24 ? 1U << 24 : (uint32_t)shine;
+        of += shine >> 30 ? 1U << 30 : (uint32_t)shine;
     }
 #endif
     (void)most_q24;
@@ -354,7 +354,8 @@ GN_HOT static int is_even(const gn_lattice_cell *cell)
     return cell->kink_q24 << log2 <= most - (most >> 2); /* rims and ends are seen sooner */
 }
 
-/* Returns 0 if the cell is too steep, its normals turn too far or its textures are too uneven. */
+/* Returns 0 if the cell is too steep, its normals turn too far, its textures are too uneven, or they dim what was
+ * limited. */
 GN_HOT static GN_NOINLINE int begin_look(gn_lattice *lattice, const gn_frame *frame, const gn_surface *surface,
                                          int32_t size_log2)
 {
@@ -372,12 +373,15 @@ GN_HOT static GN_NOINLINE int begin_look(gn_lattice *lattice, const gn_frame *fr
     if (!cell->near && size_log2 > gn_cell_finest_log2(frame) && gn_cell_ramp_bends(cell)) cell->near = -1;
 #endif
     look->n_edges = 0;
+    int limited = 0;
     for (int i = 0; i < 4; i++)
         for (int j = 0; j < 3; j++) {
-            look->colour_q24[i][j] = corner[i]->base_q24[j];
+            const int32_t base = corner[i]->base_q24[j];
+            limited |= base >= 1 << 27 || base <= -(1 << 27);
+            look->colour_q24[i][j] = base;
             look->highlight_q24[i][j] = 0;
         }
-    return 1;
+    return !(limited && (surface->textured | GN_COLOURED(surface)));
 }
 
 /* Adds lights from a slot on. Returns that of the first one that cannot be added, which leaves nothing behind. */

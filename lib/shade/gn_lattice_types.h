@@ -165,7 +165,7 @@ typedef struct {
     int near;             /* 1: no shadow fades at any corner; -1: one begins or ends to */
     uint64_t sides_q30;   /* of its sides, 0: not known yet */
     uint64_t error_q24;   /* of interpolated light, at most */
-    uint64_t kink_q24;    /* the part of it that comes from where a light ends */
+    uint64_t kink_q24;    /* the part of it that comes from where a light ends, or is near */
     gn_lattice_look *out;
 } gn_lattice_cell;
 

@@ -158,7 +158,7 @@ int main(void)
         drawn += draw(&flushed);
     }
     printf("three of 30 boxes move: %.1f %% of the tiles are drawn\n", 100.0 * drawn / FRAMES / 75);
-    /* texels of half the size leave more of the ground as it is */
+    /* coarser texels change more of the ground */
     const uint32_t percent = GN_K(&one.frame, atlas_size) >= 128 ? 40 : 50;
     CHECK(drawn > 0 && drawn * 100 <= percent * FRAMES * 75);
     CHECK_EQ_INT(draw(&flushed), 0);

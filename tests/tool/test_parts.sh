@@ -30,6 +30,12 @@ while read -r name; do
         [ -n "$(part "$name" $field)" ] && pass || fail "info --json has no $field of the $name"
     done
 done <"$tmp/parts"
+# what tests/bench/calibrate.sh reads there: two numbers for each weight
+DIR=$tmp
+cp "$tmp/out" "$tmp/info"
+eval "$(grep '^counts() ' tests/bench/calibrate.sh)"
+weights=$(grep -c '^COST(' host/tool/cost/cost_table.h)
+for frame in first animated; do [ "$(counts $frame | wc -w)" = $((2 * weights)) ] && pass || fail "calibrate.sh reads $(counts $frame | wc -w) counts of a frame that is $frame"; done
 error=$(sed -n 's/.*"error_percent": \([0-9]*\).*/\1/p' "$tmp/out")
 stated=$(sed -n 's/.*nine in ten within \([0-9.]*\) % .*/\1/p' docs/COST.md)
 holds "COST.md states another error than $error %: $stated" "${stated:-0} > 0 && ${stated:-0} <= ${error:-0} && ${stated:-0} > ${error:-0} - 1"
