@@ -65,6 +65,7 @@
 #define gn_cell_hides GN_PREFIXED_(GN_PREFIX, gn_cell_hides)
 #define gn_cell_is_limited GN_PREFIXED_(GN_PREFIX, gn_cell_is_limited)
 #define gn_cell_masks_hold GN_PREFIXED_(GN_PREFIX, gn_cell_masks_hold)
+#define gn_cell_normals_hold GN_PREFIXED_(GN_PREFIX, gn_cell_normals_hold)
 #define gn_cell_ramp_bends GN_PREFIXED_(GN_PREFIX, gn_cell_ramp_bends)
 #define gn_cell_shadow GN_PREFIXED_(GN_PREFIX, gn_cell_shadow)
 #define gn_cell_stays_dark GN_PREFIXED_(GN_PREFIX, gn_cell_stays_dark)

@@ -1,11 +1,149 @@
-/* Texture coordinates of a cell. */
+/* Texture coordinates of a cell, and of mask images. */
 #include "gn_internal.h"
 
 #include "base/gn_math.h"
 #include "base/gn_q.h"
 #include "shade/gn_lattice.h"
 
-#if GN_INTERPOLATES && GN_TEXTURES
+#if GN_INTERPOLATES
+
+/* ---- Whether they may be interpolated ---------------------------------------------------------------------------- */
+
+#if GN_TEXTURES
+enum { BENDS_ROWS = 1, BENDS_COLUMNS = 2, BENDS_TOO_MUCH = 4 };
+
+#if GN_MIPMAPS
+/* A texture's level where the cell is nearest. *ends: whether the next one begins in it: over a quarter more depth in
+ * each direction there is no third. */
+GN_HOT static uint8_t find_level(const gn_lattice_cell *cell, const gn_texture *texture, uint64_t depth2_q32,
+                                 uint8_t *ends)
+{
+    gn_corner *const *c = cell->corner;
+    *ends = 0;
+    if (!texture || !gn_texture_has_levels(texture)) return 0;
+    int32_t nearest = gn_min32(gn_min32(c[0]->z_q16, c[1]->z_q16), gn_min32(c[2]->z_q16, c[3]->z_q16)),
+            farthest = gn_max32(gn_max32(c[0]->z_q16, c[1]->z_q16), gn_max32(c[2]->z_q16, c[3]->z_q16));
+    if (GN_FLAT_Q16(cell->frame)) nearest = farthest = GN_FLAT_Q16(cell->frame);
+    uint32_t level = gn_texture_level_at(texture, depth2_q32, nearest);
+    *ends = (uint8_t)gn_texture_level_ends(texture, depth2_q32, level, farthest);
+    return (uint8_t)level;
+}
+
+GN_HOT static uint32_t size_in_level(const gn_texture *texture, int axis, uint32_t level)
+{
+    return texture ? gn_texture_level_size(texture, axis, level) : 0;
+}
+#else
+GN_HOT static uint32_t size_in_level(const gn_texture *texture, int axis, uint32_t level)
+{
+    (void)level;
+    return texture ? gn_texture_size(texture, axis) : 0;
+}
+#endif
+
+/* Returns 0 where levels of emitted light meet: such a cell is split. */
+GN_HOT static int find_levels(const gn_lattice_cell *cell)
+{
+#if GN_MIPMAPS
+    gn_lattice_look *look = cell->out;
+    const gn_surface *s = cell->s;
+    look->level = find_level(cell, s->object->texture, s->level_depth2_q32, &look->level_ends);
+#if GN_GLOW_TEXTURES
+    uint8_t ends;
+    look->glow_level = find_level(cell, s->glow, s->glow_depth2_q32, &ends);
+    return !ends;
+#endif
+#else
+    (void)cell;
+#endif
+    return 1;
+}
+
+/* Of the larger texture. */
+GN_HOT static uint32_t level_size(const gn_lattice_cell *cell, int axis)
+{
+    uint32_t level = 0, glow_level = 0;
+#if GN_MIPMAPS
+    level = cell->out->level;
+    glow_level = cell->out->glow_level;
+#endif
+    uint32_t size = size_in_level(cell->s->object->texture, axis, level),
+             glow = size_in_level(GN_GLOW_TEXTURE(cell->s), axis, glow_level);
+    return size > glow ? size : glow;
+}
+
+/* The tolerance of both textures. */
+GN_HOT static int32_t finest_log2_of(const gn_lattice_cell *cell)
+{
+    const int32_t log2 = gn_cell_texture_log2(cell->frame, cell->s->object->texture);
+    return gn_max32(log2, gn_cell_texture_log2(cell->frame, GN_GLOW_TEXTURE(cell->s)));
+}
+
+/* Where coordinates along one axis of the texture are to be quadratics. */
+GN_HOT static int32_t bends_of(const gn_lattice_cell *cell, int axis)
+{
+    gn_corner *const *c = cell->corner;
+    const int32_t at[4] = {c[0]->uv_q20[axis], c[1]->uv_q20[axis], c[2]->uv_q20[axis], c[3]->uv_q20[axis]};
+    uint64_t size = level_size(cell, axis), least = 1U << (20 - finest_log2_of(cell));
+    uint64_t linear[2], sum = 0; /* what is left, of texels, Q20: NUMERICS 4.12 */
+    uint32_t change[2];
+    int32_t bends = 0;
+    gn_cell_changes(at, change);
+    if ((change[0] | change[1]) * size >> 29) return BENDS_TOO_MUCH; /* 2^9 texels */
+    GN_UNROLL
+    for (int i = 0; i < 2; i++) linear[i] = change[i] * size * cell->bend_q16[i] >> 18;
+    if (linear[0] + linear[1] <= least) return 0;
+    GN_UNROLL
+    for (int i = 0; i < 2; i++) {
+        uint64_t square_q16 = (uint64_t)cell->bend_q16[i] * cell->bend_q16[i] >> 16;
+        if (2 * linear[i] > least) {
+            bends |= 1 << i;
+            sum += change[i] * size * square_q16 >> 20;
+        } else sum += linear[i];
+    }
+    return sum <= least ? bends : BENDS_TOO_MUCH;
+}
+#endif
+
+/* Whether texture coordinates may be interpolated. */
+GN_HOT int gn_cell_textures_hold(const gn_lattice_cell *cell)
+{
+    cell->out->texture_bends = 0;
+#if GN_TEXTURES
+    if (!cell->s->textured) return 1;
+    if (!find_levels(cell)) return 0;
+    cell->out->texture_bends = bends_of(cell, 0) | bends_of(cell, 1);
+#endif
+    return cell->out->texture_bends < 4;
+}
+
+/* Whether a mask image may be interpolated: it changes by at most a quarter of a texel along each axis, or
+ * is the same all over the cell. */
+GN_HOT int gn_cell_masks_hold(const gn_lattice_cell *cell)
+{
+    gn_corner *const *c = cell->corner;
+    (void)c;
+#if GN_MASKS
+    if (!cell->s->masked || !cell->s->object->mask_image) return 1;
+    const gn_texture *image = cell->s->object->mask_image;
+    int32_t least[2], most[2], holds = 1;
+    for (int i = 0; i < 2; i++) {
+        int32_t a = c[0]->mask_uv_uq16[i], b = c[1]->mask_uv_uq16[i], d = c[2]->mask_uv_uq16[i],
+                e = c[3]->mask_uv_uq16[i];
+        least[i] = gn_min32(gn_min32(a, b), gn_min32(d, e));
+        most[i] = gn_max32(gn_max32(a, b), gn_max32(d, e));
+        uint32_t change = (uint32_t)most[i] - (uint32_t)least[i];
+        holds &= change * gn_texture_size(image, i) <= 16384;
+    }
+    return holds || gn_texture_mask_is_even(image, least, most);
+#else
+    return 1;
+#endif
+}
+
+#if GN_TEXTURES
+
+/* ---- Rows of cells ----------------------------------------------------------------------------------------------- */
 
 /* What coordinates differ by: they may go round. */
 GN_HOT static int32_t change_q20(int32_t from_q20, int32_t to_q20)
@@ -228,5 +366,7 @@ GN_HOT uint32_t gn_lattice_textures_row(gn_lattice *l, const gn_cell_textures *t
 #endif
     return bits;
 }
+
+#endif
 
 #endif
