@@ -104,8 +104,9 @@ GN_HOT static uint32_t turn_q12(const gn_lattice_cell *cell)
     return 0;
 }
 
-/* Whether normals turn by so little that light between the corners is near to theirs, whatever size the cell has: up to
- * 7/8 radians. A cell can be larger than a triangle, whose normals at corners outside it have turned further. */
+/* Whether normals turn by so little that light between the corners is near to theirs, whatever size the cell has: by
+ * up to 7/8, summed over the axes. A cell can be larger than a triangle, whose normals at corners outside it have
+ * turned further. */
 GN_HOT int gn_cell_normals_hold(const gn_lattice_cell *cell)
 {
     return !cell->s->n_lights || turn_q12(cell) <= 7U << 9; /* without lights corners have no normals */
@@ -303,8 +304,8 @@ GN_HOT static uint32_t full_light_q24(const gn_lattice_cell *cell, const gn_ligh
         int32_t p[4][3];
         for (int i = 0; i < 4; i++) gn_corner_from(cell->corner[i], light, p[i]);
         int64_t above = least_along(cell->s->normal_q30[0], p, -1), below = least_along(cell->s->normal_q30[0], p, 1);
-        const int64_t height = above > below ? above : below;
-        if (height > 0 && (uint64_t)height * (uint64_t)height > least) least = (uint64_t)(height * height);
+        const uint64_t height = (uint64_t)gn_clamp64(above > below ? above : below, 0, UINT32_MAX);
+        if (height * height > least) least = height * height;
     }
     return 1U << gn_max32(gn_min32(gn_clz64(least) - 7 + light->colour_exp, 27), 0);
 }
