@@ -241,8 +241,9 @@ GN_HOT static uint32_t strongest_uq16(const gn_lattice_cell *cell, uint32_t slot
     const gn_contribution *light = &cell->lattice->by.look.light;
     const int32_t *h = light->highlight_q24;
     uint32_t brightest = (uint32_t)gn_max32(gn_max32(h[0], h[1]), gn_max32(h[2], h[3]));
-    if (brightest) {
-        uint64_t shine = (uint64_t)gn_cell_strongest(light->shine_uq16) * brightest / (uint32_t)most_q24;
+    if (brightest) { /* at most 2^27, and so is `most` */
+        uint32_t times_q8 = (brightest << 4) / (uint32_t)gn_max32(most_q24 >> 4, 1);
+        uint64_t shine = (uint64_t)gn_cell_strongest(light->shine_uq16) * times_q8 >> 8;
         of += shine >> 30 ? 1U << 30 : (uint32_t)shine;
     }
 #endif
