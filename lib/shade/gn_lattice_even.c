@@ -92,7 +92,7 @@ GN_HOT static uint32_t diagonal(const int32_t *a, const int32_t *b, const int32_
 }
 #endif
 
-/* How far normals turn over the cell, radians, Q12; at least. */
+/* How far normals, which are not renormalised, turn over the cell, summed over the axes, Q12. */
 GN_HOT static uint32_t turn_q12(const gn_lattice_cell *cell)
 {
 #if GN_VERTEX_NORMALS

@@ -43,12 +43,7 @@ GN_HOT static int find_highlight(const gn_lattice_cell *cell, uint32_t slot, gn_
     if (!highlight_holds(cell, slot, &any)) return 0;
     if (!any) return 1;
     if (cell->s->textured) return 0; /* the texture does not tint it */
-    int lit = 0;
-    for (int i = 0; i < 4; i++) {
-        lit += cell->corner[i]->light[slot].irradiance_q24 > 0;
-        out->highlight_q24[i] = cell->corner[i]->light[slot].highlight_q24;
-    }
-    if (lit < 4) return 0; /* a highlight ends where the light does */
+    for (int i = 0; i < 4; i++) out->highlight_q24[i] = cell->corner[i]->light[slot].highlight_q24;
     for (int j = 0; j < 3; j++)
         out->shine_uq16[j] = gn_mul_uq16(cell->s->light[slot].state->colour_uq16[j], cell->s->object->specular_uq16[j]);
 #else
@@ -240,9 +235,9 @@ GN_HOT static uint32_t strongest_uq16(const gn_lattice_cell *cell, uint32_t slot
 #if GN_SPECULAR
     const gn_contribution *light = &cell->lattice->by.look.light;
     const int32_t *h = light->highlight_q24;
-    uint32_t brightest = (uint32_t)gn_max32(gn_max32(h[0], h[1]), gn_max32(h[2], h[3]));
-    if (brightest) { /* at most 2^27, and so is `most` */
-        uint32_t times_q8 = (brightest << 4) / (uint32_t)gn_max32(most_q24 >> 4, 1);
+    const int32_t brightest = gn_min32(gn_max32(gn_max32(h[0], h[1]), gn_max32(h[2], h[3])), 1 << 27);
+    if (brightest) { /* 8 at most: more is limited */
+        uint32_t times_q8 = ((uint32_t)brightest << 4) / (uint32_t)gn_max32(most_q24 >> 4, 1);
         uint64_t shine = (uint64_t)gn_cell_strongest(light->shine_uq16) * times_q8 >> 8;
         of += shine >> 30 ? 1U << 30 : (uint32_t)shine;
     }

@@ -1,6 +1,6 @@
 /* Cells against pixels each for itself, where what lies between the corners is not what they see: lamps near a surface,
  * highlights that end with a cone or where a surface turns away, baked light and masks of a triangle that is smaller
- * than a cell, texels of a mask image. Fractions of a pixel's light; NUMERICS 4.12. */
+ * than a cell, texels of a mask image: NUMERICS 4.12. */
 #include <math.h>
 
 #include "canvas.h"
@@ -30,7 +30,11 @@ static int off(int32_t step, int *lit)
     canvas exact, cells;
     int n = 0;
     *lit = 0;
-    if (!draw(&exact, 1) || !draw(&cells, step)) return -1;
+    if (!draw(&exact, 1)) return -1;
+    if (!draw(&cells, step)) {
+        canvas_end(&exact);
+        return -1;
+    }
     for (int i = 0; i < W * H; i++) {
         const double a = light_of(exact.pixels[3 * i]), b = light_of(cells.pixels[3 * i]);
         n += fabs(a - b) > 1 / 16.0;
@@ -40,14 +44,17 @@ static int off(int32_t step, int *lit)
     return n;
 }
 
-/* At no step more than a share of the pixels that are bright. */
+/* Pixels that are off, beside those that are bright: by cells of step 4, which are off by 1/128 of what arrives, one in
+ * a thousand at most; by those of 8 and 16, which may be off by as much as arrives, a share that shows light that is
+ * lost.
+ */
 static void hold(const char *what, int per_mille)
 {
     for (int32_t step = 4; step <= 16; step *= 2) {
         int lit;
         const int n = off(step, &lit);
         if (n < 0) return;
-        if (!CHECK(lit >= 8) || !CHECK(1000 * n <= per_mille * lit))
+        if (!CHECK(lit >= 5) || !CHECK(1000 * n <= (step == 4 ? 1 : per_mille) * lit))
             printf("%s, step %d: %d of %d pixels\n", what, (int)step, n, lit);
     }
 }
@@ -85,17 +92,21 @@ static gn_light *lamp(gn_light_kind kind, double x, double y, double z, double d
 static void test_near_lamps(void)
 {
     rng r = {5};
-    for (int i = 0; i < 40; i++) {
-        const double height = 0.25 + rng_below(&r, 100) / 300.0, x = (int)rng_below(&r, 400) / 200.0 - 1,
-                     z = (int)rng_below(&r, 400) / 200.0 - 1;
+    for (int i = 0; i < 80; i++) {
+        const double height = 0.2 + rng_below(&r, 100) / 300.0, x = (int)rng_below(&r, 400) / 100.0 - 2,
+                     z = (int)rng_below(&r, 400) / 100.0 - 2;
         begin(NULL, 1);
         gn_light *light = lamp(i & 1 ? GN_LIGHT_POINT : GN_LIGHT_SPOT, x, height, z, height);
         light->outer_turn = GN_TURN(140), light->inner_turn = GN_TURN(100);
-        if (i & 2) light->range_q16 = GN_UQ16(height + 0.6);
+        if (i & 2) light->range_q16 = GN_UQ16(height * (1.5 + (i & 7) / 4.0));
         for (int k = 0; k < 3; k++) ls.scene.ambient_uq16[k] = i & 4 ? GN_UQ16(0.2) : 0;
         ls_look(&ls, 0, GN_Q16(6), GN_Q16(6));
-        hold("a lamp near the ground", 40);
+        hold("a lamp near the ground", 500);
     }
+    begin(NULL, 1); /* at its cells' corners next to nothing arrives */
+    lamp(GN_LIGHT_POINT, 0.63, 0.48, 1.09, 0.48)->range_q16 = GN_UQ16(1.07);
+    ls_look(&ls, 0, GN_Q16(6), GN_Q16(6));
+    hold("a lamp between corners", 500);
 }
 
 #if GN_SPECULAR
@@ -139,6 +150,8 @@ static void test_terminator_of_metal(void)
 
 static const int32_t quad_pos[12] = {-65536, 0, 65536, 65536, 0, 65536, 65536, 0, -65536, -65536, 0, -65536};
 static const uint16_t quad_idx[6] = {0, 1, 2, 0, 2, 3};
+static const gn_mesh plain_quad = {
+    .pos = quad_pos, .idx = quad_idx, .n_vertices = 4, .n_triangles = 2, .pos_frac_bits = 16, .uv_frac_bits = 8};
 
 /* From near to as small as a cell. */
 static void hold_at_distances(const char *what)
@@ -156,8 +169,8 @@ static void hold_at_distances(const char *what)
 static void test_slanted_normals(void)
 {
     static const gn_normal nrm_q15[12] = {31129, 10240, 0, 31129, 10240, 0, 31129, 10240, 0, 31129, 10240, 0};
-    static const gn_mesh quad = {
-        .pos = quad_pos, .nrm_q15 = nrm_q15, .idx = quad_idx, .n_vertices = 4, .n_triangles = 2, .pos_frac_bits = 16};
+    gn_mesh quad = plain_quad;
+    quad.nrm_q15 = nrm_q15;
     rng r = {7};
     for (int i = 0; i < 20; i++) {
         const double height = 0.3 + rng_below(&r, 100) / 300.0, x = rng_below(&r, 200) / 200.0,
@@ -175,10 +188,24 @@ static void test_slanted_normals(void)
 static void test_baked_light(void)
 {
     static const uint16_t baked_uq12[12] = {0, 0, 0, 4096, 4096, 4096, 0, 0, 0, 4096, 4096, 4096};
-    static const gn_mesh quad = {
-        .pos = quad_pos, .idx = quad_idx, .n_vertices = 4, .n_triangles = 2, .pos_frac_bits = 16};
-    begin(&quad, 1)->baked_uq12 = baked_uq12;
+    begin(&plain_quad, 1)->baked_uq12 = baked_uq12;
     hold_at_distances("baked light");
+}
+
+/* Of a ground, random: perspective bends it. */
+static void test_baked_ground(void)
+{
+    static uint16_t baked_uq12[3 * FINE_ROW * FINE_ROW];
+    rng r = {3};
+    for (int i = 0; i < FINE_ROW * FINE_ROW; i++) {
+        const uint32_t light = rng_below(&r, 4097);
+        for (int k = 0; k < 3; k++) baked_uq12[3 * i + k] = (uint16_t)light;
+    }
+    for (int i = 0; i < 30; i++) {
+        begin(fine_ground(), 1)->baked_uq12 = baked_uq12;
+        ls_look(&ls, 0, ls_q16(&r, 0.5, 6), ls_q16(&r, 3, 6));
+        hold("a ground's baked light", 10);
+    }
 }
 
 #if GN_TEXTURES
@@ -189,13 +216,8 @@ static void test_bright_baked_light(void)
     static const int16_t uv[8] = {0, 0, 256, 0, 256, 256, 0, 256};
     static uint8_t texel[16] = {70, 70, 70, 255, 70, 70, 70, 255, 70, 70, 70, 255, 70, 70, 70, 255};
     static const gn_texture grey = {.rgba = texel, .width_log2 = 1, .height_log2 = 1};
-    static const gn_mesh quad = {.pos = quad_pos,
-                                 .uv = uv,
-                                 .idx = quad_idx,
-                                 .n_vertices = 4,
-                                 .n_triangles = 2,
-                                 .pos_frac_bits = 16,
-                                 .uv_frac_bits = 8};
+    gn_mesh quad = plain_quad;
+    quad.uv = uv;
     gn_object *o = begin(&quad, 1);
     o->baked_uq12 = baked_uq12;
     o->texture = &grey;
@@ -219,9 +241,7 @@ static void add_masked_sun(void)
 static void test_masks(void)
 {
     static const uint8_t mask_u8[16] = {0, 0, 0, 0, 255, 255, 255, 255, 0, 0, 0, 0, 255, 255, 255, 255};
-    static const gn_mesh quad = {
-        .pos = quad_pos, .idx = quad_idx, .n_vertices = 4, .n_triangles = 2, .pos_frac_bits = 16};
-    begin(&quad, 1)->mask_u8 = mask_u8;
+    begin(&plain_quad, 1)->mask_u8 = mask_u8;
     add_masked_sun();
     hold_at_distances("masks of vertices");
 }
@@ -232,12 +252,8 @@ static void test_mask_image(void)
     static uint8_t texel[64];
     static const uint16_t uv_uq16[8] = {0, 65535, 65535, 65535, 65535, 0, 0, 0};
     static const gn_texture image = {.rgba = texel, .width_log2 = 3, .height_log2 = 3, .flags = GN_TEXTURE_MASK_1};
-    static const gn_mesh quad = {.pos = quad_pos,
-                                 .idx = quad_idx,
-                                 .mask_uv_uq16 = uv_uq16,
-                                 .n_vertices = 4,
-                                 .n_triangles = 2,
-                                 .pos_frac_bits = 16};
+    gn_mesh quad = plain_quad;
+    quad.mask_uv_uq16 = uv_uq16;
     for (int i = 0; i < 64; i++) texel[i] = i & 1 ? 255 : 0;
     begin(&quad, 1)->mask_image = &image;
     add_masked_sun();
@@ -261,6 +277,7 @@ int main(void)
 #endif
 #if GN_BAKED_LIGHT
     test_baked_light();
+    test_baked_ground();
 #endif
 #if GN_BAKED_LIGHT && GN_TEXTURES
     test_bright_baked_light();
