@@ -32,7 +32,8 @@ if [ "$1" = --job ]; then
     echo "$p $f" >"$run/$key.count"
     said=$([ "$f" = 0 ] || grep -v '^[0-9]* passed' "$run/$key.out" | head -n 20)
     printf '%-32s %8d passed %4d failed %4d CPU-s %4ds\n%s' "$key" "$p" "$f" "$cpu" "$(($(date +%s) - start))" "${said:+$said
-}"
+}" >"$run/$key.said"
+    cat "$run/$key.said"
     exit 0
 fi
 
@@ -118,5 +119,8 @@ cut -d' ' -f1 build/tmp/jobs | sed "s|^|$run/|" | xargs -n 1 dirname | sort -u |
 sed 's/ /\n/' build/tmp/jobs | tr '\n' '\0' | xargs -0 -P 2 -n 2 sh tests/run.sh --job
 while read -r key _; do cat "$run/$key.out"; done <build/tmp/jobs >>build/test.log
 counts=$(while read -r key _; do cat "$run/$key.count" || echo "0 1"; done <build/tmp/jobs | awk -v f=$failed '{ p += $1; f += $2 } END { print p + 0, f + 0 }')
+# once more, in the end, what failed: of a long log, its end is what people read
+while read -r key _; do grep -q " 0$" "$run/$key.count" || cat "$run/$key.said"; done <build/tmp/jobs
+[ $failed = 0 ] || echo "builds failed: $failed; see above, and build/test.log"
 echo "${counts% *} passed, ${counts#* } failed"
 [ "${counts#* }" = 0 ]

@@ -269,16 +269,43 @@ GN_HOT static GN_NOINLINE int begin_parts(gn_shading *s)
     return 1;
 }
 
+
+/* The part at hand. Returns 0, and nothing is shaded, if lower ones are to be tried. */
+GN_HOT static inline int shade_one_part(gn_shading *s)
+{
+    gn_lattice *l = &s->lattice;
+    l->crowded = 0;
+    begin_part(s);
+    if (gn_part_shade(s)) return 1;
+    if (l->crowded && l->n_rows > GN_LOW_ROWS) return 0;
+    if (mark(l)) shade_part(s);
+    return 1;
+}
+
+/* The part at hand, so many rows at a time. */
+GN_HOT static GN_NOINLINE void shade_low_parts(gn_shading *s)
+{
+    gn_lattice *l = &s->lattice;
+    const int32_t x = l->x, y = l->y, x_end = l->x_end, n_rows = l->n_rows, y_end = gn_min32(y + n_rows, l->y_end);
+    l->x_end = l->part_end;
+    l->n_rows = GN_LOW_ROWS;
+    for (; l->y < y_end; l->y += GN_LOW_ROWS)
+        for (l->x = x; l->x < l->x_end; l->x = l->part_end) shade_one_part(s);
+    l->x = x;
+    l->y = y;
+    l->part_end = l->x_end;
+    l->x_end = x_end;
+    l->n_rows = n_rows;
+}
+
 GN_HOT void gn_lattice_shade(gn_shading *s)
 {
     gn_lattice *l = &s->lattice;
     if (!begin_parts(s)) return;
     const int32_t x0 = l->x;
     for (; l->y < l->y_end; l->y += l->n_rows)
-        for (l->x = x0; l->x < l->x_end; l->x = l->part_end) {
-            begin_part(s);
-            if (!gn_part_shade(s) && mark(l)) shade_part(s);
-        }
+        for (l->x = x0; l->x < l->x_end; l->x = l->part_end)
+            if (!shade_one_part(s)) shade_low_parts(s);
 }
 
 #endif

@@ -71,9 +71,6 @@ GN_HOT static gn_window_place middle_of(const gn_window *window, const gn_cell_p
     return place;
 }
 
-/* Along both axes: for fewer, lookups cost as much as a window in place of that of another cell. */
-enum { FEW_TEXELS = 20 };
-
 /* What a window says of all texels that are read between places. */
 GN_HOT static int verdict_of_window(const gn_frame *frame, gn_window *window, const gn_cell_places *p,
                                     const gn_receiver_step *lo, const gn_receiver_step *hi, int may_compare)
@@ -83,7 +80,7 @@ GN_HOT static int verdict_of_window(const gn_frame *frame, gn_window *window, co
     gn_window_reads(p->view, GN_VIEW_EDGE(frame, p->view) > 0, lo->v_q16 - 16, hi->v_q16 + 1040, &v0, &h);
     if (!gn_window_covers(window, u0, v0, w, h)) {
         const gn_window_place place = middle_of(window, p);
-        if (!may_compare || (window->w && w + h <= FEW_TEXELS) || w > GN_WINDOW_TEXELS || h > GN_WINDOW_TEXELS)
+        if (!may_compare || w > GN_WINDOW_TEXELS || h > GN_WINDOW_TEXELS)
             return GN_CELL_SPLIT;
         if (!gn_window_compare(window, &place, u0, v0, w, h)) return GN_CELL_SPLIT;
     }

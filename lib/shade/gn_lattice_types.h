@@ -234,7 +234,7 @@ typedef struct {
     int16_t x, y, n_px;
 } gn_run_span;
 
-enum { GN_SPANS = 32, GN_PART_WIDTH = 64, GN_PART_ROWS = 16, GN_SMALLEST_CELL_LOG2 = 2 };
+enum { GN_SPANS = 32, GN_PART_WIDTH = 64, GN_PART_ROWS = 16, GN_LOW_ROWS = 8, GN_SMALLEST_CELL_LOG2 = 2 };
 
 /* A directional view's coordinates of points in view space: texels, Q16, are m times points times 2^up, over
  * 2^(32 + down). */
@@ -324,6 +324,7 @@ typedef struct gn_lattice {
     int32_t x, y, x_end, y_end; /* of the part, and where the surface ends */
     int32_t n_rows;             /* of the part */
     int32_t part_end;           /* columns before it */
+    uint8_t crowded;            /* its texels are more than a window holds, even of one cell's width */
     uint32_t bits[GN_PART_WIDTH / 32][GN_PART_ROWS]; /* its pixels */
     union {
         gn_corner corners[GN_CORNERS]; /* those of the part that were asked for last */
