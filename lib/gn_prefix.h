@@ -232,6 +232,7 @@
 #define gn_patch_parts_q31 GN_PREFIXED_(GN_PREFIX, gn_patch_parts_q31)
 #define gn_patch_unit GN_PREFIXED_(GN_PREFIX, gn_patch_unit)
 #define gn_patch_use_object GN_PREFIXED_(GN_PREFIX, gn_patch_use_object)
+#define gn_patch_vertex_normal GN_PREFIXED_(GN_PREFIX, gn_patch_vertex_normal)
 #define gn_persp_corner GN_PREFIXED_(GN_PREFIX, gn_persp_corner)
 #define gn_persp_face GN_PREFIXED_(GN_PREFIX, gn_persp_face)
 #define gn_persp_face_axis GN_PREFIXED_(GN_PREFIX, gn_persp_face_axis)

@@ -61,7 +61,7 @@ GN_HOT void gn_patch_use_object(gn_shading *s, const gn_object *object)
     of->lit = (uint8_t)(!unlit || shows_shadow(s->frame));
     of->receives = (uint8_t)(object->flags & GN_OBJECT_RECEIVES && !unlit);
     for (int c = 0; shows_shadow(s->frame) && c < 3; c++) of->base_q24[c] = 0;
-    if (!of->patched || !GN_VERTEX_NORMALS || !object->mesh->nrm_q15) return;
+    if ((!of->patched && !GN_SKIN(object)) || !GN_VERTEX_NORMALS || !object->mesh->nrm_q15) return;
     gn_xform_normal_matrix(of->to_world_q30, object->to_world.m_q30);
 #if GN_VERTEX_JOINTS && GN_VERTEX_NORMALS
     for (int i = 0; i < GN_PATCH_JOINTS; i++) s->patches.joint[i].tag = 0;
@@ -140,21 +140,27 @@ GN_HOT static GN_NOINLINE uint32_t make_patch_normal(gn_shading *s, uint32_t ver
     return packed;
 }
 
-/* Corner k's normal, Q14, on the side that is seen. */
-GN_HOT static inline void patch_normal(gn_shading *s, int k, int32_t out_q14[3])
+GN_HOT void gn_patch_vertex_normal(gn_shading *s, uint32_t object_idx, uint32_t vertex_idx, int32_t out_q14[3])
 {
-    const gn_patch_record *r = &s->lattice.from.patch.record;
-    const uint32_t vertex_idx = r->vertex[k], tag = gn_vertex_tag(r->tri->source.object_idx, vertex_idx);
+    const uint32_t tag = gn_vertex_tag(object_idx, vertex_idx);
     gn_patch_normal *entry = &s->patches.normal[vertex_idx & (GN_PATCH_NORMALS - 1)];
     if (entry->tag != tag) {
         GN_COUNT(patch_normals, 1);
         entry->packed = make_patch_normal(s, vertex_idx);
         entry->tag = tag;
     }
+    out_q14[0] = ((int32_t)(entry->packed << 2) >> 22) * 32;
+    out_q14[1] = ((int32_t)(entry->packed << 12) >> 22) * 32;
+    out_q14[2] = ((int32_t)(entry->packed << 22) >> 22) * 32;
+}
+
+/* Corner k's normal, Q14, on the side that is seen. */
+GN_HOT static inline void patch_normal(gn_shading *s, int k, int32_t out_q14[3])
+{
+    const gn_patch_record *r = &s->lattice.from.patch.record;
     const int32_t turn = r->back ? -1 : 1;
-    out_q14[0] = turn * ((int32_t)(entry->packed << 2) >> 22) * 32;
-    out_q14[1] = turn * ((int32_t)(entry->packed << 12) >> 22) * 32;
-    out_q14[2] = turn * ((int32_t)(entry->packed << 22) >> 22) * 32;
+    gn_patch_vertex_normal(s, r->tri->source.object_idx, r->vertex[k], out_q14);
+    for (int i = 0; i < 3; i++) out_q14[i] *= turn;
 }
 #endif
 

@@ -10,6 +10,7 @@
 #include "geometry/gn_xform.h"
 #include "light/gn_lights.h"
 #include "scene/gn_scene.h"
+#include "shade/gn_patch.h"
 #include "shade/gn_surface.h"
 #include "visible/gn_setup.h"
 
@@ -90,11 +91,21 @@ void gn_surface_normal(int32_t out_q30[3], const int32_t matrix[3][3], const gn_
     out_q30[2] = normalised(n[2] * (1 << more), root);
 }
 
-/* Of a vertex, by way of the cache, whose entries are not used for positions here. */
-static void vertex_normal(int32_t out_q30[3], const gn_surface_cache *cache, gn_vertex_entry *vertex,
+/* Of a vertex, by way of the cache, whose entries are not used for positions here. Of skins the exact formula is for
+ * pixels each of which is exact. */
+static void vertex_normal(int32_t out_q30[3], const gn_frame *frame, gn_scratch *scratch, const gn_surface_cache *cache,
                           const gn_object *object, uint32_t object_idx, uint32_t vertex_idx)
 {
+    gn_vertex_entry *vertex = scratch->vertex;
     const gn_normal *nrm_q15 = object->mesh->nrm_q15 + 3 * (size_t)vertex_idx;
+#if GN_INTERPOLATES && GN_VERTEX_JOINTS && GN_VERTEX_NORMALS
+    if (GN_SKIN(object) && GN_K(frame, persp_step) != 1) {
+        gn_patch_vertex_normal(&scratch->work.shading, object_idx, vertex_idx, out_q30);
+        for (int i = 0; i < 3; i++) out_q30[i] *= 1 << 16;
+        return;
+    }
+#endif
+    (void)frame;
     if (GN_VERTEX_JOINTS && GN_SKIN(object)) {
         gn_skin_normal(out_q30, object, cache->normal_matrix, vertex_idx);
         return;
@@ -114,7 +125,7 @@ static void vertex_normal(int32_t out_q30[3], const gn_surface_cache *cache, gn_
 }
 
 /* Of the vertices, or of the face where they have none. [M3] */
-static void normals(const gn_frame *frame, const gn_surface_cache *cache, gn_vertex_entry *vertex, gn_surface *s,
+static void normals(const gn_frame *frame, gn_scratch *scratch, const gn_surface_cache *cache, gn_surface *s,
                     const uint16_t *idx)
 {
     const gn_mesh *mesh = s->object->mesh;
@@ -130,7 +141,7 @@ static void normals(const gn_frame *frame, const gn_surface_cache *cache, gn_ver
     const int mirrored = (frame->flags[object_idx] & GN_OBJECT_MIRRORED) != 0;
     GN_UNROLL
     for (int k = 0; k < 3; k++) {
-        vertex_normal(n[k], cache, vertex, s->object, object_idx, idx[k]);
+        vertex_normal(n[k], frame, scratch, cache, s->object, object_idx, idx[k]);
         if (s->plane.back != mirrored)
             for (int i = 0; i < 3; i++) n[k][i] = -n[k][i];
     }
@@ -262,12 +273,12 @@ static void baked_light(gn_surface *s, const uint16_t *idx)
     }
 }
 
-static void attributes(const gn_frame *frame, const gn_surface_cache *cache, gn_vertex_entry *vertex, gn_surface *s,
+static void attributes(const gn_frame *frame, gn_scratch *scratch, const gn_surface_cache *cache, gn_surface *s,
                        const uint16_t *idx)
 {
     texture_coords(frame, s, idx);
     texture_levels(frame, s);
-    normals(frame, cache, vertex, s, idx);
+    normals(frame, scratch, cache, s, idx);
     masks(frame, s, idx);
     baked_light(s, idx);
     const uint32_t *specular = s->object->specular_uq16;
@@ -438,7 +449,7 @@ void gn_surface_begin(const gn_frame *frame, gn_scratch *scratch, const gn_surfa
 #if GN_ORTHOGRAPHIC
     if (frame->cam.flat_q16) flat_plane(frame, s, v);
 #endif
-    attributes(frame, cache, scratch->vertex, s, idx);
+    attributes(frame, scratch, cache, s, idx);
 #if !GN_INTERPOLATES
     find_depth(frame, s, v);
 #endif
