@@ -228,7 +228,6 @@
 #define gn_patch_find_lights GN_PREFIXED_(GN_PREFIX, gn_patch_find_lights)
 #define gn_patch_find_shadow GN_PREFIXED_(GN_PREFIX, gn_patch_find_shadow)
 #define gn_patch_find_texture GN_PREFIXED_(GN_PREFIX, gn_patch_find_texture)
-#define gn_patch_normal_matrix GN_PREFIXED_(GN_PREFIX, gn_patch_normal_matrix)
 #define gn_patch_parts_q31 GN_PREFIXED_(GN_PREFIX, gn_patch_parts_q31)
 #define gn_patch_unit GN_PREFIXED_(GN_PREFIX, gn_patch_unit)
 #define gn_patch_use_object GN_PREFIXED_(GN_PREFIX, gn_patch_use_object)

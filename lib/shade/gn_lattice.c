@@ -269,7 +269,6 @@ GN_HOT static GN_NOINLINE int begin_parts(gn_shading *s)
     return 1;
 }
 
-
 /* The part at hand. Returns 0, and nothing is shaded, if lower ones are to be tried. */
 GN_HOT static inline int shade_one_part(gn_shading *s)
 {

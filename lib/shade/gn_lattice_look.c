@@ -164,7 +164,8 @@ GN_HOT static int edge_product_holds(const gn_lattice_cell *cell, uint32_t slot,
 /* And of those that are. */
 GN_HOT static int products_hold(const gn_lattice_cell *cell)
 {
-    if (!GN_COLOURED(cell->s) || cell->size_log2 <= gn_cell_finest_log2(cell->frame)) return 1;
+    const int finest = cell->size_log2 <= gn_cell_finest_log2(cell->frame);
+    if (!GN_COLOURED(cell->s) || (finest && !(GN_BAKED_LIGHT && cell->s->baked))) return 1;
     for (int j = 0; j < 3; j++) {
         int32_t at[4];
         GN_UNROLL
@@ -311,7 +312,8 @@ GN_HOT static int colours_hold(const gn_lattice_cell *cell)
 }
 
 /* Times the vertices' colours, with highlights; limits it. Returns 0 where the limit hides how bright the rest is, or
- * perspective bends it. */
+ * perspective bends it; -1 where even the smallest cells are split: a texture dims what was limited, or products bend.
+ */
 GN_HOT static int finish_colours(const gn_lattice_cell *cell)
 {
     int limited = 0, dim = 0;
@@ -319,7 +321,7 @@ GN_HOT static int finish_colours(const gn_lattice_cell *cell)
     for (int i = 0; i < 4; i++)
         all |= (uint32_t)(cell->out->colour_q24[i][0] | cell->out->colour_q24[i][1] | cell->out->colour_q24[i][2]);
     if (!GN_COLOURED(cell->s) && !cell->s->specular && all < 1U << 27) return colours_hold(cell);
-    if (!products_hold(cell)) return 0;
+    if (!products_hold(cell)) return -1;
     for (int i = 0; i < 4; i++)
         for (int j = 0; j < 3; j++) {
             int32_t *colour = &cell->out->colour_q24[i][j];
@@ -333,6 +335,7 @@ GN_HOT static int finish_colours(const gn_lattice_cell *cell)
             dim |= product < 1 << 24;
             *colour = (int32_t)gn_clamp64(product, -(1 << 27), 1 << 27);
         }
+    if (limited && cell->s->textured) return -1;
     return colours_hold(cell) && !(limited & dim);
 }
 
@@ -396,8 +399,8 @@ GN_HOT static GN_NOINLINE uint32_t add_lights(gn_lattice_cell *cell, uint32_t sl
 /* Returns 0 if the cell is to be split. */
 GN_HOT static GN_NOINLINE int end_look(const gn_lattice_cell *cell)
 {
-    const int limits = !finish_colours(cell);
-    return !(limits && cell->size_log2 > gn_cell_finest_log2(cell->frame)) && is_even(cell);
+    const int holds = finish_colours(cell);
+    return holds >= (cell->size_log2 > gn_cell_finest_log2(cell->frame)) && is_even(cell);
 }
 
 /* Windows are made here, where there is more stack. */

@@ -80,8 +80,7 @@ GN_HOT static int verdict_of_window(const gn_frame *frame, gn_window *window, co
     gn_window_reads(p->view, GN_VIEW_EDGE(frame, p->view) > 0, lo->v_q16 - 16, hi->v_q16 + 1040, &v0, &h);
     if (!gn_window_covers(window, u0, v0, w, h)) {
         const gn_window_place place = middle_of(window, p);
-        if (!may_compare || w > GN_WINDOW_TEXELS || h > GN_WINDOW_TEXELS)
-            return GN_CELL_SPLIT;
+        if (!may_compare || w > GN_WINDOW_TEXELS || h > GN_WINDOW_TEXELS) return GN_CELL_SPLIT;
         if (!gn_window_compare(window, &place, u0, v0, w, h)) return GN_CELL_SPLIT;
     }
     const int said = gn_window_says(window, u0, v0, w, h);

@@ -69,9 +69,6 @@ void gn_record_face(const gn_patch_record *r, const gn_frame *frame, int32_t vie
 /* A vector of any length to length 1, Q14; 0 stays 0. */
 void gn_patch_unit(int32_t v[3]);
 
-/* world times the inverse transpose of m, |m| <= 2^30, up to a factor: Q14, the mean of its rows' squares is 1. */
-void gn_patch_normal_matrix(int32_t out[9], const int32_t world[3][3], const int32_t m[3][3]);
-
 /* Where a ray plane sees the corners, whose depths are known: Q16, within +-2^30. Returns 0 if they are beyond. */
 int gn_record_places(const gn_patch_record *r, const gn_frame *frame, const gn_ray_plane *plane, int32_t ray_shift,
                      int32_t out_q16[3]);

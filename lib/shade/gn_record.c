@@ -48,7 +48,8 @@ GN_HOT static int find_nearness(gn_patch_record *r, const gn_frame *frame)
         least = r->iz_q32[k] < least ? r->iz_q32[k] : least;
         most = r->iz_q32[k] > most ? r->iz_q32[k] : most;
     }
-    if (least < 256 || most - least > least >> 1) return 0;
+    /* a plane that leans by its distance changes by less than 16 units a pixel: it has no normal, nor depth */
+    if (least < 256 || least < frame->cam.focal2_px_q16 >> 13 || most - least > least >> 1) return 0;
     /* linear weights are off by a quarter of the change over the box: up to an eighth of a pixel, or a sixteenth */
     const uint32_t bend = ((most - least) >> 6) * (uint32_t)r->px, fine = GN_K(frame, persp_step) < 16;
     r->deep = bend > least >> (7 + fine);
@@ -148,42 +149,6 @@ GN_HOT void gn_patch_unit(int32_t v[3])
     const int32_t root = (int32_t)(gn_rsqrt_norm((n2 | 1U) << up, 1) >> 1); /* 2^(46 - more) / length */
     GN_UNROLL
     for (int i = 0; i < 3; i++) v[i] = gn_mul_high(n[i] * (1 << more), root);
-}
-
-/* Shifted until the largest is 2^13 .. 2^14. */
-GN_HOT static GN_NOINLINE void to_14_bits(int32_t v[9])
-{
-    uint32_t any = 1;
-    for (int k = 0; k < 9; k++) any |= gn_abs32(v[k]);
-    const int32_t down = 18 - gn_clz32(any);
-    for (int k = 0; k < 9; k++) v[k] = down >= 0 ? v[k] >> down : v[k] * (1 << -down);
-}
-
-GN_HOT void gn_patch_normal_matrix(int32_t out[9], const int32_t world[3][3], const int32_t m[3][3])
-{
-    int32_t n[9], cofactor[9], *at = cofactor;
-    for (int k = 0; k < 9; k++) n[k] = m[k / 3][k % 3] >> 1;
-    to_14_bits(n);
-    for (int r = 0; r < 3; r++) {
-        const int32_t *a = n + 3 * (r == 2 ? 0 : r + 1), *b = n + 3 * (r ? r - 1 : 2);
-        *at++ = a[1] * b[2] - a[2] * b[1]; /* 2^29 */
-        *at++ = a[2] * b[0] - a[0] * b[2];
-        *at++ = a[0] * b[1] - a[1] * b[0];
-    }
-    to_14_bits(cofactor);
-    const int32_t det = n[0] * cofactor[0] + n[1] * cofactor[1] + n[2] * cofactor[2];
-    at = out;
-    for (int r = 0; r < 3; r++)
-        for (const int32_t *column = cofactor; column < cofactor + 3; column++) {
-            const int32_t sum = (world[r][0] >> 16) * column[0] + (world[r][1] >> 16) * column[3] +
-                                (world[r][2] >> 16) * column[6]; /* 3 * 2^28 */
-            *at++ = det < -(1 << 18) ? -sum : sum; /* 12 * 2^14 is rounding: it flattens and has no side */
-        }
-    to_14_bits(out);
-    uint32_t n2 = 0;
-    for (int k = 0; k < 9; k++) n2 += (uint32_t)(out[k] * out[k]); /* 9 * 2^28 */
-    const int32_t up = gn_clz32(n2 / 3 | 1U) & ~1, root = (int32_t)(gn_rsqrt_norm((n2 / 3 | 1U) << up, 1) >> 1);
-    for (int k = 0; k < 9; k++) out[k] = gn_mul_high(out[k] * (1 << (up >> 1)), root); /* as gn_patch_unit */
 }
 
 /* near / Z is linear on the screen, and n . ray times a constant, n being the face's normal away from the viewer: n =

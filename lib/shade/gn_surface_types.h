@@ -259,19 +259,12 @@ typedef struct {
     uint32_t packed;
 } gn_patch_normal;
 
-/* From a mesh's normals to the world, by a joint of the object's skin, Q14. */
-typedef struct {
-    uint16_t tag; /* the joint's index + 1, 0: none */
-    int32_t m_q14[9];
-} gn_patch_joint;
-enum { GN_PATCH_JOINTS = 16 /* a power of two */ };
-
 /* What an object's triangles have in common. */
 typedef struct {
     const gn_object *object; /* NULL: none yet */
     uint8_t patched;         /* its small triangles are patches */
     uint8_t receives, lit;
-    int32_t to_world_q30[3][3]; /* of normals */
+    int32_t to_world_q14[9]; /* of normals */
     int32_t base_q24[3];        /* albedo times ambient, and light of its own that nothing dims; at most 2^27 */
 } gn_patch_object;
 
@@ -287,9 +280,6 @@ typedef struct {
     gn_patch_object of; /* the object at hand */
 #if GN_VERTEX_NORMALS
     gn_patch_normal normal[GN_PATCH_NORMALS];
-#if GN_VERTEX_JOINTS
-    gn_patch_joint joint[GN_PATCH_JOINTS]; /* of that object */
-#endif
 #endif
 #if GN_SHADOWS && GN_AUTO_BIAS
     int32_t sphere_down;

@@ -208,22 +208,52 @@ static void test_baked_ground(void)
     }
 }
 
-#if GN_TEXTURES
-/* Above 8, where it is limited, if a texture dims it. */
-static void test_bright_baked_light(void)
+#if GN_VERTEX_COLOURS
+/* Times colours, where both differ from a vertex to the next: the product is most between them. */
+static void test_baked_colours(void)
 {
-    static const uint16_t baked_uq12[12] = {0, 0, 0, 65535, 65535, 65535, 0, 0, 0, 65535, 65535, 65535};
-    static const int16_t uv[8] = {0, 0, 256, 0, 256, 256, 0, 256};
-    static uint8_t texel[16] = {70, 70, 70, 255, 70, 70, 70, 255, 70, 70, 70, 255, 70, 70, 70, 255};
-    static const gn_texture grey = {.rgba = texel, .width_log2 = 1, .height_log2 = 1};
+    static uint16_t baked_uq12[3 * FINE_ROW * FINE_ROW], rgb_uq16[3 * FINE_ROW * FINE_ROW];
+    for (int i = 0; i < 3 * FINE_ROW * FINE_ROW; i++) {
+        const int odd = (i / 3 % FINE_ROW + i / 3 / FINE_ROW) & 1;
+        baked_uq12[i] = odd ? 600 : 8192, rgb_uq16[i] = odd ? 65535 : 6000;
+    }
+    gn_mesh mesh = *fine_ground();
+    mesh.rgb_uq16 = rgb_uq16;
+    for (int far = 4; far < 12; far += 2) {
+        begin(&mesh, 1)->baked_uq12 = baked_uq12;
+        ls_look(&ls, 0, GN_Q16(far), GN_Q16(far));
+        hold("baked light times colours", 10);
+    }
+}
+#endif
+#endif
+
+#if GN_TEXTURES
+static const int16_t quad_uv[8] = {0, 0, 256, 0, 256, 256, 0, 256};
+static uint8_t grey_texel[16] = {70, 70, 70, 255, 70, 70, 70, 255, 70, 70, 70, 255, 70, 70, 70, 255};
+static const gn_texture grey = {.rgba = grey_texel, .width_log2 = 1, .height_log2 = 1};
+
+/* Above 8, where it is limited, if a texture dims it. */
+static void test_bright_light(void)
+{
     gn_mesh quad = plain_quad;
-    quad.uv = uv;
+    quad.uv = quad_uv;
+    for (int n = 1; n <= 3; n++) {
+        begin(&quad, 1)->texture = &grey;
+        for (int i = 0; i < n; i++) {
+            gn_light *sun = ls_add_light(&ls, GN_LIGHT_DIRECTIONAL);
+            for (int k = 0; k < 3; k++) sun->direction[k] = k == 1 ? GN_Q16(-1) : 0, sun->colour_uq16[k] = GN_UQ16(7);
+        }
+        hold_at_distances("bright suns");
+    }
+#if GN_BAKED_LIGHT
+    static const uint16_t baked_uq12[12] = {0, 0, 0, 65535, 65535, 65535, 0, 0, 0, 65535, 65535, 65535};
     gn_object *o = begin(&quad, 1);
     o->baked_uq12 = baked_uq12;
     o->texture = &grey;
     hold_at_distances("bright baked light");
-}
 #endif
+}
 #endif
 
 #if GN_MASKS
@@ -278,9 +308,12 @@ int main(void)
 #if GN_BAKED_LIGHT
     test_baked_light();
     test_baked_ground();
+#if GN_VERTEX_COLOURS
+    test_baked_colours();
 #endif
-#if GN_BAKED_LIGHT && GN_TEXTURES
-    test_bright_baked_light();
+#endif
+#if GN_TEXTURES
+    test_bright_light();
 #endif
 #if GN_MASKS
     test_masks();
