@@ -320,11 +320,11 @@ typedef struct gn_lattice {
     uint16_t views;             /* views of cascades that the part, or the small triangle, may look into, a bit
                                    each, and GN_VIEWS_FADE */
     int16_t surface_cascade;    /* the same of the surface */
+    uint8_t crowded;            /* texels of the part are more than a window holds, even of one cell's width */
     int32_t size_log2;          /* of the largest cells, in pixels */
     int32_t x, y, x_end, y_end; /* of the part, and where the surface ends */
     int32_t n_rows;             /* of the part */
     int32_t part_end;           /* columns before it */
-    uint8_t crowded;            /* its texels are more than a window holds, even of one cell's width */
     uint32_t bits[GN_PART_WIDTH / 32][GN_PART_ROWS]; /* its pixels */
     union {
         gn_corner corners[GN_CORNERS]; /* those of the part that were asked for last */

@@ -142,7 +142,6 @@ static long patch_shared_bytes(const settings *s)
     layout all = {0, 4};
     put(&all, 1, 56, 4); /* of */
     if (s->feature.vertex_values % 2) put(&all, 32, 8, 4);
-    if (s->feature.vertex_values % 2 && s->feature.vertex_joints) put(&all, 16, 40, 4);
     if (s->feature.shadows && s->feature.biases % 2) put(&all, 1, 56, 4);
     return all.size;
 }
