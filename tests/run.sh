@@ -120,7 +120,10 @@ sed 's/ /\n/' build/tmp/jobs | tr '\n' '\0' | xargs -0 -P 2 -n 2 sh tests/run.sh
 while read -r key _; do cat "$run/$key.out"; done <build/tmp/jobs >>build/test.log
 counts=$(while read -r key _; do cat "$run/$key.count" || echo "0 1"; done <build/tmp/jobs | awk -v f=$failed '{ p += $1; f += $2 } END { print p + 0, f + 0 }')
 # once more, in the end, what failed: of a long log, its end is what people read
-while read -r key _; do grep -q " 0$" "$run/$key.count" || cat "$run/$key.said"; done <build/tmp/jobs
+while read -r key _; do
+    [ -f "$run/$key.count" ] || { echo "$key did not end"; continue; }
+    grep -q " 0$" "$run/$key.count" || cat "$run/$key.said"
+done <build/tmp/jobs
 [ $failed = 0 ] || echo "builds failed: $failed; see above, and build/test.log"
 echo "${counts% *} passed, ${counts#* } failed"
 [ "${counts#* }" = 0 ]
