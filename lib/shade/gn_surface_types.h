@@ -265,7 +265,7 @@ typedef struct {
     uint8_t patched;         /* its small triangles are patches */
     uint8_t receives, lit;
     int32_t to_world_q14[9]; /* of normals */
-    int32_t base_q24[3];        /* albedo times ambient, and light of its own that nothing dims; at most 2^27 */
+    int32_t base_q24[3];     /* albedo times ambient, and light of its own that nothing dims; at most 2^27 */
 } gn_patch_object;
 
 /* A cascade's sphere in units of 2^down of Q16, in which it has 15 bits: depth of its centre, squares of its radius and
