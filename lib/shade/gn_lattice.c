@@ -276,7 +276,7 @@ GN_HOT static inline int shade_one_part(gn_shading *s)
     l->crowded = 0;
     begin_part(s);
     if (gn_part_shade(s)) return 1;
-    if (l->crowded && l->n_rows > GN_LOW_ROWS) return 0;
+    if (l->crowded) return 0;
     if (mark(l)) shade_part(s);
     return 1;
 }

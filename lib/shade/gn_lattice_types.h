@@ -320,7 +320,7 @@ typedef struct gn_lattice {
     uint16_t views;             /* views of cascades that the part, or the small triangle, may look into, a bit
                                    each, and GN_VIEWS_FADE */
     int16_t surface_cascade;    /* the same of the surface */
-    uint8_t crowded;            /* texels of the part are more than a window holds, even of one cell's width */
+    uint8_t crowded;            /* a window holds too few texels for one cell's width: the part is too tall */
     int32_t size_log2;          /* of the largest cells, in pixels */
     int32_t x, y, x_end, y_end; /* of the part, and where the surface ends */
     int32_t n_rows;             /* of the part */

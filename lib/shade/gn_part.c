@@ -161,7 +161,7 @@ GN_HOT static GN_NOINLINE int find_lights(gn_shading *s, gn_part *part)
         int32_t e = gn_max32(light->cosine_q24[0], 0);
         if (surface->shadowed && gn_shadow_is_realtime(light->state, 65536))
             said = windows_of_part(s, i, part->mixed ? NULL : part->view);
-        if (s->lattice.crowded && s->lattice.n_rows > GN_LOW_ROWS) return 0;
+        if (s->lattice.crowded) return 0;
         if (said == GN_WINDOW_MIXED && part->mixed) return 0;
         if (said != GN_WINDOW_LIT) share = 65536 - light->state->strength_uq16;
         for (int c = 0; c < 3; c++) {
