@@ -177,8 +177,9 @@ GN_HOT static void forget_windows(gn_lattice *l)
 }
 
 /* Of another part. */
-GN_HOT static void begin_part(gn_shading *s)
+GN_HOT static GN_NOINLINE void begin_part(gn_shading *s)
 {
+    s->lattice.crowded = 0;
     gn_lattice_forget_part(&s->lattice);
     gn_corner_begin_part(&s->lattice, s->frame, &s->surface);
 }
@@ -190,7 +191,7 @@ GN_HOT static void forget_windows(gn_lattice *l)
 
 GN_HOT static void begin_part(gn_shading *s)
 {
-    (void)s;
+    s->lattice.crowded = 0;
 }
 #endif
 
@@ -237,6 +238,12 @@ GN_HOT static int are_few(const gn_lattice *l, const gn_rect *box, int32_t n_px)
     return n_px <= (l->uniform ? FEW_OF_ONE_COLOUR : FEW + ((box->x1 - box->x0 + box->y1 - box->y0) >> 2));
 }
 
+/* Rows of pixels in a part, but for low ones. */
+GN_HOT static int32_t part_rows(const gn_lattice *l)
+{
+    return l->size_log2 > GN_SMALLEST_CELL_LOG2 ? GN_PART_ROWS : GN_LOW_ROWS;
+}
+
 /* Shades a surface that takes no parts. Otherwise returns 1, and sets where parts are. */
 GN_HOT static GN_NOINLINE int begin_parts(gn_shading *s)
 {
@@ -260,7 +267,7 @@ GN_HOT static GN_NOINLINE int begin_parts(gn_shading *s)
         shade_pixels(s, 0);
         return 0;
     }
-    l->n_rows = gn_min32(2 << l->size_log2, GN_PART_ROWS);
+    l->n_rows = part_rows(l);
     l->x = box.x0;
     l->y = box.y0;
     l->x_end = box.x1;
@@ -269,42 +276,38 @@ GN_HOT static GN_NOINLINE int begin_parts(gn_shading *s)
     return 1;
 }
 
-/* The part at hand. Returns 0, and nothing is shaded, if lower ones are to be tried. */
-GN_HOT static inline int shade_one_part(gn_shading *s)
-{
-    gn_lattice *l = &s->lattice;
-    l->crowded = 0;
-    begin_part(s);
-    if (gn_part_shade(s)) return 1;
-    if (l->crowded) return 0;
-    if (mark(l)) shade_part(s);
-    return 1;
-}
-
-/* The part at hand, so many rows at a time. */
-GN_HOT static GN_NOINLINE void shade_low_parts(gn_shading *s)
-{
-    gn_lattice *l = &s->lattice;
-    const int32_t x = l->x, y = l->y, x_end = l->x_end, n_rows = l->n_rows, y_end = gn_min32(y + n_rows, l->y_end);
-    l->x_end = l->part_end;
-    l->n_rows = GN_LOW_ROWS;
-    for (; l->y < y_end; l->y += GN_LOW_ROWS)
-        for (l->x = x; l->x < l->x_end; l->x = l->part_end) shade_one_part(s);
-    l->x = x;
-    l->y = y;
-    l->part_end = l->x_end;
-    l->x_end = x_end;
-    l->n_rows = n_rows;
-}
-
+/* Part by part. One of which a window holds too few texels is shaded in lower rows, all of them before the next one. */
 GN_HOT void gn_lattice_shade(gn_shading *s)
 {
     gn_lattice *l = &s->lattice;
     if (!begin_parts(s)) return;
-    const int32_t x0 = l->x;
-    for (; l->y < l->y_end; l->y += l->n_rows)
-        for (l->x = x0; l->x < l->x_end; l->x = l->part_end)
-            if (!shade_one_part(s)) shade_low_parts(s);
+    const int32_t x0 = l->x, x_end = l->x_end;
+    int32_t y = l->y, low_x = x0;
+    while (y < l->y_end) {
+        begin_part(s);
+        if (!gn_part_shade(s)) {
+            if (l->crowded) {
+                low_x = l->x;
+                l->x_end = l->part_end;
+                l->n_rows = GN_LOW_ROWS;
+                continue;
+            }
+            if (mark(l)) shade_part(s);
+        }
+        l->x = l->part_end;
+        if (l->x < l->x_end) continue;
+        l->y += l->n_rows;
+        l->x = low_x;
+        if (l->y < y + part_rows(l) && l->y < l->y_end) continue;
+        if (l->x_end < x_end) l->x = l->x_end; /* the tall part after low ones */
+        else {
+            y += part_rows(l);
+            l->x = x0;
+        }
+        l->y = y;
+        l->x_end = x_end;
+        l->n_rows = part_rows(l);
+    }
 }
 
 #endif

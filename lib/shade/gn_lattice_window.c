@@ -222,7 +222,6 @@ GN_HOT gn_window *gn_lattice_window(gn_lattice *l, const gn_frame *frame, const 
            !make_window(l, frame, s, x, pixels ? gn_min32(x + columns * size, l->x_end) : x + columns * size, y_end,
                         pixels, left, window))
         columns = columns > 1 ? (columns + 1) >> 1 : 0;
-    if (pixels && !columns && l->n_rows > GN_LOW_ROWS) l->crowded = 1;
     window->until_x = x + columns * size;
     return window;
 }

@@ -108,7 +108,8 @@ GN_HOT static GN_NOINLINE int windows_of_part(gn_shading *s, uint32_t slot, gn_p
         if (view) view[i] = (gn_part_view){first + i, NULL, GN_WINDOW_MIXED, {0, 0, 0}};
         if (!(views >> i & 1U)) continue;
         const gn_window *w = gn_lattice_window(l, s->frame, &s->surface, slot, i, l->x, NULL);
-        if (w && w->w) {
+        if (w && !w->w) l->crowded |= l->n_rows > GN_LOW_ROWS;
+        else if (w) {
             l->part_end = gn_min32(l->part_end, w->until_x);
             said = !w->any ? GN_WINDOW_LIT : w->all == UINT32_MAX ? GN_WINDOW_DARK : GN_WINDOW_MIXED;
             if (view) view[i].window = w;
