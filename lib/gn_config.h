@@ -193,8 +193,8 @@
 #define GN_CLIPPING (GN_COMPACT ? 0 : 2)
 #endif
 
-/* No knob: less flash rather than fewer instructions, where the compiler is asked for that: one code path where two
- * give the same bits, calls in place of inline code. No type depends on it: a program may have another than the
+/* No knob: less flash rather than fewer instructions, where the compiler is asked for that: calls in place of inline
+ * code, loops that are not written out. No type depends on it: a program may have another than the
  * library. */
 #ifndef GN_SIZE_FIRST
 #ifdef __OPTIMIZE_SIZE__

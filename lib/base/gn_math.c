@@ -28,8 +28,7 @@ GN_HOT GN_NOINLINE uint64_t gn_bf_from_u64_bits(uint64_t v)
  */
 GN_INLINE uint32_t recip_start(uint32_t i)
 {
-    if (!GN_SIZE_FIRST) return gn_recip_table[i];
-    return GN_CORE_DIVIDES ? ((1U << 25) + i + 256U) / (2U * i + 513U) : gn_far_recip_entry(i);
+    return GN_SIZE_FIRST && GN_CORE_DIVIDES ? ((1U << 25) + i + 256U) / (2U * i + 513U) : gn_recip_table[i];
 }
 
 GN_HOT uint32_t gn_recip_norm(uint32_t m, int32_t newton_steps)
@@ -48,7 +47,7 @@ GN_HOT uint32_t gn_quotient_q30(uint32_t num, uint32_t den)
 GN_HOT uint32_t gn_rsqrt_norm(uint32_t m, int32_t newton_steps)
 {
     /* x = m / 2^32 in [1/4, 1); y ~ 1/sqrt(x) in Q1.31; y(3 - xy^2)/2 */
-    uint32_t y = (uint32_t)gn_rsqrt_entry((m >> 24) - 64U) << 16;
+    uint32_t y = (uint32_t)gn_rsqrt_table[(m >> 24) - 64U] << 16;
     for (int32_t i = 0; i < newton_steps; i++) {
         uint32_t yy = gn_umul_high(y, y);                 /* Q2.30, <= 4 (table entries are < 2 in Q1.15) */
         uint32_t less = (3U << 30) - gn_umul_high(m, yy); /* Q2.30, near 2 */
@@ -368,55 +367,4 @@ GN_HOT GN_NOINLINE uint32_t gn_far_umul_high(uint32_t a, uint32_t b)
     const uint32_t a_low = a & 0xFFFFU, b_low = b & 0xFFFFU, a_high = a >> 16, b_high = b >> 16;
     const uint32_t one = a_high * b_low + (a_low * b_low >> 16), other = (one & 0xFFFFU) + a_low * b_high;
     return a_high * b_high + (one >> 16) + (other >> 16);
-}
-
-/* ---- The tables of gn_tables.c as polynomials -------------------------------------------------------------------- */
-
-/* For GN_SIZE_FIRST: the same values, entry by entry (a test compares each with its table). Coefficients are a
- * least-squares fit of the curve at the table's entries, weighted to minimise the largest error, and adjusted in
- * their last bits until every entry rounds to the table's value. */
-
-/* c[0] + c[1] x + ... + c[n] x^n, rounded down at every step; |x| <= 1 in Q30, and |sums| < 2^31. */
-GN_HOT static int32_t polynomial(const int32_t *c, int32_t n, int32_t x_q30)
-{
-    int32_t v = c[n];
-    while (n-- > 0) v = c[n] + (int32_t)(((int64_t)v * x_q30) >> 30);
-    return v;
-}
-
-GN_HOT uint32_t gn_far_recip_entry(uint32_t i)
-{
-    /* 1 / 2x, Q30 */
-    static const int32_t c[10] = {714896980, -237989530, 79224729, -26371872, 8792698,
-                                  -2932873,  939692,     -304578,  143127,    -51760};
-    return (uint32_t)(polynomial(c, 9, ((int32_t)i - 128) * (1 << 23)) + (1 << 13)) >> 14;
-}
-
-GN_HOT uint32_t gn_far_rsqrt_entry(uint32_t i)
-{
-    /* 1 / 2 sqrt(x), Q30 */
-    static const int32_t c[12] = {678035878, -270366371, 161764520, -107673755, 74082433, -51468802,
-                                  45948855,  -41149281,  1286127,   12044016,   38854416, -38223736};
-    return (uint32_t)(polynomial(c, 11, ((int32_t)i - 96) * (1 << 23)) + (1 << 13)) >> 14;
-}
-
-GN_HOT uint32_t gn_far_srgb_entry(uint32_t i)
-{
-    /* (1 + j/64)^(1/2.4), Q30; 65535 * 1.055 * 2^((k - 9)/2.4), Q15 */
-    static const int32_t root[8] = {1073741852, 447388474, -130398815, 68064408,
-                                    -40847001,  22387561,  -8709680,   1646608};
-    static const uint32_t octave[10] = {168388805, 224772088, 300034741,  400498330,  534601132,
-                                        713606897, 952550927, 1271502940, 1697252799, 2265560678};
-    if (i < 39) return ((64 + i) * 1693424U + 0x8000U) >> 16; /* 12.92 * 65535 / 2^15 */
-    int64_t v_q29 = (int64_t)polynomial(root, 7, (int32_t)(i & 63U) << 24) * octave[i >> 6] >> 16; /* 2^31 * 2^31 */
-    return (uint32_t)((v_q29 - 1935110936986 + (1 << 28)) >> 29);                                  /* 65535 * 0.055 */
-}
-
-GN_HOT uint32_t gn_far_srgb_decode_entry(uint32_t i)
-{
-    /* ((v + 0.055) / 1.055)^2.4, Q29 */
-    static const int32_t c[10] = {115889053, 250668534, 158145895, 18998604, -2610766,
-                                  771687,    -175232,   57710,     -185463,  112925};
-    if (i < 11) return (i * 1303619U + 0x8000U) >> 16; /* 257 / 12.92 */
-    return (uint32_t)(((int64_t)polynomial(c, 9, ((int32_t)i - 128) * (1 << 23)) * 65535 + (1 << 28)) >> 29);
 }

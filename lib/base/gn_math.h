@@ -13,7 +13,7 @@
 /* ---- Constant tables, written by host/generate/gen_tables.c (make tables) ---------------------------------------- */
 
 /* Whether colours of RGB565 are packed by tables: three times as fast as by the curve, with the same bits. */
-#define GN_LEVEL_TABLES (!GN_SIZE_FIRST && (GN_RUNTIME_KNOBS || GN_SRGB))
+#define GN_LEVEL_TABLES (GN_RUNTIME_KNOBS || GN_SRGB)
 
 extern const uint16_t gn_recip_table[256]; /* Q1.15: 1/x at the middle of [1/2 + i/512, 1/2 + (i+1)/512) */
 extern const uint16_t gn_rsqrt_table[192]; /* Q1.15: 1/sqrt(x) for x in [1/4 + i/256, 1/4 + (i+1)/256) */
@@ -30,28 +30,6 @@ extern const uint16_t gn_tent_sums[32][16]; /* Q12: sums of subsets, a bit each,
                                                texels at 1/32 texel (NUMERICS 4.13) */
 /* 65535 * linear light of an sRGB value of 8 bits; of 5 and 6 */
 extern const uint16_t gn_srgb_decode_table[256], gn_linear_31_table[32], gn_linear_63_table[64];
-
-/* Entries of tables. With GN_SIZE_FIRST they are computed: gn_math.c; reciprocals by the core's divider, if it has
- * one. */
-uint32_t gn_far_recip_entry(uint32_t i);
-uint32_t gn_far_rsqrt_entry(uint32_t i);
-uint32_t gn_far_srgb_entry(uint32_t i);
-uint32_t gn_far_srgb_decode_entry(uint32_t i);
-
-GN_INLINE uint32_t gn_rsqrt_entry(uint32_t i)
-{
-    return GN_SIZE_FIRST ? gn_far_rsqrt_entry(i) : gn_rsqrt_table[i];
-}
-
-GN_INLINE uint32_t gn_srgb_entry(uint32_t i)
-{
-    return GN_SIZE_FIRST ? gn_far_srgb_entry(i) : gn_srgb_table[i];
-}
-
-GN_INLINE uint32_t gn_srgb_decode_entry(uint32_t i)
-{
-    return GN_SIZE_FIRST ? gn_far_srgb_decode_entry(i) : gn_srgb_decode_table[i];
-}
 
 /* Block floats and lengths go through calls as 64 bits, the mantissa low: two registers on every core, where the
  * calling convention of ARM returns a structure of 8 bytes in memory. */

@@ -120,8 +120,7 @@ GN_HOT static inline int32_t half_share(int64_t v, int32_t s)
 GN_HOT static inline int32_t coord_at(const gn_alpha_axis *axis, int32_t change, int clamps)
 {
     int64_t c_q20;
-    if (GN_SIZE_FIRST) c_q20 = gn_scale64(change, axis->down);
-    else if (axis->down > 0) c_q20 = (change + (1 << axis->down >> 1)) >> axis->down;
+    if (axis->down > 0) c_q20 = (change + (1 << axis->down >> 1)) >> axis->down;
     else c_q20 = (int64_t)change * (1 << -axis->down);
     if (clamps) return gn_sat32(c_q20 + (int64_t)axis->from_q16 * 16);
     return (int32_t)((uint32_t)c_q20 + (uint32_t)axis->from_q16 * 16U);

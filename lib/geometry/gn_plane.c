@@ -78,7 +78,7 @@ GN_HOT int gn_plane_recip(gn_ray_recip *out, const gn_plane *plane, int32_t px, 
 /* round(b * 2^-s), clamped to 0 .. most */
 GN_HOT static inline uint32_t bary_fraction(int64_t b, int32_t s, uint32_t most)
 {
-    if (GN_SIZE_FIRST || s < 1 || s > 62) return (uint32_t)gn_clamp64(gn_scale64(b, s), 0, most);
+    if (s < 1 || s > 62) return (uint32_t)gn_clamp64(gn_scale64(b, s), 0, most);
     if (b < 0) return 0;
     uint64_t twice = (uint64_t)b >> (s - 1);
     if (twice >> 32) return twice >= (uint64_t)most << 1 ? most : (uint32_t)((twice + 1) >> 1);
@@ -308,7 +308,6 @@ GN_HOT static void edge_begin(gn_walk *walk, int side, int from, int to)
     exact_begin(&walk->edge[side], a->x, a->y, b->x, b->y, walk->subpixel_bits, walk->row);
 }
 
-#if GN_SIZE_FIRST
 /* Rows up to `end`. */
 GN_HOT static GN_NOINLINE void exact_rows(gn_walk *walk, int32_t end)
 {
@@ -320,47 +319,10 @@ GN_HOT static GN_NOINLINE void exact_rows(gn_walk *walk, int32_t end)
         span->x_end = exact_step(&walk->edge[1]);
     }
 }
-#else
-/* One border of rows up to `end`: 0 left, 1 right. */
-GN_HOT static GN_NOINLINE void exact_border(gn_walk *walk, int side, int32_t end)
-{
-    int16_t *at = side ? &walk->span[0].x_end : &walk->span[0].x_begin;
-    int32_t first = walk->row, row = first, bend = walk->row_end[1 + side];
-    while (row < end) {
-        walk->row = row;
-        if (row == bend) edge_begin(walk, side, 1 + side, 2 - side);
-        gn_edge edge = walk->edge[side];
-        int32_t n = (row < bend ? gn_min32(bend, end) : end) - row;
-        row += n;
-        if ((uint32_t)edge.q + (1U << 14) < 1U << 15 &&
-            (uint32_t)edge.dq + (1U << 9) < 1U << 10) { /* fits 16 bits for 16 rows */
-            do {
-                *at = (int16_t)edge.q;
-                at += 2;
-                exact_next(&edge);
-                GN_KEEP(at);
-            } while (--n);
-        } else {
-            for (; n > 0; n--, at += 2) *at = exact_step(&edge);
-        }
-        walk->edge[side] = edge;
-    }
-    walk->row = first;
-}
-
-/* Rows up to `end`. */
-GN_HOT static inline void exact_rows(gn_walk *walk, int32_t end)
-{
-    exact_border(walk, 0, end);
-    exact_border(walk, 1, end);
-    walk->row = end;
-}
-#endif
-
 GN_HOT static inline int32_t walk_rows(gn_walk *walk)
 {
-    int32_t fixed = GN_SIZE_FIRST ? 0 : walk->fixed,
-            end = gn_min32(walk->row_end[0], walk->row + (fixed ? fixed : GN_WALK_ROWS)), n = end - walk->row;
+    int32_t fixed = walk->fixed, end = gn_min32(walk->row_end[0], walk->row + (fixed ? fixed : GN_WALK_ROWS)),
+            n = end - walk->row;
     walk->first = walk->row;
     if (fixed) {
         fixed_border(walk, 0, end);
@@ -398,7 +360,7 @@ GN_HOT int32_t gn_walk_begin(gn_walk *walk, const int32_t x[3], const int32_t y[
     walk->row_end[0] = gn_min32(gn_max32(walk->row_end[1], walk->row_end[2]), y_hi);
     if (walk->row >= walk->row_end[0]) return 0;
     walk->subpixel_bits = subpixel_bits;
-    walk->fixed = GN_SIZE_FIRST ? 0 : fixed_for(x, gn_max32(b.y, c.y) - a.y, subpixel_bits);
+    walk->fixed = fixed_for(x, gn_max32(b.y, c.y) - a.y, subpixel_bits);
     for (int side = 0; !walk->fixed && side < 2; side++) {
         if (walk->row < walk->row_end[1 + side]) edge_begin(walk, side, 0, 1 + side);
         else if (walk->row > walk->row_end[1 + side]) edge_begin(walk, side, 1 + side, 2 - side);

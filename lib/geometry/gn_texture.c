@@ -182,7 +182,7 @@ GN_HOT uint32_t gn_texture_keeps(const gn_texture *texture, const gn_texture_cur
                                  const gn_alpha_test *test)
 {
     uint32_t at[2], step[2], kept = 0;
-    if (!GN_SIZE_FIRST && bits > 1 && inner_keeps(texture, curve, bits, test, &kept)) return kept;
+    if (bits > 1 && inner_keeps(texture, curve, bits, test, &kept)) return kept;
     for (int i = 0; i < 2; i++) {
         at[i] = (uint32_t)curve->at_q28[i];
         step[i] = (uint32_t)curve->step_q28[i];

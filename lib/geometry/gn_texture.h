@@ -183,9 +183,9 @@ GN_HOT static inline uint32_t gn_texel_word(const uint8_t *p)
 
 GN_HOT static inline void gn_texel_decode_rgba(uint32_t word, uint16_t rgb[3])
 {
-    rgb[0] = (uint16_t)gn_srgb_decode_entry(word & 255U);
-    rgb[1] = (uint16_t)gn_srgb_decode_entry(word >> 8 & 255U);
-    rgb[2] = (uint16_t)gn_srgb_decode_entry(word >> 16 & 255U);
+    rgb[0] = gn_srgb_decode_table[word & 255U];
+    rgb[1] = gn_srgb_decode_table[word >> 8 & 255U];
+    rgb[2] = gn_srgb_decode_table[word >> 16 & 255U];
 }
 
 GN_HOT static inline void gn_texel_decode_565(uint32_t texel, int has_alpha, uint16_t rgb[3])
@@ -197,7 +197,7 @@ GN_HOT static inline void gn_texel_decode_565(uint32_t texel, int has_alpha, uin
 
 GN_HOT static inline uint16_t gn_texel_decode_grey(uint32_t value, uint32_t bits_log2)
 {
-    return (uint16_t)gn_srgb_decode_entry(bits_log2 == 2 ? value * 17U : value);
+    return gn_srgb_decode_table[bits_log2 == 2 ? value * 17U : value];
 }
 
 /* ---- Triangles that alpha cuts ----------------------------------------------------------------------------------- */

@@ -51,7 +51,6 @@ GN_HOT static gn_texel_rgb texel_of_channels(const uint16_t rgb[3])
 
 /* ---- Pixels whose texels lie inside ------------------------------------------------------------------------------ */
 
-#if !GN_SIZE_FIRST
 enum { TEXELS_RGBA, TEXELS_565, TEXELS_565A1, TEXELS_PALETTE, TEXELS_GREY };
 
 #define IS_565(kind) (GN_TEXEL_565S && ((kind) == TEXELS_565 || (kind) == TEXELS_565A1))
@@ -298,34 +297,6 @@ GN_HOT void gn_texture_row(const gn_texture *t, const gn_texture_line *line, uin
     else
         for (; bits; bits >>= 1, out++) *out = GN_TEXEL_WHITE;
 }
-#else
-GN_HOT static GN_NOINLINE void any_pixel(const gn_texture *t, int32_t at_q17[2], gn_texel_rgb *out)
-{
-    uint32_t x[2], y[2], weight[4];
-    uint16_t texel[4][3];
-    find_pair(t, 0, &at_q17[0], x);
-    find_pair(t, 1, &at_q17[1], y);
-    gn_texture_texel(t, x[0], y[0], texel[0]);
-    if (t->flags & GN_TEXTURE_BILINEAR) {
-        for (int i = 1; i < 4; i++) gn_texture_texel(t, x[i & 1], y[i >> 1], texel[i]);
-        find_weights((uint32_t)at_q17[0], (uint32_t)at_q17[1], weight);
-        for (int c = 0; c < 3; c++) texel[0][c] = weigh(weight, texel[0][c], texel[1][c], texel[2][c], texel[3][c]);
-    }
-    *out = texel_of_channels(texel[0]);
-}
-
-GN_HOT void gn_texture_row(const gn_texture *t, const gn_texture_line *line, uint32_t bits, gn_texel_rgb *out)
-{
-    gn_texture_line at = *line;
-    for (; bits; bits >>= 1, out++) {
-        if (bits & 1U) any_pixel(t, at.at_q17, out);
-        for (int i = 0; i < 2; i++) {
-            at.at_q17[i] += at.step_q17[i];
-            at.step_q17[i] += at.step_change_q17[i];
-        }
-    }
-}
-#endif
 
 #endif
 

@@ -63,7 +63,6 @@ GN_HOT static inline int32_t gn_first_px(int32_t coord, int32_t subpixel_bits)
  * none. */
 GN_HOT static inline int32_t gn_walk_lasts(uint32_t size)
 {
-    if (GN_SIZE_FIRST) return 0; /* exact steps do all */
     return size >= 2 * GN_FIXED_SMALL ? 0 : size >= GN_FIXED_SMALL ? GN_WALK_ROWS / 2 : GN_WALK_ROWS;
 }
 

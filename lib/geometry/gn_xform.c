@@ -112,12 +112,6 @@ void gn_xform_fast_begin(gn_xform_fast *fast, const gn_xform *xform)
         1U << (31 - gn_max32(up, 1)); /* a position may have 30 bits with any transform: gn_scene_position_ok */
 }
 
-int gn_xform_fast_vertex(int32_t out_q16[3], const gn_xform_fast *fast, const gn_position position[3])
-{
-    const int32_t p[3] = {position[0], position[1], position[2]};
-    return gn_xform_fast_inline(out_q16, fast, p);
-}
-
 void gn_xform_normal_matrix(int32_t out[3][3], const int32_t m[3][3])
 {
     /* The cofactors are the inverse transpose times the determinant: only their direction and the determinant's sign

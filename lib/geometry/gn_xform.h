@@ -18,15 +18,12 @@ void gn_xform_point(int64_t out_q16[3], const gn_xform *xform, const int32_t p[3
 /* Adds up the constant terms, for many vertices. */
 void gn_xform_fast_begin(gn_xform_fast *fast, const gn_xform *xform);
 
-/* The same result as gn_xform_point. Returns 0, without a result, if it may be 2^29 or more, or the position 2^30. */
-int gn_xform_fast_vertex(int32_t out_q16[3], const gn_xform_fast *fast, const gn_position position[3]);
-
 /* Row r times p, with the constant terms */
 #define GN_FAST_ROW_(r)                                                                                                \
     (fast->row[r].sum + (int64_t)fast->row[r].m[0] * p0 + (int64_t)fast->row[r].m[1] * p1 +                            \
      (int64_t)fast->row[r].m[2] * p2)
 
-/* The same, spelled out where it is called, and however large the result is. */
+/* The same result as gn_xform_point, however large. Returns 0, without a result, if the position may be 2^30. */
 GN_INLINE int gn_xform_fast_wide(int32_t out_q16[3], const gn_xform_fast *fast, const int32_t position[3])
 {
     uint32_t reach = fast->reach, up = fast->up, down = fast->down;
@@ -51,6 +48,7 @@ GN_INLINE int gn_xform_fast_wide(int32_t out_q16[3], const gn_xform_fast *fast, 
 }
 #undef GN_FAST_ROW_
 
+/* Returns 0, too, if the result may be 2^29 or more. */
 GN_INLINE int gn_xform_fast_inline(int32_t out_q16[3], const gn_xform_fast *fast, const int32_t position[3])
 {
     const uint32_t limit = 1U << 29;

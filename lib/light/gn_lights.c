@@ -84,20 +84,9 @@ GN_COLD gn_status gn_lights_setup(gn_frame *frame)
 /* Axis-aligned bounds in the world, by which lights, views and tiles leave objects out. */
 
 #if GN_BOXES
-/* Least and largest of n coordinates, three apart. */
-static void stored_extent(const gn_position *at, uint32_t n, int32_t *lo, int32_t *hi)
-{
-    int32_t least = *at, most = least;
-    for (; n; n--, at += 3) {
-        least = gn_min32(least, *at);
-        most = gn_max32(most, *at);
-    }
-    *lo = least;
-    *hi = most;
-}
-
-/* The same of all coordinates of a mesh that its skin poses. Vertices whose place is a word of records are kept: the
- * last one's ends with the records, or all places are below 0, as a mesh of 2^28 vertices would take gigabytes. */
+/* Least and largest coordinates of a mesh, posed by its skin if it has one. Vertices whose place is a word of records
+ * are kept: the last one's ends with the records, or all places are below 0, as a mesh of 2^28 vertices would take
+ * gigabytes. */
 static void posed_extent(const gn_object *object, gn_records *records, int32_t place, int32_t lo[3], int32_t hi[3])
 {
     int32_t p[3];
@@ -116,12 +105,9 @@ static void posed_extent(const gn_object *object, gn_records *records, int32_t p
  * format. Returns 0 if a position is out of range. */
 static int mesh_box(const gn_object *object, gn_records *records, int32_t place, int32_t centre[3], int32_t half[3])
 {
-    const gn_mesh *mesh = object->mesh;
     int32_t lo[3], hi[3];
-    GN_COUNT(boxed, mesh->n_vertices);
-    if (GN_SIZE_FIRST || GN_SKIN(object)) posed_extent(object, records, place, lo, hi);
-    else
-        for (int k = 0; k < 3; k++) stored_extent(mesh->pos + k, mesh->n_vertices, &lo[k], &hi[k]);
+    GN_COUNT(boxed, object->mesh->n_vertices);
+    posed_extent(object, records, place, lo, hi);
     if (!gn_position_ok(lo) || !gn_position_ok(hi)) return 0;
     for (int k = 0; k < 3; k++) {
         centre[k] = (int32_t)(((int64_t)lo[k] + hi[k]) >> 1);

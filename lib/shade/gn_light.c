@@ -311,7 +311,7 @@ GN_HOT static uint32_t load(const gn_frame *frame, const gn_pixel_rows *rows, in
 /* Linear light of a level of 8 bits, 65535: 1. */
 GN_HOT static uint32_t decode_8(const gn_frame *frame, uint32_t level)
 {
-    return GN_K(frame, srgb) ? gn_srgb_decode_entry(level) : level * 257U;
+    return GN_K(frame, srgb) ? gn_srgb_decode_table[level] : level * 257U;
 }
 
 GN_HOT static void decode_565(const gn_frame *frame, uint32_t stored, uint32_t rgb[3])

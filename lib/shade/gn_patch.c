@@ -150,22 +150,9 @@ GN_HOT static uint32_t nodes_beyond(const int32_t (*node)[3], int32_t n)
         beyond |= (uint32_t)((*node)[0] - 64) | (uint32_t)((*node)[1] - 64) | (uint32_t)((*node)[2] - 64);
     return beyond;
 }
-
-/* Textured pixels under linear light: two nodes, 16 pixels apart, of which the second may lie beyond 32 bits. */
-GN_HOT static void draw_textured(gn_shading *s, const int32_t from[3], const int32_t step[3], const gn_patch_span *span,
-                                 int32_t x, int32_t y, int32_t n)
-{
-    gn_patch *p = &s->lattice.from.patch;
-    gn_pixel_line line = {.node = (const int32_t(*)[3])p->node_q24, .spacing_log2 = 4, .texel = p->texel};
-    for (int c = 0; c < 3; c++) p->node_q24[0][c] = from[c], p->node_q24[1][c] = from[c] + step[c] * (n - 1);
-    line.inside = !(nodes_beyond(line.node, 2) >> 24);
-    for (int c = 0; c < 3; c++) p->node_q24[1][c] = (int32_t)((uint32_t)from[c] + 16U * (uint32_t)step[c]);
-    find_row_texels(p, span, n);
-    gn_pixel_store_line(s->frame, &s->rows, x, y, (1U << n) - 1, &line);
-}
 #endif
 
-/* Pixels that are not linear, a node each. */
+/* Pixels that are not linear, or textured: a node each. */
 GN_HOT static void draw_patch_nodes(gn_shading *s, const int32_t from[3], const int32_t step[3],
                                     const gn_patch_span *span, int32_t x, int32_t y, int32_t n)
 {
@@ -196,10 +183,7 @@ GN_HOT static void draw_patch_row(gn_shading *s, const gn_patch_span *span, int3
         const gn_row_value row = gn_patch_row(&p->colour[c], span);
         from[c] = row.at, step[c] = row.step;
     }
-    if (p->n_lights | p->tinted) draw_patch_nodes(s, from, step, span, x, y, n);
-#if GN_TEXTURES
-    else if (p->textured) draw_textured(s, from, step, span, x, y, n);
-#endif
+    if (p->n_lights | p->tinted | p->textured) draw_patch_nodes(s, from, step, span, x, y, n);
     else gn_pixel_store_run(s->frame, &s->rows, x, y, n, from, step);
 }
 

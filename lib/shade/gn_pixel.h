@@ -45,7 +45,7 @@ void gn_pixel_store_bits(const gn_frame *frame, const gn_pixel_rows *rows, int32
 GN_HOT static inline void gn_pixel_fill_16(gn_tile_pixels *pixels, uint32_t i, uint32_t n, uint32_t packed)
 {
     uint32_t end = i + n;
-    if (!GN_SIZE_FIRST && n >= 8) {
+    if (n >= 8) {
         uint32_t both = packed | packed << 16, word = (i + 1) >> 1, words = end >> 1;
         if (i & 1U) pixels->rgb565[i] = (uint16_t)packed;
         for (; word + 4 <= words; word += 4)

@@ -117,7 +117,6 @@ GN_HOT static void light_coords(const gn_frame *frame, const gn_light_view *view
 /* Whether a light has cascades, or shadows end at a distance from the camera. */
 GN_HOT static int asks_for_cascades(const gn_frame *frame)
 {
-    if (GN_SIZE_FIRST && !GN_INTERPOLATES) return 1; /* any value: nothing depends on it */
     return frame->has_cascades || frame->scene->shadow.distance_mode == GN_DISTANCE_RADIUS;
 }
 

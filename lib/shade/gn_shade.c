@@ -147,7 +147,7 @@ GN_HOT static GN_NOINLINE void join(gn_shading *s, const char *sources, uint32_t
         const gn_tri_source *next = gn_cell_source(frame, sources, id);
         const int32_t vertex = gn_join_vertex(frame, s->tri, last, next);
         if (vertex == GN_JOIN_NONE || !gn_runs_join(frame, s->scratch, id_behind(frame, at, end, 0), id)) return;
-        if (vertex >= 0) gn_surface_extend(frame, s->scratch, &s->cache, &s->surface, next, (uint32_t)vertex);
+        if (vertex >= 0) gn_surface_extend(s->scratch, &s->cache, &s->surface, next, (uint32_t)vertex);
         s->surface.joined = 1;
         last = next;
     }

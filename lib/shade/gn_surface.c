@@ -14,8 +14,6 @@
 #include "shade/gn_surface.h"
 #include "visible/gn_setup.h"
 
-#define GN_ONE_Q30 (1 << 30)
-
 /* An unlit surface gets no light; only the shadow view needs the lights that it faces. [M2] */
 static int without_light(const gn_frame *frame, const gn_surface *s)
 {
@@ -47,57 +45,10 @@ void gn_surface_face(const gn_frame *frame, const gn_surface *s, int32_t out_q30
         for (int i = 0; i < 3; i++) out_q30[i] = s->normal_q30[0][i];
 }
 
-/* Bits s .. s + 31 below the sign of 64, rounded to 31. */
-static inline int32_t rounded_high(int64_t v, int32_t s)
-{
-    uint32_t high = (uint32_t)((uint64_t)v >> 32) << s | (uint32_t)v >> (32 - s);
-    return (int32_t)(((int32_t)high >> 1) + (int32_t)(high & 1U));
-}
-
-/* 31 bits times root_q32, which has 2^31 set, over 2^32: as gn_normalise_q30() does it. */
-static inline int32_t normalised(int32_t n, uint32_t root)
-{
-    int64_t p = (int64_t)n * (int32_t)(root - 0x80000000U - 0x80000000U);
-    int32_t v = (int32_t)(p >> 32) + n + (int32_t)((uint32_t)p >> 31);
-    return gn_max32(-(1 << 30), gn_min32(v, 1 << 30));
-}
-
-static inline int64_t row_times(const int32_t row[3], int32_t x, int32_t y, int32_t z)
-{
-    return (int64_t)row[0] * x + (int64_t)row[1] * y + (int64_t)row[2] * z;
-}
-
-void gn_surface_normal(int32_t out_q30[3], const int32_t matrix[3][3], const gn_normal nrm_q15[3])
-{
-    const int32_t x = nrm_q15[0], y = nrm_q15[1], z = nrm_q15[2];
-    const int64_t a = row_times(matrix[0], x, y, z), b = row_times(matrix[1], x, y, z),
-                  c = row_times(matrix[2], x, y, z);
-    /* bits of the absolute values, or 1 less of negative ones: where that makes a difference, all bits below are set */
-    const uint64_t any = (uint64_t)((a ^ a >> 63) | (b ^ b >> 63) | (c ^ c >> 63));
-    const uint32_t high = (uint32_t)(any >> 32);
-    const int32_t s = high ? gn_clz32(high) - 1 : 31;
-    if (!high || (high << s | (uint32_t)any >> (32 - s)) >= 0x7FFFFFFEU) { /* short, or rounded up to 2^30 */
-        gn_xform_normal(out_q30, matrix, nrm_q15);
-        return;
-    }
-    int32_t n[3] = {rounded_high(a, s), rounded_high(b, s), rounded_high(c, s)};
-    const uint64_t sum = (uint64_t)gn_dot64(n, n); /* 2^58 to 3 * 2^60 */
-    const uint32_t sum_high = (uint32_t)(sum >> 32);
-    const int32_t up = gn_clz32(sum_high) & 30; /* 2 or 4 */
-    const uint32_t root = gn_rsqrt_norm(sum_high << up | (uint32_t)sum >> (32 - up), 2);
-    const int32_t more = up >> 2;
-    out_q30[0] = normalised(n[0] * (1 << more), root);
-    out_q30[1] = normalised(n[1] * (1 << more), root);
-    out_q30[2] = normalised(n[2] * (1 << more), root);
-}
-
-/* Of a vertex, by way of the cache, whose entries are not used for positions here. Of skins the exact formula is for
- * pixels each of which is exact. */
+/* Of a vertex. Of skins the exact formula is for pixels each of which is exact. */
 static void vertex_normal(int32_t out_q30[3], const gn_frame *frame, gn_scratch *scratch, const gn_surface_cache *cache,
                           const gn_object *object, uint32_t object_idx, uint32_t vertex_idx)
 {
-    gn_vertex_entry *vertex = scratch->vertex;
-    const gn_normal *nrm_q15 = object->mesh->nrm_q15 + 3 * (size_t)vertex_idx;
 #if GN_INTERPOLATES && GN_VERTEX_JOINTS && GN_VERTEX_NORMALS
     if (GN_SKIN(object) && GN_K(frame, persp_step) != 1) {
         gn_patch_vertex_normal(&scratch->work.shading, object_idx, vertex_idx, out_q30);
@@ -105,23 +56,12 @@ static void vertex_normal(int32_t out_q30[3], const gn_frame *frame, gn_scratch 
         return;
     }
 #endif
-    (void)frame;
+    (void)frame, (void)scratch, (void)object_idx;
     if (GN_VERTEX_JOINTS && GN_SKIN(object)) {
         gn_skin_normal(out_q30, object, cache->normal_matrix, vertex_idx);
         return;
     }
-    if (GN_SIZE_FIRST) {
-        gn_xform_normal(out_q30, cache->normal_matrix, nrm_q15);
-        return;
-    }
-    gn_vertex_entry *entry = &vertex[gn_vertex_slot(vertex_idx, GN_VERTEX_CACHE - 1)];
-    uint32_t tag = gn_vertex_tag(object_idx, vertex_idx);
-    if (!gn_vertex_hit(entry, tag)) {
-        gn_surface_normal(entry->v_q16, cache->normal_matrix, nrm_q15);
-        gn_vertex_claim(entry, tag);
-    }
-    GN_UNROLL
-    for (int i = 0; i < 3; i++) out_q30[i] = entry->v_q16[i];
+    gn_xform_normal(out_q30, cache->normal_matrix, object->mesh->nrm_q15 + 3 * (size_t)vertex_idx);
 }
 
 /* Of the vertices, or of the face where they have none. [M3] */
@@ -333,25 +273,9 @@ static void use_object(const gn_frame *frame, gn_surface_cache *cache, const gn_
 {
     if (cache->object == object) return;
     cache->object = object;
-    gn_xform to_view;
-    gn_xform_compose(&to_view, frame->cam.axis_q30, frame->cam.eye_q16, object);
-    if (GN_SIZE_FIRST || GN_SKIN(object)) cache->by.to_view = to_view;
-    else gn_xform_fast_begin(&cache->by.fast, &to_view);
+    gn_xform_compose(&cache->to_view, frame->cam.axis_q30, frame->cam.eye_q16, object);
     if (GN_VERTEX_NORMALS && object->mesh->nrm_q15)
         gn_xform_normal_matrix(cache->normal_matrix, object->to_world.m_q30);
-}
-
-/* A vertex whose transform or position is too large for the fast path. The cache's entry may be a normal. */
-static GN_NOINLINE void slow_vertex(int32_t out_q16[3], const gn_frame *frame, gn_scratch *scratch,
-                                    const gn_tri_source *tri, uint32_t vertex_idx)
-{
-    const gn_object *object = &frame->scene->objects[tri->object_idx];
-    gn_vertex_entry *entry = &scratch->vertex[gn_vertex_slot(vertex_idx, GN_VERTEX_CACHE - 1)];
-    gn_xform to_view;
-    gn_xform_compose(&to_view, frame->cam.axis_q30, frame->cam.eye_q16, object);
-    gn_vertex_drop(entry);
-    gn_setup_vertex(out_q16, scratch->vertex, &to_view, object, tri->object_idx, vertex_idx);
-    gn_vertex_drop(entry);
 }
 
 #if GN_ORTHOGRAPHIC
@@ -384,16 +308,6 @@ static void find_depth(const gn_frame *frame, gn_surface *s, int32_t (*v)[3])
     (void)v;
 }
 
-/* A vertex in view space. */
-static inline void find_vertex(const gn_frame *frame, gn_scratch *scratch, const gn_surface_cache *cache,
-                               const gn_surface *s, const gn_tri_source *tri, uint32_t vertex_idx, int32_t out_q16[3])
-{
-    if (GN_SIZE_FIRST || GN_SKIN(s->object))
-        gn_setup_vertex(out_q16, scratch->vertex, &cache->by.to_view, s->object, tri->object_idx, vertex_idx);
-    else if (!gn_xform_fast_vertex(out_q16, &cache->by.fast, s->object->mesh->pos + 3 * (size_t)vertex_idx))
-        slow_vertex(out_q16, frame, scratch, tri, vertex_idx);
-}
-
 void gn_surface_place(const gn_frame *frame, gn_scratch *scratch, gn_surface_cache *cache, gn_surface *s,
                       const gn_tri_source *tri)
 {
@@ -407,7 +321,7 @@ void gn_surface_place(const gn_frame *frame, gn_scratch *scratch, gn_surface_cac
     GN_UNROLL
     for (int i = 0; i < 3; i++) {
         int32_t *v = s->v_q16[i];
-        find_vertex(frame, scratch, cache, s, tri, idx[i], v);
+        gn_setup_vertex(v, scratch->vertex, &cache->to_view, s->object, tri->object_idx, idx[i]);
         GN_UNROLL
         for (int k = 0; k < 3; k++) {
             s->lo_q16[k] = i ? gn_min32(s->lo_q16[k], v[k]) : v[k];
@@ -420,11 +334,11 @@ void gn_surface_place(const gn_frame *frame, gn_scratch *scratch, gn_surface_cac
 }
 
 #if GN_INTERPOLATES
-void gn_surface_extend(const gn_frame *frame, gn_scratch *scratch, const gn_surface_cache *cache, gn_surface *s,
-                       const gn_tri_source *tri, uint32_t vertex_idx)
+void gn_surface_extend(gn_scratch *scratch, const gn_surface_cache *cache, gn_surface *s, const gn_tri_source *tri,
+                       uint32_t vertex_idx)
 {
     int32_t v[3];
-    find_vertex(frame, scratch, cache, s, tri, vertex_idx, v);
+    gn_setup_vertex(v, scratch->vertex, &cache->to_view, s->object, tri->object_idx, vertex_idx);
     for (int k = 0; k < 3; k++) {
         s->lo_q16[k] = gn_min32(s->lo_q16[k], v[k]);
         s->hi_q16[k] = gn_max32(s->hi_q16[k], v[k]);

@@ -15,7 +15,7 @@ void gn_surface_place(const gn_frame *frame, gn_scratch *scratch, gn_surface_cac
                       const gn_tri_source *tri);
 
 /* Another vertex of its plane belongs to it, too. */
-void gn_surface_extend(const gn_frame *frame, gn_scratch *scratch, const gn_surface_cache *cache, gn_surface *surface,
+void gn_surface_extend(gn_scratch *scratch, const gn_surface_cache *cache, gn_surface *surface,
                        const gn_tri_source *tri, uint32_t vertex_idx);
 
 /* All that shading needs of it, then. */
@@ -40,9 +40,6 @@ void gn_surface_list_lights(const gn_frame *frame, gn_surface *surface);
 
 /* Which of their shadows its object receives, if any. [M2] */
 void gn_surface_shadows(const gn_frame *frame, gn_surface *surface);
-
-/* gn_xform_normal(), inlined where time counts. */
-void gn_surface_normal(int32_t out_q30[3], const int32_t matrix[3][3], const gn_normal nrm_q15[3]);
 
 /* 1: constant radiance, no need to sample it. */
 GN_HOT static inline int gn_surface_is_constant(const gn_surface *s)

@@ -115,10 +115,7 @@ typedef struct {
 /* Cache of values that neighbouring triangles of a screen tile have in common. */
 typedef struct {
     const gn_object *object;
-    union {
-        gn_xform to_view; /* with GN_SIZE_FIRST, and of skinned objects */
-        gn_xform_fast fast;
-    } by; /* of the current object */
+    gn_xform to_view;
     int32_t normal_matrix[3][3];
 } gn_surface_cache;
 

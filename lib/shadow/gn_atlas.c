@@ -113,12 +113,10 @@ static inline int32_t draw_perspective(gn_casting *casting, gn_alpha_cut *alpha,
 /* Coordinates of a vertex in the view. Returns 0 if it may be beyond 2^29. */
 static inline int small_position(int32_t out[3], const caster_job *job, uint32_t vertex_idx)
 {
-    if (!GN_SIZE_FIRST) {
-        int32_t p[3];
-        gn_posed_vertex(p, job->frame, job->object, job->object_idx, vertex_idx);
-        if (gn_xform_fast_inline(out, &job->by.fast, p)) return 1;
-        if (GN_LARGE_CASTERS) return 0;
-    }
+    int32_t p[3];
+    gn_posed_vertex(p, job->frame, job->object, job->object_idx, vertex_idx);
+    if (gn_xform_fast_inline(out, &job->by.fast, p)) return 1;
+    if (GN_LARGE_CASTERS) return 0;
     int64_t v[3];
     light_position(v, job, vertex_idx);
     for (int i = 0; i < 3; i++) {
@@ -132,7 +130,7 @@ static inline int small_position(int32_t out[3], const caster_job *job, uint32_t
 static inline int fill_corner(gn_caster_corner *c, const caster_job *job, uint32_t vertex_idx)
 {
     if (!small_position(c->vertex.v_q16, job, vertex_idx)) return 0;
-    if (GN_SMALL_CASTERS && GN_PUNCTUAL_LIGHTS && job->view->perspective) gn_persp_corner(job->frame, job->view, c);
+    if (GN_PUNCTUAL_LIGHTS && job->view->perspective) gn_persp_corner(job->frame, job->view, c);
     return 1;
 }
 
@@ -170,7 +168,7 @@ static inline int draw_small(gn_casting *casting, const uint16_t idx[3], int32_t
     const gn_caster_corner *c[3];
     if (GN_CASTER_BIAS && job->shrink_q16) return 0;
     if (job->object->caster_alpha != GN_ALPHA_OPAQUE || !cached_corners(casting, idx, c)) return 0;
-    if (GN_SMALL_CASTERS && GN_PUNCTUAL_LIGHTS && job->view->perspective)
+    if (GN_PUNCTUAL_LIGHTS && job->view->perspective)
         *n_texels = gn_persp_small_triangle(job->frame, job->view, casting, c);
     else *n_texels = gn_ortho_small_triangle(job->frame, job->view, casting, c);
     return 1;
@@ -222,7 +220,7 @@ static gn_status draw_triangle(gn_casting *casting, const uint16_t idx[3])
     gn_status status;
     if (job->view->perspective) GN_COUNT(casters_persp, 1);
     else GN_COUNT(casters, 1);
-    if (GN_SMALL_CASTERS && draw_small(casting, idx, &n_texels)) status = GN_OK;
+    if (draw_small(casting, idx, &n_texels)) status = GN_OK;
     else status = GN_LARGE_CASTERS ? draw_large(casting, idx, &n_texels) : refuse_large(casting, idx, &n_texels);
     if (!GN_CASTER_CLIPPING && n_texels == GN_ORTHO_TOO_FAR)
         return GN_FAIL_AT(job->frame, GN_ERR_VERTEX_RANGE, job->object_idx, GN_FIELD_MESH_POS);
@@ -249,7 +247,7 @@ static GN_NOINLINE gn_status draw_object(gn_frame *frame, gn_casting *casting, c
     if (GN_CASTER_BIAS && job->shrink_q16) {
         if (GN_VERTEX_NORMALS && job->object->mesh->nrm_q15)
             gn_xform_normal_matrix(job->by.normal_matrix, job->object->to_world.m_q30);
-    } else if (!GN_SIZE_FIRST) gn_xform_fast_begin(&job->by.fast, &job->to_light);
+    } else gn_xform_fast_begin(&job->by.fast, &job->to_light);
     const gn_mesh *mesh = job->object->mesh;
     for (uint32_t t = 0; t < mesh->n_triangles; t++) {
         gn_status status = draw_triangle(casting, mesh->idx + 3 * (size_t)t);
@@ -260,8 +258,7 @@ static GN_NOINLINE gn_status draw_object(gn_frame *frame, gn_casting *casting, c
 
 static gn_status draw_layer(gn_frame *frame, gn_casting *casting, const gn_light_view *view, gn_layer layer)
 {
-    for (uint32_t i = 0; GN_SMALL_CASTERS && i <= casting->job.cache_mask; i++)
-        gn_vertex_drop(&casting->job.cache[i].vertex);
+    for (uint32_t i = 0; i <= casting->job.cache_mask; i++) gn_vertex_drop(&casting->job.cache[i].vertex);
     for (uint32_t o = 0; o < frame->scene->n_objects; o++) {
         int culled, drawn = gn_cull_draws(frame, view, o, layer, &culled);
         frame->stats.n_casters_culled += (uint32_t)culled;
@@ -326,7 +323,7 @@ gn_status gn_atlas_render_tile(gn_frame *frame, gn_casting *casting, uint32_t vi
                                uint32_t n_words)
 {
     gn_light_view *view = &frame->view[view_idx];
-    if (GN_SMALL_CASTERS) use_cache(&casting->job, memory, n_words);
+    use_cache(&casting->job, memory, n_words);
     if (view->empty || view->stale) return GN_OK;
     if (GN_UNSEEN(view)) { /* the first of those that share it would do */
         clear(view);

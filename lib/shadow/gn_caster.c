@@ -114,7 +114,7 @@ GN_HOT static GN_NOINLINE void span(const gn_light_view *view, const gn_caster *
     gn_texels row = gn_texels_at(view->depth, bits, (size_t)(uint32_t)(v * view->tile_texels));
     GN_COUNT(texels_cut, alpha ? u_end - u : 0);
     GN_COUNT(texels_wide, alpha ? 0 : u_end - u);
-    if (!GN_SIZE_FIRST && !alpha) {
+    if (!alpha) {
         all_texels(caster, row, bits, u, u_end, z);
         return;
     }
@@ -128,8 +128,7 @@ GN_HOT int32_t gn_caster_begin(const gn_frame *frame, const gn_light_view *view,
     int32_t bits = GN_CASTER_BITS(frame), size = view->tile_texels;
     GN_COUNT(caster_walks, 1);
     int32_t n_rows = gn_walk_begin(walk, x, y, bits, 0, GN_TILE_ROWS(view));
-    if (GN_SIZE_FIRST || walk->row < walk->row_end[0])
-        return n_rows; /* more than one batch of rows: some texel is covered */
+    if (walk->row < walk->row_end[0]) return n_rows; /* more than one batch of rows: some texel is covered */
     for (int32_t i = 0; i < n_rows; i++)
         if (gn_max32(walk->span[i].x_begin, 0) < gn_min32(walk->span[i].x_end, size)) return n_rows;
     return 0;
@@ -140,8 +139,7 @@ GN_HOT int32_t gn_caster_rows(const gn_light_view *view, const gn_caster *caster
 {
     int32_t size = view->tile_texels, n_texels = 0, v = walk->first;
     caster_depth16 depth = depth16_begin(view, caster);
-    uint32_t range =
-        !GN_SIZE_FIRST && depth.usable && !alpha ? depth.range : 0; /* the fast path gives the same results */
+    uint32_t range = depth.usable && !alpha ? depth.range : 0; /* the fast path gives the same results */
     for (; n_rows > 0; n_rows = gn_walk_on(walk)) {
         for (const gn_span *at = walk->span; n_rows > 0; n_rows--, at++, v++) {
             int32_t u = gn_max32(at->x_begin, 0), n = gn_min32(at->x_end, size) - u;

@@ -72,7 +72,7 @@ enum { EDGE_ROWS = 17 }; /* 2 * 8 + 1 */
 /* Rows of texels, a bit each that keeps the receiver dark, from bit `at` on. */
 GN_HOT static void read_rows(const gn_lookup *l, int32_t u, int32_t v, int32_t w, int32_t h, int32_t at, uint32_t *rows)
 {
-#if !GN_SIZE_FIRST
+#if GN_PLANES
     if (gn_lookup_rows_on_plane(l, u, v, w, h, at, rows)) return;
 #endif
     for (int32_t j = 0; j < h; j++) rows[j] = gn_lookup_dark(l, u, v + j, w) << at;
@@ -82,7 +82,7 @@ GN_HOT static void read_rows(const gn_lookup *l, int32_t u, int32_t v, int32_t w
 GN_HOT static uint32_t read_cross(const gn_lookup *l, int32_t u, int32_t v)
 {
     uint32_t dark, rows[3];
-#if !GN_SIZE_FIRST
+#if GN_PLANES
     if (gn_lookup_cross_on_plane(l, u, v, &dark)) return dark;
 #endif
     for (int32_t i = 0; i < 3; i++) rows[i] = gn_lookup_dark(l, u - 1, v - 1 + i, 3);
@@ -276,7 +276,7 @@ GN_HOT uint32_t gn_lookup_dark(const gn_lookup *l, int32_t u, int32_t v, int32_t
     return dark;
 }
 
-#if GN_PLANES && !GN_SIZE_FIRST
+#if GN_PLANES
 /* Whether w x h texels from (u, v) on lie in the tile, and the plane in what texels hold: its least and most there. */
 GN_HOT static inline int is_plain_plane(const gn_lookup *l, int32_t u, int32_t v, int32_t w, int32_t h, int64_t *lo,
                                         int64_t *hi)

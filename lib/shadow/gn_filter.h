@@ -99,18 +99,17 @@ GN_HOT static inline gn_texels gn_view_texels(const gn_light_view *view, int32_t
     return gn_texels_at(view->depth, GN_VIEW_BITS(view), (size_t)(uint32_t)(v * view->tile_texels + u));
 }
 
-/* Whether n x n texels from (u, v) on lie in the tile and compare with one depth, so that taps need no checks. With
- * GN_SIZE_FIRST taps are always checked. */
+/* Whether n x n texels from (u, v) on lie in the tile and compare with one depth, so that taps need no checks. */
 GN_HOT static inline int gn_lookup_is_plain(const gn_lookup *l, int32_t u, int32_t v, int32_t n)
 {
-    return !GN_SIZE_FIRST && !(GN_PLANES && l->sloped) && (uint32_t)u <= (uint32_t)(l->view->tile_texels - n) &&
+    return !(GN_PLANES && l->sloped) && (uint32_t)u <= (uint32_t)(l->view->tile_texels - n) &&
            (uint32_t)v <= (uint32_t)(GN_TILE_ROWS(l->view) - n);
 }
 
 /* Texels of row v, n from u on, wherever they lie: bit i is set where texel i keeps the receiver dark. */
 uint32_t gn_lookup_dark(const gn_lookup *l, int32_t u, int32_t v, int32_t n);
 
-#if GN_PLANES && !GN_SIZE_FIRST
+#if GN_PLANES
 /* The same of n x n texels on the receiver's plane: a byte per row; *found: the OR of all rows, and in the upper half
  * their AND. Returns 0 if a texel lies outside the tile, or the plane outside what texels hold. */
 int gn_lookup_on_plane(const gn_lookup *l, int32_t u, int32_t v, int32_t n, uint8_t *dark, uint32_t *found);
@@ -268,7 +267,7 @@ GN_HOT static inline uint32_t gn_tent_of_2x2(uint32_t upper, uint32_t lower, int
 GN_HOT static inline int gn_tent_on_plane(const gn_lookup *l, int32_t u, int32_t v, int32_t n, uint8_t *dark,
                                           uint32_t *found)
 {
-#if GN_PLANES && !GN_SIZE_FIRST
+#if GN_PLANES
     if (l->sloped) return gn_lookup_on_plane(l, u, v, n, dark, found);
 #endif
     (void)l, (void)u, (void)v, (void)n, (void)dark, (void)found;

@@ -106,7 +106,6 @@ GN_COLD void gn_persp_fit_view(gn_frame *frame, gn_light_view *view, const gn_li
 /* T / 2 * (1 + x / (z t)), Q16: the clamps keep what is far outside the tile outside. */
 GN_HOT static int32_t persp_coord(const gn_light_view *view, int64_t x_q16, uint32_t recip, int32_t clz)
 {
-#if !GN_SIZE_FIRST
     if (gn_abs64(x_q16) < (uint64_t)UINT32_MAX >> clz && clz >= 2 &&
         !(view->fit.persp.focal2_q16 >> 30)) {         /* |x| < 2 z: the same, of which nothing needs a clamp */
         int32_t x = (int32_t)x_q16 * (1 << (clz - 2)); /* x / z = x * recip / 2^61: below 2^29 * 4 */
@@ -114,7 +113,6 @@ GN_HOT static int32_t persp_coord(const gn_light_view *view, int64_t x_q16, uint
         return (int32_t)(((int64_t)ratio_q28 * (int64_t)view->fit.persp.focal2_q16 + (1 << 28)) >> 29) +
                (view->tile_texels << 15);
     }
-#endif
     /* times focal2 within 2^60, and 2^14 texels or more: beyond every tile */
     const int64_t bound = (int64_t)1 << (28 + gn_clz32(view->fit.persp.focal2_q16)), x_most = INT32_MAX;
     int64_t ratio_q28 = gn_scale64(gn_clamp64(x_q16, -x_most, x_most) * (int64_t)recip, 35 - clz); /* 2^31 * 2^32 */
@@ -214,7 +212,6 @@ GN_HOT static void project_corner(const gn_frame *frame, const gn_light_view *vi
     *y = (int32_t)gn_clamp64(texel[1], -most, most) + centre;
 }
 
-#if GN_SMALL_CASTERS
 GN_HOT void gn_persp_corner(const gn_frame *frame, const gn_light_view *view, gn_caster_corner *c)
 {
     c->out = gn_outcode(c->vertex.v_q16, view->fit.persp.clip_q16, view->fit.persp.side_q16, 0);
@@ -258,7 +255,6 @@ GN_HOT int32_t gn_persp_small_triangle(const gn_frame *frame, const gn_light_vie
     copy_corners(casting->with.clipping.polygon.v_q16, c);
     return gn_persp_triangle(frame, view, casting, NULL);
 }
-#endif
 
 GN_HOT int32_t gn_persp_triangle(const gn_frame *frame, const gn_light_view *view, gn_casting *casting,
                                  gn_alpha_cut *alpha)

@@ -144,9 +144,6 @@ void gn_static_layer_copy(const gn_light_view *to, gn_texels from);
 
 /* ---- Rasterises caster triangles into a shadow tile, whatever its projection (MODEL 6) --------------------------- */
 
-/* With GN_SIZE_FIRST the general path draws small casters, too: same results. */
-#define GN_SMALL_CASTERS (!GN_SIZE_FIRST || !GN_LARGE_CASTERS)
-
 #define GN_CASTER_GRADIENT_MAX ((int64_t)1 << 33) /* twice the whole depth range per texel */
 
 /* Depth over one triangle, as fractions of the view's depth range, Q32. */

@@ -291,7 +291,7 @@ GN_HOT static void row_3x3(const window_rows *rows, int32_t u, int32_t v, int32_
         if (!(a | b | c | d)) continue;
         if (doubts >> s & 15U && in_doubt_3x3(window, v >> 16, s)) {
             uint8_t near[4], dark[4]; /* the one in registers */
-            if (GN_SIZE_FIRST || !texels) {
+            if (!texels) {
                 if (!(dark_texels(rows, s, v >> 16, 4, depth_q30, dark) & 15U)) continue;
                 a = dark[0], b = dark[1], c = dark[2], d = dark[3];
             } else {

@@ -177,7 +177,7 @@ GN_HOT static GN_NOINLINE void raster_span_cut(const raster_tile *tile, const ra
                                                int32_t n, uint32_t iz, gn_alpha_cut *cut, int32_t x)
 {
     const uint32_t above = iz - depth->lo, end = above - (uint32_t)(n - 1) * depth->minus_dx;
-    const int bounded = GN_SIZE_FIRST || above >= depth->range || end >= depth->range;
+    const int bounded = above >= depth->range || end >= depth->range;
     GN_COUNT(covered_cut, n);
     for (; n > 0; n -= 32, cell += 32, x += 32, iz -= 32 * depth->minus_dx) {
         if (bounded) raster_cut(tile, depth, cell, gn_min32(n, 32), iz, cut, x, 1);
@@ -300,7 +300,7 @@ GN_HOT static void raster_triangle(const raster_tile *tile, const gn_tri *tri, u
             uint32_t above = iz_row + (uint32_t)xa * iz_dx;
             GN_COUNT(rows, 1);
             uint32_t end = cut ? 0 : depth.range;
-            if (!GN_SIZE_FIRST && above < end && above + (uint32_t)(n - 1) * iz_dx < end) {
+            if (above < end && above + (uint32_t)(n - 1) * iz_dx < end) {
                 raster_span(row + xa, n, above + depth.lo + (uint32_t)(n - 1) * iz_dx, &depth);
                 continue;
             }
@@ -327,7 +327,7 @@ GN_HOT static GN_NOINLINE void raster_cut_triangle(const raster_tile *tile, cons
 /* Draws a triangle whose bounds intersect the screen tile. */
 GN_HOT static inline void raster_one(const raster_tile *tile, const gn_tri *tri, uint32_t id)
 {
-    if (!GN_SIZE_FIRST && !gn_tri_is_bounded(tri) && tri->iz.unbounded.walk != GN_TRI_EXACT) {
+    if (!gn_tri_is_bounded(tri) && tri->iz.unbounded.walk != GN_TRI_EXACT) {
         if (tri->iz.unbounded.walk & GN_TRI_MASK) raster_mask(tile, tri, id);
         else raster_small(tile, tri, id);
         return;

@@ -166,7 +166,7 @@ static inline int32_t walk_of(const gn_screen_job *job, const gn_rect *px, const
             mask = gn_mask_cut(mask, x, y, picture->width, picture->height);
         if (!mask) return 0;
         const int32_t top = (a->x + ((picture->width << bits) >> 1)) >> bits;
-        if (!GN_SIZE_FIRST && job->fixed_mask) return GN_TRI_MASK | (1 + top - x) << 12 | (int32_t)mask;
+        if (job->fixed_mask) return GN_TRI_MASK | (1 + top - x) << 12 | (int32_t)mask;
     }
     return gn_max32(job->fixed_mask & gn_walk_lasts((uint32_t)(right - left) | (uint32_t)(bottom - a->y)),
                     GN_TRI_EXACT);
@@ -180,7 +180,7 @@ static inline void fill_triangle(const gn_screen_job *job, gn_tri *tri, const gr
     int32_t bits = GN_K(frame, subpixel_bits);
     GN_COUNT(visible, 1);
     tri->x[0] = (gn_coord)a->x, tri->x[2] = (gn_coord)c->x, tri->y[1] = (gn_coord)b->y;
-    if (!GN_SIZE_FIRST) GN_KEEP(tri); /* copied as half-words: combining them to words takes longer */
+    GN_KEEP(tri); /* copied as half-words: combining them to words takes longer */
     tri->x[1] = (gn_coord)b->x, tri->y[0] = (gn_coord)a->y, tri->y[2] = (gn_coord)c->y;
     tri->source.object_idx = (uint16_t)job->object_idx;
     tri->source.triangle_idx = (uint16_t)triangle_idx;

@@ -124,19 +124,6 @@ GN_COLD static GN_NOINLINE void project_cut(const setup_job *job, const int32_t 
     at->y_q16 = gn_max32(gn_min32(at->y_q16, most), -most);
 }
 
-/* Returns 0 if the vertex is out of range. */
-static GN_NOINLINE int fill_corner_small(const setup_job *job, setup_corner *c, uint32_t vertex_idx)
-{
-    int32_t p[3];
-    const gn_cam *cam = &job->screen.frame->cam;
-    const int32_t *v = c->vertex.v_q16, flat = GN_FLAT_Q16(job->screen.frame);
-    gn_posed_vertex(p, job->screen.frame, job->screen.object, job->screen.object_idx, vertex_idx);
-    if (!view_position(c->vertex.v_q16, &job->xform, p)) return 0;
-    c->out = gn_outcode(v, cam->near_q16, cam->tan_q16, flat) | gn_outcode(v, cam->near_q16, cam->guard_q16, flat) << 8;
-    if (!(c->out >> 8)) project_cut(job, v, &c->at); /* nothing is clamped; one projecting function is enough */
-    return 1;
-}
-
 /* Bit `before` if a coordinate that is not within the size from `low` is below it, `after` if it is above. */
 static inline uint32_t side_bit(int32_t v, int32_t low, uint32_t size, uint32_t before, uint32_t after)
 {
@@ -157,8 +144,8 @@ static GN_NOINLINE int fill_far_corner(const setup_job *job, setup_corner *c)
     return 1;
 }
 
-/* The same, without testing planes for most vertices. */
-GN_INLINE int fill_corner_fast(const setup_job *job, setup_corner *c, uint32_t vertex_idx)
+/* Tests no planes for most vertices. Returns 0 if the vertex is out of range. */
+GN_INLINE int fill_setup_corner(const setup_job *job, setup_corner *c, uint32_t vertex_idx)
 {
     int32_t v[3], p[3];
     gn_posed_vertex(p, job->screen.frame, job->screen.object, job->screen.object_idx, vertex_idx);
@@ -227,8 +214,7 @@ static inline gn_status fetch_corners(const setup_job *job, const uint16_t *idx,
             GN_COUNT(vertices, 1);
             entry = (setup_corner *)gn_vertex_claim_corner(&entry->vertex, tag, &at[-1]->vertex, &at[-2]->vertex,
                                                            &spare[at - c - 2].vertex);
-            if (!(GN_SIZE_FIRST ? fill_corner_small(job, entry, vertex_idx) : fill_corner_fast(job, entry, vertex_idx)))
-                return GN_ERR_VERTEX_RANGE;
+            if (!fill_setup_corner(job, entry, vertex_idx)) return GN_ERR_VERTEX_RANGE;
         }
         *at = entry;
     }
@@ -239,7 +225,7 @@ static void setup_begin_object(setup_job *job)
 {
     const gn_cam *cam = &job->screen.frame->cam;
     gn_xform_compose(&job->xform, cam->axis_q30, cam->eye_q16, job->screen.object);
-    if (!GN_SIZE_FIRST) gn_xform_fast_begin(&job->fast, &job->xform);
+    gn_xform_fast_begin(&job->fast, &job->xform);
     gn_screen_object(&job->screen);
 }
 
@@ -284,12 +270,10 @@ static void setup_begin(setup_job *job, const gn_frame *frame, gn_scratch *scrat
     job->focal_up = 1 - clz;
     job->near_down = gn_clz32((uint32_t)frame->cam.near_q16) - 1;
     job->near_norm = (uint32_t)frame->cam.near_q16 << (job->near_down + 1);
-    if (!GN_SIZE_FIRST) { /* for fill_corner_fast */
-        int32_t guard = gn_min32(frame->cam.guard_q16[0], frame->cam.guard_q16[1]);
-        job->near_q16 = frame->cam.near_q16;
-        job->z_range = (uint32_t)GN_VIEW_LIMIT_Q16 - (uint32_t)job->near_q16;
-        for (job->near_guard = 0; guard < 65536 >> job->near_guard;) job->near_guard++;
-    }
+    int32_t guard = gn_min32(frame->cam.guard_q16[0], frame->cam.guard_q16[1]);
+    job->near_q16 = frame->cam.near_q16;
+    job->z_range = (uint32_t)GN_VIEW_LIMIT_Q16 - (uint32_t)job->near_q16;
+    for (job->near_guard = 0; guard < 65536 >> job->near_guard;) job->near_guard++;
     for (uint32_t i = 0; i <= job->cache_mask; i++) gn_vertex_drop(&job->cache[i].vertex);
 }
 

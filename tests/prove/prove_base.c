@@ -184,15 +184,6 @@ void prove_step_of(void)
 /* ---- lib/base/gn_math.c, gn_noise.h ------------------------------------------------------------------------------
  */
 
-/* gn_far_recip_entry, gn_far_rsqrt_entry, gn_far_srgb_entry, gn_far_srgb_decode_entry: every entry */
-void prove_curves(void)
-{
-    for (uint32_t i = 0; i < 256; i++) usink = gn_far_recip_entry(i);
-    for (uint32_t i = 0; i < 192; i++) usink = gn_far_rsqrt_entry(i);
-    for (uint32_t i = 0; i < 39 + 576; i++) usink = gn_far_srgb_entry(i);
-    for (uint32_t i = 0; i < 256; i++) usink = gn_far_srgb_decode_entry(i);
-}
-
 /* gn_noise_uq16 */
 void prove_noise(void)
 {

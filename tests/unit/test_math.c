@@ -317,28 +317,6 @@ static void random_vector(int64_t a[3], uint32_t i)
     }
 }
 
-/* Normals of meshes, of unit length and of others, by matrices whose largest entry has 30 bits: one way as the other.
- */
-static void test_mesh_normals(void)
-{
-    tally t = {0};
-    for (uint32_t i = 0; i < 200000; i++) {
-        int32_t m[3][3], out[3] = {1, 1, 1}, want[3] = {2, 2, 2};
-        gn_normal n[3];
-        for (int r = 0; r < 3; r++)
-            for (int c = 0; c < 3; c++) m[r][c] = i % 7 ? (int32_t)rng_wide_i64(&random_state, i & 1 ? 30 : 29) : 0;
-        m[i % 3][i / 3 % 3] = i & 4 ? 1 << 30 : -(1 << 29);
-        for (int c = 0; c < 3; c++) n[c] = (gn_normal)(rng_wide_i64(&random_state, 15) >> (i % 5 ? 0 : 9));
-        if (i % 11 == 0) n[i % 3] = i & 8 ? 32767 : -32767 - 1;
-        if (i % 22 == 0) n[(i + 1) % 3] = n[(i + 2) % 3] = 0;
-        gn_surface_normal(out, (const int32_t(*)[3])m, n);
-        gn_xform_normal(want, (const int32_t(*)[3])m, n);
-        HOLDS(&t, memcmp(out, want, sizeof out) == 0, "%lu: %ld %ld %ld, not %ld %ld %ld", (unsigned long)i,
-              (long)out[0], (long)out[1], (long)out[2], (long)want[0], (long)want[1], (long)want[2]);
-    }
-    CHECK_TALLY(t, "gn_surface_normal is gn_xform_normal");
-}
-
 /* A face without a normal, whose corners lie on a line, looks at the camera. */
 static void test_no_normal(void)
 {
@@ -584,7 +562,6 @@ int main(int argc, char **argv)
     test_bf_apply();
     test_isqrt();
     test_normalise();
-    test_mesh_normals();
     if (GN_VERTEX_NORMALS) test_no_normal();
     test_det_sign();
     test_norm_vec();

@@ -43,21 +43,6 @@ static void test_encode(void)
     printf("gn_srgb_encode: %.3Lf LSB at %s\n", w.error, w.at);
 }
 
-/* What is computed where size comes first is what the tables hold. */
-static void test_curves(void)
-{
-    tally recip = {0}, rsqrt = {0}, encode = {0}, decode = {0};
-    for (uint32_t i = 0; i < 256; i++) HOLDS(&recip, gn_far_recip_entry(i) == gn_recip_table[i], "%u", (unsigned)i);
-    for (uint32_t i = 0; i < 192; i++) HOLDS(&rsqrt, gn_far_rsqrt_entry(i) == gn_rsqrt_table[i], "%u", (unsigned)i);
-    for (uint32_t i = 0; i < 577; i++) HOLDS(&encode, gn_far_srgb_entry(i) == gn_srgb_table[i], "%u", (unsigned)i);
-    for (uint32_t i = 0; i < 256; i++)
-        HOLDS(&decode, gn_far_srgb_decode_entry(i) == gn_srgb_decode_table[i], "%u", (unsigned)i);
-    CHECK_TALLY(recip, "reciprocals");
-    CHECK_TALLY(rsqrt, "reciprocal roots");
-    CHECK_TALLY(encode, "the sRGB curve");
-    CHECK_TALLY(decode, "the sRGB curve, inverted");
-}
-
 /* round(levels * v / 65535), the nearest level of an encoded value: never a tie, as 65535 is odd */
 static uint32_t nearest(uint32_t v, uint32_t levels)
 {
@@ -390,7 +375,6 @@ static void test_two_colours(void)
 int main(void)
 {
     test_encode();
-    test_curves();
     test_pack();
     test_fill();
     test_levels();

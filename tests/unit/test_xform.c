@@ -18,7 +18,7 @@ int main(void)
     for (int i = 0; i < 100000; i++) {
         gn_xform xform = {0};
         gn_xform_fast fast;
-        gn_position pos[3];
+        int32_t pos[3];
         const int bits = (int)rng_below(&r, 4) ? 30 : (int)rng_below(&r, 31), small = (int)rng_below(&r, 20);
         int64_t want[3];
         int32_t got[3];
@@ -26,11 +26,11 @@ int main(void)
         for (int row = 0; row < 3; row++) {
             for (int c = 0; c < 3; c++) xform.m[row][c] = entry(&r) >> small;
             xform.t_q16[row] = entry(&r) >> (30 - bits);
-            pos[row] = (gn_position)(entry(&r) >> rng_below(&r, 16));
+            pos[row] = (int32_t)(gn_position)(entry(&r) >> rng_below(&r, 16));
         }
         gn_xform_fast_begin(&fast, &xform);
         gn_xform_point(want, &xform, pos);
-        if (!gn_xform_fast_vertex(got, &fast, pos)) {
+        if (!gn_xform_fast_inline(got, &fast, pos)) {
             n_slow++;
             continue;
         }

@@ -209,7 +209,7 @@ static void put_work(layout *out, const settings *s)
     put(&surface, s->capacity.surface_lights, s->quality.vertex_light ? 44 : 36, 4);
     pad(&surface, surface.align);
     put(&all, 1, 40, 4);  /* frame to rows */
-    put(&all, 1, 128, 4); /* cache */
+    put(&all, 1, 120, 4); /* cache */
     put(&all, 1, surface.size, 8);
     put(&all, 8, 4, 4); /* tri to radiance_q20 */
     long incident = s->feature.other_lights % 2 ? s->capacity.surface_lights : 0;
