@@ -10,7 +10,7 @@ tree=$tmp/tree
 mkdir -p "$tree/build"
 cp -pR Makefile lib host boards port docs "$tree"
 cp -al build/obj "$tree/build/" && cp -p "$tool" "$tree/build/gnomon"
-export FW_OPT=-O1
+export FW_OPT=-Og
 
 block() { awk -v kind="$1" '$0 == "```" { on = 0 } on { print } $0 == "```" kind { on = 1 }' docs/START.md; } # block sh|c
 block c >"$tree/boards/apps/mine.c"

@@ -3,7 +3,7 @@
 cd "$(dirname "$0")/../.." || exit 1
 tool=${1:-build/gnomon}
 . tests/support/check.sh
-export FW_OPT=-O1 # images need not be fast
+export FW_OPT=-Og # images need not be fast
 doc=docs/TUTORIAL.md
 
 block() { awk -v kind="$1" '$0 == "```" { on = 0 } on { print } $0 == "```" kind { on = 1 }' "$doc"; } # block sh|c
