@@ -77,10 +77,12 @@ pairs() {
         more "none SHADOWS=1 TEXTURE_FORMATS=1023 MATERIALS=$part"
         more "all TEXTURE_FORMATS=0 MATERIALS=$((3 + part))"
     done
-    for level in TEXTURE_FORMATS=1023 MANY_CASCADES=1 MANY_CASCADES=2 TILE_SIZES=1 INCREMENTAL=1 INCREMENTAL=2 SHADOWS=5; do echo "all $level"; done
+    for level in TEXTURE_FORMATS=1023 MANY_CASCADES=1 MANY_CASCADES=2 TILE_SIZES=1 INCREMENTAL=1 INCREMENTAL=2 SHADOWS=5; do more "all $level"; done
+    echo "all TEXTURE_FORMATS=1023 MANY_CASCADES=1 TILE_SIZES=1 INCREMENTAL=1"
+    echo "all MANY_CASCADES=2 INCREMENTAL=2 SHADOWS=5"
     for parts in "OTHER_LIGHTS=1 VERTEX_VALUES=2 BIASES=1 MATERIALS=10 PICTURES=1" "OTHER_LIGHTS=2 VERTEX_VALUES=1 BIASES=2 MATERIALS=5 PICTURES=6"; do
         echo "all $parts"
-        echo "none SHADOWS=1 $parts"
+        more "none SHADOWS=1 $parts"
     done
     echo "none SHADOWS=1"
     more "none SHADOWS=1 OTHER_LIGHTS=1"
@@ -162,7 +164,7 @@ some_draw() {
         [ $((line % 2)) = "$1" ] || continue
         case $words in
         "all "*=0) compiler=gcc ;;
-        *) [ $((line / 2 % 6)) = 0 ] && compiler=gcc || compiler=clang ;;
+        *) [ $((line / 2 % 12)) = 0 ] && compiler=gcc || compiler=clang ;;
         esac
         if [ $compiler = gcc ]; then draws "$1" gcc clang $words; else draws "$1" clang gcc $words; fi
     done <"$tmp/wanted"
