@@ -32,7 +32,7 @@ random() {
 faults="20261123:59136 20261124:26880"
 random tiny lib -DGN_PRESET=GN_PRESET_TINY
 faults=
-[ -z "$SOAK" ] || random balanced lib -DGN_PRESET=GN_PRESET_BALANCED # tests/run.sh has 1000 scenes of it
+[ -z "$SOAK" ] || random balanced lib -DGN_PRESET=GN_PRESET_BALANCED # tests/run.sh has it
 [ -z "$SOAK" ] || random fast lib -DGN_PRESET=GN_PRESET_FAST -DGN_ATLAS_SIZE=32 -DGN_OTHER_ATLAS_SIZE=128 # that of capacities is of this preset, too
 random size-first lib -DGN_SIZE_FIRST=1 -DGN_PRESET=GN_PRESET_TINY -DGN_SHORT_VERTICES=3 -DGN_OTHER_ATLAS_SIZE=32
 once=$SCENES SCENES=$((2 * SCENES)) # of which few are drawn

@@ -115,7 +115,7 @@ bad 2 'texels' bake $scene -o "$tmp/x.gltf" --texels 8192
 bad 2 'engine' bake $scene -o "$tmp/x.gltf" --engine fixed
 bad 2 'still' render $scene -o "$tmp/x.png" --still
 bad 1 'do not fit' bake $scene -o "$tmp/x.gltf" --texels 16 --size 80x60
-bad 1 'cannot be written' bake $scene -o "$tmp/no/x.gltf" --size 80x60
+bad 1 'cannot be written' bake "$tmp/pyramid.obj" -o "$tmp/no/x.gltf" --size 80x60
 bad 1 'nothing in it casts' bake "$tmp/room.gltf" -o "$tmp/x.gltf" # its masks would be lost
 bad 1 'missing' bake "$tmp/missing.gltf" -o "$tmp/x.gltf"
 
