@@ -15,8 +15,8 @@ features=$(sed -n '/GN_FEATURE_KNOBS/,$s/^    X([a-z_0-9]*, \([A-Z_0-9]*\), .*/\
 flags() {
     for word in "$@"; do
         case $word in
-        none) for feature in $features; do echo "-DGN_$feature=0"; done ;;
-        all) for feature in $features; do echo "-DGN_$feature=$(most "$feature")"; done ;;
+        none) echo "$none" ;;
+        all) echo "$all" ;;
         tiny | fast | balanced | accurate) echo "-DGN_PRESET=GN_PRESET_$(echo "$word" | tr a-z A-Z)" ;;
         -*) echo "$word" ;;
         *) echo "-DGN_$word" ;;
@@ -35,7 +35,7 @@ most() {
     *) echo 1 ;;
     esac
 }
-none=$(flags none) all=$(flags all)
+none=$(for feature in $features; do echo "-DGN_$feature=0"; done) all=$(for feature in $features; do echo "-DGN_$feature=$(most "$feature")"; done)
 
 # ---- What must build, and draw the same ------------------------------------------------------------------------------------
 

@@ -17,14 +17,16 @@ gcc -std=c99 -Wall -Wextra -Werror $record -o "$tmp/record" $program host/record
 }
 clang -std=c99 -w -O0 -Ilib -o "$tmp/full" $program lib/gnomon.c || fail "the program does not compile"
 
-# build THING [OPTIONS...]: records it, and compiles the program with the configuration: $tmp/THING/run
+# build THING [OPTIONS...]: records it, and compiles the program with the configuration: $tmp/THING/run, once for all whose knobs are the same
 build() {
     thing=$1
     shift
     mkdir -p "$tmp/$thing"
     (cd "$tmp/$thing" && ../record "$thing") >"$tmp/$thing/log" 2>&1 &&
         "$tool" config "$tmp/$thing/gnomon.log" -o "$tmp/$thing/own.h" "$@" >"$tmp/$thing/log" 2>&1 &&
-        clang -std=c99 -w -O0 -Ilib -I"$tmp/$thing" -DGN_USER_CONFIG=\"own.h\" -o "$tmp/$thing/run" $program lib/gnomon.c 2>"$tmp/$thing/log"
+        own=$tmp/own.$(sed 's|/[*].*||' "$tmp/$thing/own.h" | cksum | tr ' ' .) &&
+        { [ -x "$own" ] || clang -std=c99 -w -O0 -Ilib -I"$tmp/$thing" -DGN_USER_CONFIG=\"own.h\" -o "$own" $program lib/gnomon.c 2>"$tmp/$thing/log"; } &&
+        cp "$own" "$tmp/$thing/run"
 }
 
 # ---- Each thing with its own configuration -----------------------------------------------------------------------------------
