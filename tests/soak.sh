@@ -16,7 +16,7 @@
 # valley    folds at every angle (tests/oracle/test_valley.c), of which make test has every second of each combination
 # models    the accuracy of meshes that MODELS names (tests/oracle/test_accuracy.c), a minute each
 # machines  the golden frames and the panel tests on big-endian hosts and as WebAssembly (tests/firmware/machines.sh), ten minutes
-# accuracy, rows, seams, views    hundreds of pictures against floors, most of which make test draws without sanitizers: a quarter of an hour
+# accuracy, rows, seams, views    hundreds of pictures against floors, which make test draws without sanitizers: a quarter of an hour
 # suite     make test with THOROUGH=1: also the combinations whose parts it tests each, and every program under the sanitizers of both compilers, an hour
 cd "$(dirname "$0")/.." || exit 1
 build=build/soak

@@ -824,8 +824,7 @@ int main(int argc, char **argv)
     }
     for (size_t i = 0; i < sizeof rows / sizeof *rows; i++)
         for (int preset = SETTINGS_ACCURATE; preset >= SETTINGS_BALANCED; preset--)
-            if (only ? strcmp(only, rows[i].id) == 0
-                     : getenv("SOAK") || list || (int)(i % 2) == preset - SETTINGS_BALANCED)
+            if (only ? strcmp(only, rows[i].id) == 0 : optimised || (int)(i % 4) == preset - SETTINGS_FAST)
                 check_row(&rows[i], preset, list);
     test_outputs();
     test_mixtures();
