@@ -308,17 +308,41 @@ GN_HOT static void edge_begin(gn_walk *walk, int side, int from, int to)
     exact_begin(&walk->edge[side], a->x, a->y, b->x, b->y, walk->subpixel_bits, walk->row);
 }
 
-/* Rows up to `end`. */
-GN_HOT static GN_NOINLINE void exact_rows(gn_walk *walk, int32_t end)
+/* One border of rows up to `end`: 0 left, 1 right. */
+GN_HOT static GN_NOINLINE void exact_border(gn_walk *walk, int side, int32_t end)
 {
-    gn_span *span = walk->span;
-    for (; walk->row < end; walk->row++, span++) {
-        for (int side = 0; side < 2; side++)
-            if (walk->row == walk->row_end[1 + side]) edge_begin(walk, side, 1 + side, 2 - side);
-        span->x_begin = exact_step(&walk->edge[0]);
-        span->x_end = exact_step(&walk->edge[1]);
+    int16_t *at = side ? &walk->span[0].x_end : &walk->span[0].x_begin;
+    int32_t first = walk->row, row = first, bend = walk->row_end[1 + side];
+    while (row < end) {
+        walk->row = row;
+        if (row == bend) edge_begin(walk, side, 1 + side, 2 - side);
+        gn_edge edge = walk->edge[side];
+        int32_t n = (row < bend ? gn_min32(bend, end) : end) - row;
+        row += n;
+        if ((uint32_t)edge.q + (1U << 14) < 1U << 15 &&
+            (uint32_t)edge.dq + (1U << 9) < 1U << 10) { /* fits 16 bits for 16 rows */
+            do {
+                *at = (int16_t)edge.q;
+                at += 2;
+                exact_next(&edge);
+                GN_KEEP(at);
+            } while (--n);
+        } else {
+            for (; n > 0; n--, at += 2) *at = exact_step(&edge);
+        }
+        walk->edge[side] = edge;
     }
+    walk->row = first;
 }
+
+/* Rows up to `end`. */
+GN_HOT static inline void exact_rows(gn_walk *walk, int32_t end)
+{
+    exact_border(walk, 0, end);
+    exact_border(walk, 1, end);
+    walk->row = end;
+}
+
 GN_HOT static inline int32_t walk_rows(gn_walk *walk)
 {
     int32_t fixed = walk->fixed, end = gn_min32(walk->row_end[0], walk->row + (fixed ? fixed : GN_WALK_ROWS)),
