@@ -8,7 +8,7 @@
 
 enum { TEXT_BYTES = 16384 };
 enum { OWN_FLASH_BYTES = 3000 };         /* start, console, the app play, libgcc */
-enum { RISCV_OS = 121, RISCV_O2 = 191 }; /* per cent of a Cortex-M4 with -Os */
+enum { RISCV_OS = 121, RISCV_O2 = 168 }; /* per cent of a Cortex-M4 with -Os */
 
 /* The file's text with a terminating zero; NULL: it does not open. */
 static char *read_text(const char *folder, const char *file)
@@ -67,7 +67,7 @@ static bool same_region(const char *script, const char *a, const char *b)
 /* -O2 unrolls and inlines: measured with the presets on scenes of host/scenes. */
 void board_set_optimisation(board *b, const char *flag)
 {
-    static const int percent_o2[FLASH_CORES] = {170, 158};
+    static const int percent_o2[FLASH_CORES] = {144, 132};
     const bool small = strcmp(flag, "-Os") == 0 || strcmp(flag, "-Oz") == 0;
     if (b->riscv) b->code_percent = small ? RISCV_OS : RISCV_O2;
     else b->code_percent = small ? 100 : percent_o2[b->core];
@@ -75,7 +75,7 @@ void board_set_optimisation(board *b, const char *flag)
 
 int board_code_percent(const board *b, bool compact)
 {
-    static const int compact_o2[FLASH_CORES] = {143, 141}; /* it has fewer loops to unroll */
+    static const int compact_o2[FLASH_CORES] = {127, 128}; /* it has fewer loops to unroll */
     if (!b->code_percent) return 100;
     return compact && !b->riscv && b->code_percent > 100 ? compact_o2[b->core] : b->code_percent;
 }
