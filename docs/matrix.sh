@@ -106,12 +106,12 @@ data() {
 instructions() {
     image=build/firmware/mps2-an386/features
     make -s firmware build/libstages.so BOARD=mps2-an386 APP=features >"$work/log" 2>&1
-    begin=$(arm-none-eabi-nm "$image.elf" | awk '$3 == "gn_begin" { print $1 }')
+    begin=$(arm-none-eabi-nm "$image.elf" | awk '$3 == "gn_render" { print $1 }')
     make -s emulate BOARD=mps2-an386 APP=features 2>&1 | grep '^[a-z0-9_]* [a-z0-9_-]*$' >"$work/cases"
     while read -r name over; do
         make -s emulate BOARD=mps2-an386 APP=features ARGS="$name" \
             EMULATOR_FLAGS="-display none -monitor none -serial none -plugin $PWD/build/libstages.so,out=$work/stages,stage=$begin" >"$work/log" 2>&1 </dev/null
-        awk -v of="work Cortex-M4 $name $over" '$2 == 1 { print of, $3 }' "$work/stages"
+        awk -v of="work Cortex-M4 $name $over" '$2 == 1 && $3 { print of, $3; n++ } END { exit !n }' "$work/stages" || exit 1
     done <"$work/cases"
 }
 
