@@ -194,8 +194,7 @@
 #endif
 
 /* No knob: less flash rather than fewer instructions, where the compiler is asked for that: calls in place of inline
- * code, loops that are not written out. No type depends on it: a program may have another than the
- * library. */
+ * code, loops that are not written out. No type depends on it: a program may have another than the library. */
 #ifndef GN_SIZE_FIRST
 #ifdef __OPTIMIZE_SIZE__
 #define GN_SIZE_FIRST 1

@@ -87,7 +87,7 @@ GN_COLD gn_status gn_lights_setup(gn_frame *frame)
 /* Least and largest coordinates of a mesh, posed by its skin if it has one. Vertices whose place is a word of records
  * are kept: the last one's ends with the records, or all places are below 0, as a mesh of 2^28 vertices would take
  * gigabytes. */
-static void posed_extent(const gn_object *object, gn_records *records, int32_t place, int32_t lo[3], int32_t hi[3])
+static void mesh_extent(const gn_object *object, gn_records *records, int32_t place, int32_t lo[3], int32_t hi[3])
 {
     int32_t p[3];
     for (uint32_t i = 0; i < object->mesh->n_vertices; i++, place += 3) {
@@ -107,7 +107,7 @@ static int mesh_box(const gn_object *object, gn_records *records, int32_t place,
 {
     int32_t lo[3], hi[3];
     GN_COUNT(boxed, object->mesh->n_vertices);
-    posed_extent(object, records, place, lo, hi);
+    mesh_extent(object, records, place, lo, hi);
     if (!gn_position_ok(lo) || !gn_position_ok(hi)) return 0;
     for (int k = 0; k < 3; k++) {
         centre[k] = (int32_t)(((int64_t)lo[k] + hi[k]) >> 1);

@@ -45,7 +45,7 @@ void gn_surface_face(const gn_frame *frame, const gn_surface *s, int32_t out_q30
         for (int i = 0; i < 3; i++) out_q30[i] = s->normal_q30[0][i];
 }
 
-/* Of a vertex. Of skins the exact formula is for pixels each of which is exact. */
+/* A vertex's normal in the world. Of skins the exact formula is for pixels each of which is exact. */
 static void vertex_normal(int32_t out_q30[3], const gn_frame *frame, gn_scratch *scratch, const gn_surface_cache *cache,
                           const gn_object *object, uint32_t object_idx, uint32_t vertex_idx)
 {
@@ -321,6 +321,7 @@ void gn_surface_place(const gn_frame *frame, gn_scratch *scratch, gn_surface_cac
     GN_UNROLL
     for (int i = 0; i < 3; i++) {
         int32_t *v = s->v_q16[i];
+        /* in range: setup found the triangle visible */
         gn_setup_vertex(v, scratch->vertex, &cache->to_view, s->object, tri->object_idx, idx[i]);
         GN_UNROLL
         for (int k = 0; k < 3; k++) {

@@ -176,7 +176,7 @@ wanted=all
 measure() { # measure [some]
     for core in $(cores | cut -d ' ' -f 1); do
         for configuration in $CONFIGURATIONS; do
-            case ${1:-}${THOROUGH:-}$core.$configuration in someCortex-M3.tiny | someCortex-M3.fast | someCortex-M3.accurate) ;; some*Cortex-M3.* | some*.smallest | [!s]*) echo "$core $configuration" ;; esac
+            case ${1:-}${THOROUGH:-}$core.$configuration in someCortex-M3.tiny | someCortex-M3.fast) ;; some*Cortex-M3.* | some*.smallest | [!s]*) echo "$core $configuration" ;; esac
         done
     done >"$work/wanted"
     two_at_a_time

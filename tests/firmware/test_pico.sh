@@ -32,7 +32,7 @@ predicted 06:05 && pass || fail "the display is not what the host predicts: $(ca
 predicted 06:00 && fail "the display shows the frame before, too" || pass
 
 # A textured cube, and a scene that the app makes itself, to the last line and the exit status.
-for app in "$cube IMAGE=test-cube" APP=crc; do
+for app in "$cube IMAGE=test-cube" "APP=crc IMAGE=test-crc"; do # test_boards.sh builds crc at the same time
     pico emulate $app SCENE_FLAGS="$small" && host emulate $app SCENE_FLAGS="$small" && pass || fail "$app: $(tail -n 1 "$tmp/log")"
     grep -E '^[0-9a-f]{8} frame|^frame [0-9] crc' "$tmp/log" >"$tmp/crcs"
     grep -E '^[0-9a-f]{8} frame|^frame [0-9] crc' "$tmp/host.log" | cmp -s - "$tmp/crcs" && [ -s "$tmp/crcs" ] && pass || fail "$app: other pictures: $(cat "$tmp/crcs")"
@@ -58,7 +58,7 @@ awk '/^cycles / { own = $2 / 1e6 } /^frame 0: / { all = $6 } END { exit !(own > 
 
 # What cannot run says so.
 run() { NODE_PATH=build/node_modules node boards/tools/pico.js "$@" >"$tmp/log" 2>&1; }
-image=build/firmware/pico/crc
+image=build/firmware/pico/test-crc
 refused() { # refused TEXT ARGUMENT...
     text=$1
     shift

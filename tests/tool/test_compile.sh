@@ -123,7 +123,7 @@ for name in sundial desk room mixed-tiny fence avenue-accurate compact cube-fits
 done
 
 # flash: the scene's data to its alignment, the library's code within a fifth
-for name in compact ${THOROUGH:+mixed-tiny sundial room short unshadowed compact-avenue mixed-fits}; do
+for name in mixed-tiny compact ${THOROUGH:+sundial room short unshadowed compact-avenue mixed-fits}; do
     arm="arm-none-eabi-gcc -mcpu=cortex-m0 -mthumb -std=c99 -Os -ffreestanding -isystem boards/common/include -Ilib -I$tmp/$name"
     $arm '-DGN_USER_CONFIG="gn_scene_config.h"' -c -o "$tmp/data.o" "$tmp/$name/scene.c" 2>"$tmp/log"
     data=$(arm-none-eabi-size -A "$tmp/data.o" | awk '$1 ~ /^\.rodata/ { n += $2 } END { print n + 0 }')

@@ -1,6 +1,6 @@
 #!/bin/sh
 # gnomon sweep and gnomon advise: the front, budgets kept, what they promise reproduced by gnomon compare. usage: test_sweep.sh [TOOL]
-# THOROUGH=1: advice at either end of the budgets for each of three scenes, more budgets of a second scene, counts by hand, and advice that counts on a target.
+# THOROUGH=1: advice at either end of the budgets for each of three scenes, more budgets of a second scene, and advice that counts on a target.
 cd "$(dirname "$0")/../.." || exit 1
 tool=${1:-build/gnomon}
 . tests/support/check.sh
@@ -262,13 +262,12 @@ if command -v script >/dev/null; then
     grep -q '0 of 1 counted on mps2-an385' "$tmp/typescript" && pass || fail "a terminal does not see that something is counted"
 else $counted >/dev/null 2>&1; fi
 got=$(awk -F '"' 'NR == 2 { split($3, v, ","); printf "%.3f %.3f", v[22], v[23] }' "$tmp/counted.csv")
-if [ "$THOROUGH" ]; then # an image more, counted by hand
-    sh boards/tools/count.sh mps2-an385 test-sweep "0,0 1" FW_OPT=-O2 SCENE=host/scenes/fence.gltf PRESET=tiny \
-        SCENE_FLAGS="--size $size --frames 0-1 --simplify safe --set filter=hard --set atlas_size=64 --set output=rgb565" >"$tmp/stages" 2>&1
-    want=$(awk '/^args:/ { run++ } $1 == "stage" { n[run] += $3 } END { printf "%.3f %.3f", n[1] / 32 / 24, (n[2] - n[1]) / 32 / 24 }' "$tmp/stages")
-    [ "$got" = "$want" ] && pass || fail "counted on mps2-an385: $got, and by hand $want"
-    sh boards/tools/count.sh --remove mps2-an385 test-sweep
-fi
+# the same, counted by hand
+sh boards/tools/count.sh mps2-an385 test-sweep "0,0 1" FW_OPT=-O2 SCENE=host/scenes/fence.gltf PRESET=tiny \
+    SCENE_FLAGS="--size $size --frames 0-1 --simplify safe --set filter=hard --set atlas_size=64 --set output=rgb565" >"$tmp/stages" 2>&1
+want=$(awk '/^args:/ { run++ } $1 == "stage" { n[run] += $3 } END { printf "%.3f %.3f", n[1] / 32 / 24, (n[2] - n[1]) / 32 / 24 }' "$tmp/stages")
+[ "$got" = "$want" ] && pass || fail "counted on mps2-an385: $got, and by hand $want"
+sh boards/tools/count.sh --remove mps2-an385 test-sweep
 echo "$got" | awk '{ exit !($1 > 100 && $2 > 100 && $2 < $1) }' && pass || fail "tiles that are kept save nothing on mps2-an385: $got"
 [ "$(grep -c '<circle' "$tmp/counted.svg")" = 3 ] && grep -q 'Cost on mps2-an385' "$tmp/counted.svg" && pass || fail "the plot has no panel of mps2-an385"
 ls build/firmware/mps2-an385 | grep -q '^sweep-' && fail "the sweep leaves images behind" || pass

@@ -26,7 +26,7 @@ int main(void)
         for (int row = 0; row < 3; row++) {
             for (int c = 0; c < 3; c++) xform.m[row][c] = entry(&r) >> small;
             xform.t_q16[row] = entry(&r) >> (30 - bits);
-            pos[row] = (int32_t)(gn_position)(entry(&r) >> rng_below(&r, 16));
+            pos[row] = entry(&r) >> rng_below(&r, 16);
         }
         gn_xform_fast_begin(&fast, &xform);
         gn_xform_point(want, &xform, pos);
