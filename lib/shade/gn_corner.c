@@ -164,9 +164,6 @@ GN_HOT static int in_reach(const gn_light_state *light)
 GN_HOT int gn_corner_begin_lights(gn_lattice *l, const gn_frame *frame, const gn_surface *s)
 {
     l->offset_view = NULL;
-#if GN_PLANES && GN_SHADOWS
-    l->slope_view = NULL;
-#endif
     for (uint32_t i = 0; i < s->n_lights; i++) {
         begin_light(l, frame, s, i);
         if (!in_reach(s->light[i].state)) return 0;
@@ -174,16 +171,14 @@ GN_HOT int gn_corner_begin_lights(gn_lattice *l, const gn_frame *frame, const gn
     return 1;
 }
 
-GN_HOT int gn_corner_begin(gn_lattice *l, const gn_frame *frame, const gn_surface *s, const gn_rect *rect,
-                           int32_t beyond)
+GN_HOT int gn_corner_begin(gn_lattice *l, const gn_frame *frame, const gn_surface *s, const gn_rect *rect)
 {
-    if (!find_plane(&l->plane, frame, s, rect, beyond)) return 0;
     gn_corner_forget_forms(l);
-    l->cascade = -1;
-#if GN_SHADOWS
-    gn_corner_begin_cascade(l, frame, s);
+    l->anchor.known = 0;
+#if GN_PLANES && GN_SHADOWS
+    l->slope_view = NULL;
 #endif
-    return 1;
+    return find_plane(&l->plane, frame, s, rect, 1);
 }
 
 /* ---- The point --------------------------------------------------------------------------------------------------- */
@@ -340,12 +335,13 @@ GN_HOT static int32_t ray_length(int32_t length, int32_t a, int32_t shift)
 }
 
 /* From the eye to the point, along the world's axes: the same for all lights. Returns 0 if it is 2^30 away. */
-GN_HOT static int find_ray(const gn_frame *frame, const gn_light_state *any, gn_corner *c)
+GN_HOT static int find_ray(const gn_frame *frame, const gn_light_state *any, int32_t x, int32_t y, int32_t z_q16,
+                           int32_t ray_q16[3])
 {
     uint32_t beyond = 0;
     gn_corner_ray ray;
-    gn_corner_ray_begin(&ray, frame, any->ray_shift, c->x, c->y, c->z_q16);
-    int32_t z_shift = 33 - any->ray_shift - gn_clz32((uint32_t)c->z_q16);
+    gn_corner_ray_begin(&ray, frame, any->ray_shift, x, y, z_q16);
+    int32_t z_shift = 33 - any->ray_shift - gn_clz32((uint32_t)z_q16);
     GN_UNROLL
     for (int i = 0; i < 3; i++) {
         const gn_ray_plane *r = &any->from_light[i];
@@ -360,8 +356,8 @@ GN_HOT static int find_ray(const gn_frame *frame, const gn_light_state *any, gn_
 #endif
         int32_t at = ray_length(ray.z, (int32_t)((uint32_t)r->a0 + across), z_shift);
         beyond |= (uint32_t)at + (1U << 30);
-        c->ray_q16[i] = (int32_t)((uint32_t)at + (uint32_t)more);
-        beyond |= (uint32_t)c->ray_q16[i] + (1U << 30);
+        ray_q16[i] = (int32_t)((uint32_t)at + (uint32_t)more);
+        beyond |= (uint32_t)ray_q16[i] + (1U << 30);
     }
     return !(beyond >> 31);
 }
@@ -369,6 +365,49 @@ GN_HOT static int find_ray(const gn_frame *frame, const gn_light_state *any, gn_
 #endif
 
 #if GN_SHADOWS
+GN_HOT int32_t gn_corner_seen_depth(const gn_lattice *l, const gn_frame *frame, const gn_surface *s, int32_t x,
+                                    int32_t y)
+{
+    const gn_screen_plane *p = &l->plane;
+#if GN_ORTHOGRAPHIC
+    int32_t b_q28[2];
+    if (GN_FLAT_Q16(frame)) return gn_corner_flat_depth(p, s, x, y, b_q28);
+#endif
+    int32_t w = along(&p->w, x - p->x, y - p->y);
+    if (w < p->w_least || w >= 1 << 30) return 0;
+    int32_t clz = gn_clz32((uint32_t)w), shift = p->z_shift - clz;
+    if (shift < 1 || shift > 31) return 0;
+    uint32_t z = gn_umul_high(s->depth_scale.mant, gn_recip_norm((uint32_t)w << clz, GN_RECIP_STEPS(frame)));
+    z = ((z >> (shift - 1)) + 1) >> 1;
+    return z < (uint32_t)s->z_min_q16 >> 1 || z >> 1 > (uint32_t)s->z_max_q16 ? 0 : (int32_t)z;
+}
+
+/* Whether the surface's plane is seen at a pixel: then it is the anchor. */
+GN_HOT static int anchor_at(gn_lattice *l, const gn_frame *frame, const gn_surface *s, int32_t x, int32_t y)
+{
+    const int32_t z = gn_corner_seen_depth(l, frame, s, x, y);
+    if (z <= 0) return 0;
+    l->anchor.x = (int16_t)x;
+    l->anchor.y = (int16_t)y;
+    l->anchor.z_q16 = z;
+#if GN_PUNCTUAL_LIGHTS
+    if (s->n_punctual) return find_ray(frame, s->light[s->n_lights - 1].state, x, y, z, l->anchor.ray_q16);
+#endif
+    return 1;
+}
+
+/* Its middle, or else one of its corners. */
+GN_HOT GN_NOINLINE int gn_corner_find_anchor(gn_lattice *l, const gn_frame *frame, const gn_surface *s)
+{
+    const gn_rect *r = &l->block;
+    if (l->anchor.known) return l->anchor.found;
+    l->anchor.known = 1;
+    l->anchor.found = (uint8_t)anchor_at(l, frame, s, (r->x0 + r->x1) >> 1, (r->y0 + r->y1) >> 1);
+    for (int i = 0; i < 4 && !l->anchor.found; i++)
+        l->anchor.found = (uint8_t)anchor_at(l, frame, s, i & 1 ? r->x1 : r->x0, i & 2 ? r->y1 : r->y0);
+    return l->anchor.found;
+}
+
 /* The view that the point itself is looked up in. */
 GN_HOT static uint8_t own_view(const gn_frame *frame, const gn_surface *s, const gn_light_state *light,
                                const gn_corner *c)
@@ -447,7 +486,7 @@ GN_HOT void gn_corner_find(const gn_lattice *l, const gn_frame *frame, const gn_
     c->y = (int16_t)y;
     if (!find_point(l, frame, s, c, &p)) return;
 #if GN_PUNCTUAL_LIGHTS
-    if (s->n_punctual && !find_ray(frame, s->light[s->n_lights - 1].state, c)) return;
+    if (s->n_punctual && !find_ray(frame, s->light[s->n_lights - 1].state, x, y, c->z_q16, c->ray_q16)) return;
 #endif
     c->state = GN_CORNER_KNOWN;
     attributes_at(s, &p, c);
@@ -485,7 +524,7 @@ GN_HOT int gn_corner_locate(const gn_lattice *l, const gn_frame *frame, const gn
     c->light[slot].arrives = GN_CORNER_FULLY; /* for all that is known */
 #if GN_PUNCTUAL_LIGHTS
     const gn_light_state *light = s->light[slot].state;
-    if (light->kind != GN_LIGHT_DIRECTIONAL) return find_ray(frame, light, c);
+    if (light->kind != GN_LIGHT_DIRECTIONAL) return find_ray(frame, light, x, y, c->z_q16, c->ray_q16);
 #endif
     return 1;
 }

@@ -12,9 +12,16 @@
 /* Once per surface. Returns 0 if a light is out of reach of 32 bits. */
 int gn_corner_begin_lights(gn_lattice *lattice, const gn_frame *frame, const gn_surface *surface);
 
-/* Then, for pixels of `rect` and `beyond` more each way. Returns 0 if its plane does not fit 32 bits there. */
-int gn_corner_begin(gn_lattice *lattice, const gn_frame *frame, const gn_surface *surface, const gn_rect *rect,
-                    int32_t beyond);
+/* Then, for pixels of `rect`. Returns 0 if its plane does not fit 32 bits there. */
+int gn_corner_begin(gn_lattice *lattice, const gn_frame *frame, const gn_surface *surface, const gn_rect *rect);
+
+
+/* View depth of the plane at a pixel; 0: it is not seen there, or far beyond the surface. */
+int32_t gn_corner_seen_depth(const gn_lattice *lattice, const gn_frame *frame, const gn_surface *surface, int32_t x,
+                             int32_t y);
+
+/* Looks for the block's anchor. Returns 0 if it has none. */
+int gn_corner_find_anchor(gn_lattice *lattice, const gn_frame *frame, const gn_surface *surface);
 
 /* Makes a corner known, at the centre of pixel (x, y), or unseen where the plane cannot be sampled there. `sample` is
  * scratch. */
@@ -59,7 +66,7 @@ int gn_corner_place_any(gn_lattice *lattice, const gn_frame *frame, const gn_sur
 int gn_corner_place_flat(gn_lattice *lattice, const gn_frame *frame, const gn_surface *surface, uint32_t slot,
                          const gn_light_view *view, int32_t x, int32_t y, gn_corner_light *at);
 
-/* Tile coordinates of a pixel in a directional view, Q16 texels. Returns its view depth. */
+/* Tile coordinates of a pixel in a directional view, Q16 texels. Returns its view depth; 0: it is not seen. */
 int32_t gn_corner_uv(const gn_lattice *lattice, const gn_frame *frame, const gn_surface *surface,
                      const gn_light_view *view, int32_t x, int32_t y, const int32_t offset_q16[3], int32_t uv_q16[2]);
 
@@ -151,10 +158,9 @@ GN_HOT static inline int gn_corner_place(gn_lattice *l, const gn_frame *frame, c
 #endif
 
 #if GN_SHADOWS
-/* Slopes of depth over a texel of the view, 0 without B5 and F7. Corners at the same distance of the light from their
- * plane, to 2^-15, share them. */
-void gn_corner_slopes(gn_lattice *lattice, const gn_frame *frame, const gn_surface *surface, const gn_corner *corner,
-                      const gn_light_view *view, int32_t slope_q28[2]);
+/* Slopes of depth over a texel of the view, 0 without B5 and F7, of all of the block. */
+void gn_corner_slopes(gn_lattice *lattice, const gn_frame *frame, const gn_surface *surface, const gn_light_view *view,
+                      int32_t slope_q28[2]);
 #endif
 
 /* Of another surface. */
@@ -181,11 +187,17 @@ GN_HOT static inline uint32_t gn_corner_mask_uq16(const gn_corner_light *light)
 int32_t gn_corner_irradiance(const gn_frame *frame, const gn_light_state *light, const int32_t from_q16[3], uint64_t d2,
                              int32_t facing_q16, gn_corner_light *out, int32_t *rim_q20);
 
-/* From a spot or point light to the corner: both lie within 2^30 of the eye. */
-GN_HOT static inline void gn_corner_from(const gn_corner *c, const gn_light_state *light, int32_t from_q16[3])
+/* From a spot or point light to a point: both lie within 2^30 of the eye. */
+GN_HOT static inline void gn_corner_from_ray(const int32_t ray_q16[3], const gn_light_state *light,
+                                             int32_t from_q16[3])
 {
     GN_UNROLL
-    for (int i = 0; i < 3; i++) from_q16[i] = c->ray_q16[i] + (int32_t)light->from_light[i].d_q16;
+    for (int i = 0; i < 3; i++) from_q16[i] = ray_q16[i] + (int32_t)light->from_light[i].d_q16;
+}
+
+GN_HOT static inline void gn_corner_from(const gn_corner *c, const gn_light_state *light, int32_t from_q16[3])
+{
+    gn_corner_from_ray(c->ray_q16, light, from_q16);
 }
 
 /* The square of the distance, of components below 2^31. */

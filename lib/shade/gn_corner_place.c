@@ -69,7 +69,8 @@ GN_HOT int32_t gn_corner_uv(const gn_lattice *l, const gn_frame *frame, const gn
                             int32_t x, int32_t y, const int32_t offset_q16[3], int32_t uv_q16[2])
 {
     gn_corner_ray ray;
-    const int32_t z_q16 = plane_depth(l, frame, s, x, y);
+    const int32_t z_q16 = gn_corner_seen_depth(l, frame, s, x, y);
+    if (z_q16 <= 0) return 0;
     gn_corner_ray_begin(&ray, frame, view->fit.ortho.ray_shift, x, y, z_q16);
     uv_q16[0] = gn_corner_ortho(&view->fit.ortho.ray[0], &ray) + offset_q16[0];
     uv_q16[1] = gn_corner_ortho(&view->fit.ortho.ray[1], &ray) + offset_q16[1];
@@ -165,28 +166,26 @@ GN_HOT static GN_NOINLINE int place_punctual(const gn_frame *frame, const gn_sur
 }
 #endif
 
-GN_HOT void gn_corner_slopes(gn_lattice *l, const gn_frame *frame, const gn_surface *s, const gn_corner *c,
-                             const gn_light_view *view, int32_t slope_q28[2])
+GN_HOT void gn_corner_slopes(gn_lattice *l, const gn_frame *frame, const gn_surface *s, const gn_light_view *view,
+                             int32_t slope_q28[2])
 {
     slope_q28[0] = slope_q28[1] = 0;
 #if GN_PLANES
-    int32_t from[3] = {0, 0, 0}, h_q14 = 0; /* below 2^29.8, so differences below 2^31 */
     if (!gn_shadow_has_plane(frame, view)) return;
-#if GN_PUNCTUAL_LIGHTS
-    if (view->perspective) {
-        gn_corner_from(c, &frame->light[view->light_idx], from);
-        h_q14 = (int32_t)(gn_dot_q30(s->face_q30, from) >> 2);
-    }
-#endif
-    if (l->slope_view != view || gn_abs32(h_q14 - l->slope_h_q14) > gn_abs32(h_q14) >> 15) {
-        gn_shadow_slopes(frame, s, view, from, l->slope_q28);
+    if (l->slope_view != view) {
+        int32_t from[3] = {0, 0, 0};
         l->slope_view = view;
-        l->slope_h_q14 = h_q14;
+        l->slope_q28[0] = l->slope_q28[1] = 0;
+        if (view->perspective && !gn_corner_find_anchor(l, frame, s)) return;
+#if GN_PUNCTUAL_LIGHTS
+        if (view->perspective) gn_corner_from_ray(l->anchor.ray_q16, &frame->light[view->light_idx], from);
+#endif
+        gn_shadow_slopes(frame, s, view, from, l->slope_q28);
     }
     slope_q28[0] = l->slope_q28[0];
     slope_q28[1] = l->slope_q28[1];
 #endif
-    (void)l, (void)frame, (void)s, (void)c, (void)view;
+    (void)l, (void)frame, (void)s, (void)view;
 }
 
 GN_HOT int gn_corner_place_any(gn_lattice *l, const gn_frame *frame, const gn_surface *s, gn_corner *c, uint32_t slot,
@@ -274,7 +273,7 @@ GN_HOT void gn_corner_begin_cascade(gn_lattice *l, const gn_frame *frame, const 
 {
     const extent all = {s->z_min_q16, s->z_max_q16, 0, (uint64_t)frame->tan2_q24};
     l->views = s->shadowed ? (uint16_t)possible_views(frame, &all) : 0;
-    l->surface_cascade = l->cascade = s->shadowed ? certain_cascade(l->views) : -1;
+    l->surface_cascade = s->shadowed ? certain_cascade(l->views) : -1;
 }
 
 /* Squares of the least and the largest distance from 0 of lo .. hi. */
@@ -307,8 +306,7 @@ GN_HOT void gn_corner_begin_box(gn_lattice *l, const gn_frame *frame, const gn_s
 GN_HOT void gn_corner_begin_part(gn_lattice *l, const gn_frame *frame, const gn_surface *s)
 {
     extent e = {INT32_MAX, 0, 0, 0};
-    int32_t x[2] = {l->x, gn_min32(l->x + GN_PART_WIDTH, l->x_end) - 1},
-            y[2] = {l->y, gn_min32(l->y + l->n_rows, l->y_end) - 1};
+    const int32_t x[2] = {l->block.x0, l->block.x1 - 1}, y[2] = {l->block.y0, l->block.y1 - 1};
     l->cascade = l->surface_cascade;
     if (l->cascade >= 0 || !s->shadowed) return;
     for (int i = 0; i < 4; i++) {

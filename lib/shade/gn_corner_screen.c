@@ -148,7 +148,7 @@ GN_HOT static GN_NOINLINE int move_by_auto_bias(const gn_lattice *l, const gn_su
     const int32_t most_px = l->plane.w_px + l->plane.h_px + 1;
     gn_auto_plane plane = {(gn_auto_bias)s->light[slot].state->auto_bias, 0, 0, 0, 0};
     int32_t from[3];
-    gn_corner_from(&l->corner, s->light[slot].state, from);
+    gn_corner_from_ray(l->anchor.ray_q16, s->light[slot].state, from);
     plane.reach_q16 = view->offset_q16 + (most_px * view->tile_texels >> 9) + 1;
     plane.step_q32 = view->auto_step + 48 * most_px; /* 3 / 2 of 2^32 / 2^27 */
     gn_bias_auto_plane(view, s->face_q30, from, &plane);
@@ -165,10 +165,9 @@ GN_HOT static GN_NOINLINE int move_by_auto_bias(const gn_lattice *l, const gn_su
 
 #endif
 
-/* What bias does to the surface as the view of the forms sees it, by what pixel (x, y) says. Returns 0 if forms are not
- * to be told so. */
+/* What bias does to the surface as the view of the forms sees it. Returns 0 if forms are not to be told so. */
 GN_HOT static GN_NOINLINE int find_move(gn_lattice *l, const gn_frame *frame, const gn_surface *s, uint32_t slot,
-                                        int32_t x, int32_t y, gn_view_forms *out, point_mover *move)
+                                        gn_view_forms *out, point_mover *move)
 {
     const gn_light_view *view = out->view;
     if (GN_FLAT_Q16(frame)) return 0;
@@ -176,24 +175,23 @@ GN_HOT static GN_NOINLINE int find_move(gn_lattice *l, const gn_frame *frame, co
     out->less_q30 = out->in_tile = 0;
     out->z_least = 1 << 22;
 #if GN_AUTO_BIAS
-    if (s->light[slot].state->auto_bias) { /* whoever has the lattice's own corner in use has it at this pixel */
-        if (view->filter == GN_FILTER_DISK || !gn_corner_locate(l, frame, s, slot, x, y, &l->corner)) return 0;
+    if (s->light[slot].state->auto_bias) {
+        if (view->filter == GN_FILTER_DISK || !gn_corner_find_anchor(l, frame, s)) return 0;
         return move_by_auto_bias(l, s, slot, out, move);
     }
 #endif
-    (void)frame, (void)x, (void)y;
     return l->light[slot].lifts && move->share_q31 != INT32_MAX;
 }
 
-/* Those of the view, if need be new ones, by what a pixel says. */
+/* Those of the view, if need be new ones. */
 GN_HOT static inline const gn_view_forms *forms_of(gn_lattice *l, const gn_frame *frame, const gn_surface *s,
-                                                   uint32_t slot, const gn_light_view *view, int32_t x, int32_t y)
+                                                   uint32_t slot, const gn_light_view *view)
 {
     gn_view_forms *forms = &l->forms[(uint32_t)(view - frame->view) & (GN_VIEW_FORMS - 1)];
     if (forms->view == view) return forms;
     forms->view = view;
     point_mover move;
-    if (!find_move(l, frame, s, slot, x, y, forms, &move) || !make_forms(forms, &l->plane, frame, s, &move))
+    if (!find_move(l, frame, s, slot, forms, &move) || !make_forms(forms, &l->plane, frame, s, &move))
         forms->near_up = INT32_MAX;
     return forms;
 }
@@ -206,7 +204,7 @@ GN_HOT static inline int32_t value_at(const gn_slope *s, int32_t dx, int32_t dy)
 GN_HOT int gn_corner_place_flat(gn_lattice *l, const gn_frame *frame, const gn_surface *s, uint32_t slot,
                                 const gn_light_view *view, int32_t x, int32_t y, gn_corner_light *at)
 {
-    const gn_view_forms *forms = forms_of(l, frame, s, slot, view, x, y);
+    const gn_view_forms *forms = forms_of(l, frame, s, slot, view);
     int32_t dx = x - l->plane.x, dy = y - l->plane.y;
     if (forms->near_up == INT32_MAX) return 0;
     int32_t u = value_at(&forms->u, dx, dy), v = value_at(&forms->v, dx, dy), z = value_at(&forms->z, dx, dy);
@@ -262,7 +260,7 @@ GN_HOT static uint32_t looked_up(gn_shading *s, gn_corner *c, uint32_t slot)
         return 65536;
     int32_t depth_q30 = gn_max32(0, gn_min32(at->depth_q30, (1 << 30) - 1));
     gn_receiver r = {at->u_q16, at->v_q16, (uint32_t)depth_q30 << 2, {0, 0}, c->x, c->y};
-    gn_corner_slopes(&s->lattice, s->frame, &s->surface, c, view, r.slope_q28);
+    gn_corner_slopes(&s->lattice, s->frame, &s->surface, view, r.slope_q28);
     GN_COUNT(edge_lookups, 1);
     GN_NOTE_LOOKUP(&s->scratch->squares, s->frame, view, &r);
     return gn_filter_attenuation(s->frame, view, &r);

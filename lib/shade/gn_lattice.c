@@ -11,7 +11,7 @@
 
 #if GN_INTERPOLATES
 
-/* ---- Pixels of a part -------------------------------------------------------------------------------------------- */
+/* ---- Pixels of a block ------------------------------------------------------------------------------------------ */
 
 GN_HOT static gn_rect box_of(const gn_lattice *l)
 {
@@ -30,34 +30,25 @@ GN_HOT static inline uint32_t bits_of(int32_t from, int32_t to)
     return (UINT32_MAX >> (32 - (to - from))) << from;
 }
 
-/* Marks the part's pixels. Returns the number of rows with pixels in them. */
+/* Marks the block's pixels, and sets the box that they have. Returns 0 if there are none. */
 GN_HOT static GN_NOINLINE int mark(gn_lattice *l)
 {
-    int any = 0;
+    gn_rect *seen = &l->seen;
+    *seen = (gn_rect){INT32_MAX, INT32_MAX, INT32_MIN, INT32_MIN};
     memset(l->bits, 0, sizeof l->bits);
     for (int32_t i = 0; i < l->n_spans; i++) {
         const gn_run_span *span = &l->span[i];
         int32_t row = span->y - l->y, from = gn_max32(span->x - l->x, 0),
                 to = gn_min32(span->x + span->n_px - l->x, GN_PART_WIDTH);
-        if (row < 0 || row >= l->n_rows || from >= to) continue;
-        any++;
+        if (row < 0 || row >= GN_PART_ROWS || from >= to) continue;
+        seen->x0 = gn_min32(seen->x0, l->x + from);
+        seen->x1 = gn_max32(seen->x1, l->x + to);
+        seen->y0 = gn_min32(seen->y0, span->y);
+        seen->y1 = span->y + 1;
         if (from < 32) l->bits[0][row] |= bits_of(from, gn_min32(to, 32));
         if (to > 32) l->bits[1][row] |= bits_of(gn_max32(from - 32, 0), to - 32);
     }
-    return any;
-}
-
-/* A small triangle, a part, or a cell costs as much as these pixels do by themselves; a part, more where its box is
- * long. */
-enum { FEW_OF_ONE_COLOUR = 8, FEW = 12, FEW_OF_A_CELL = 5 };
-
-/* Pixels of a cell, counted up to one more than are few. */
-GN_HOT static int32_t count_some(const gn_lattice *l, int32_t x, int32_t y, int32_t size_log2)
-{
-    int32_t n = 0;
-    for (int32_t j = y; j < y + (1 << size_log2) && n <= FEW_OF_A_CELL; j++)
-        for (uint32_t bits = gn_lattice_bits(l, x, j, size_log2); bits && n <= FEW_OF_A_CELL; bits &= bits - 1) n++;
-    return n;
+    return seen->x0 < seen->x1;
 }
 
 /* ---- Cells ------------------------------------------------------------------------------------------------------- */
@@ -69,15 +60,6 @@ GN_HOT static GN_NOINLINE void shade_cell_by_pixels(gn_shading *s, int32_t x, in
         for (int32_t i = x; bits; bits >>= 1, i++)
             if (bits & 1U) gn_corner_pixel(s, i, j);
     }
-}
-
-/* If they are few. Returns 0 if the cell is worth it. */
-GN_HOT static GN_NOINLINE int shade_few(gn_shading *s, int32_t x, int32_t y, int32_t size_log2)
-{
-    const int32_t n = count_some(&s->lattice, x, y, size_log2);
-    if (n > FEW_OF_A_CELL) return 0;
-    if (n) shade_cell_by_pixels(s, x, y, size_log2);
-    return 1;
 }
 
 /* Another corner, in place of one that is none of the last four. One that another has taken the place of in corner_at
@@ -123,7 +105,7 @@ GN_HOT static int next_quarter(gn_shading *s, gn_split_cell *split, int32_t *x, 
         *x = split->x + ((split->next & 1) << log2);
         *y = split->y + ((split->next >> 1) << log2);
         split->next++;
-        if (shade_few(s, *x, *y, log2)) continue;
+        if (!gn_lattice_columns(&s->lattice, *x, *y, 1 << log2, log2)) continue;
         find_corners(s, *x, *y, log2);
         return 1;
     }
@@ -149,7 +131,7 @@ GN_HOT static void shade_cell(gn_shading *s, int32_t x, int32_t y, int32_t size_
     }
 }
 
-/* ---- Parts ------------------------------------------------------------------------------------------------------- */
+/* ---- Blocks ------------------------------------------------------------------------------------------------------ */
 
 GN_HOT static void forget_corners(gn_lattice *l)
 {
@@ -159,41 +141,60 @@ GN_HOT static void forget_corners(gn_lattice *l)
 }
 
 /* Column by column, which have corners in common. */
-GN_HOT static GN_NOINLINE void shade_part(gn_shading *s)
+GN_HOT static GN_NOINLINE void shade_cells(gn_shading *s)
 {
     gn_lattice *l = &s->lattice;
-    int32_t log2 = l->size_log2, size = 1 << log2, x_end = gn_min32(l->x_end, l->x + GN_PART_WIDTH);
+    int32_t log2 = l->size_log2, size = 1 << log2;
     forget_corners(l);
-    for (int32_t x = l->x; x < x_end; x += size)
-        for (int32_t y = l->y; y < l->y + l->n_rows; y += size)
-            if (!shade_few(s, x, y, log2)) shade_cell(s, x, y, log2);
+    for (int32_t x = l->seen.x0 & -size; x < l->seen.x1; x += size)
+        for (int32_t y = l->seen.y0 & -size; y < l->seen.y1; y += size)
+            if (gn_lattice_columns(l, x, y, size, log2)) shade_cell(s, x, y, log2);
 }
 
 #if GN_SHADOWS
-/* Of another surface. */
 GN_HOT static void forget_windows(gn_lattice *l)
 {
     for (int i = 0; i < GN_WINDOWS; i++) l->window[i].view = NULL;
 }
 
-/* Of another part. */
-GN_HOT static GN_NOINLINE void begin_part(gn_shading *s)
+/* Of another block. */
+GN_HOT static GN_NOINLINE void begin_block(gn_shading *s)
 {
-    s->lattice.crowded = 0;
-    gn_lattice_forget_part(&s->lattice);
+    forget_windows(&s->lattice);
     gn_corner_begin_part(&s->lattice, s->frame, &s->surface);
 }
 #else
-GN_HOT static void forget_windows(gn_lattice *l)
+GN_HOT static void begin_block(gn_shading *s)
 {
-    (void)l;
-}
-
-GN_HOT static void begin_part(gn_shading *s)
-{
-    s->lattice.crowded = 0;
+    (void)s;
 }
 #endif
+
+/* Half pixels from the picture's centre to a coordinate at a depth: up to 2^14. */
+GN_HOT static int32_t halves_to(const gn_frame *frame, int32_t v_q16, int32_t z_q16)
+{
+    const int32_t clz = gn_clz32((uint32_t)z_q16);
+    const uint64_t slope_q16 = (uint64_t)gn_abs32(v_q16) * gn_recip_norm((uint32_t)z_q16 << clz, 1) >> (47 - clz);
+    const uint64_t halves = (slope_q16 >> 26 ? 1U << 26 : slope_q16) * frame->cam.focal2_px_q16 >> 32;
+    const int32_t n = halves >> 14 ? 1 << 14 : (int32_t)halves;
+    return v_q16 < 0 ? -n - 1 : n;
+}
+
+/* The part of the picture that the surface's box of view space is in, and a pixel or two beyond. */
+GN_HOT static void find_screen_bounds(const gn_frame *frame, const gn_surface *s, gn_rect *out)
+{
+    int32_t lo[2], hi[2], near = s->z_min_q16, far = s->z_max_q16;
+    if (GN_FLAT_Q16(frame)) near = far = GN_FLAT_Q16(frame);
+    for (int i = 0; i < 2; i++) {
+        lo[i] = halves_to(frame, s->lo_q16[i], s->lo_q16[i] < 0 ? near : far);
+        hi[i] = halves_to(frame, s->hi_q16[i], s->hi_q16[i] < 0 ? far : near);
+    }
+    const int32_t w = frame->picture.width, h = frame->picture.height;
+    out->x0 = gn_max32(((lo[0] + w - 1) >> 1) - 1, 0);
+    out->x1 = gn_min32(((hi[0] + w - 1) >> 1) + 3, w);
+    out->y0 = gn_max32(((h - 1 - hi[1]) >> 1) - 1, 0);
+    out->y1 = gn_min32(((h - 1 - lo[1]) >> 1) + 3, h);
+}
 
 /* Cells as large as the knob says, but not much larger than the surface; if its normals turn, than its shorter side. */
 GN_HOT static int32_t cell_log2(const gn_frame *frame, const gn_surface *s, const gn_rect *box)
@@ -205,13 +206,6 @@ GN_HOT static int32_t cell_log2(const gn_frame *frame, const gn_surface *s, cons
     return log2;
 }
 
-GN_HOT static int32_t count_pixels(const gn_lattice *l)
-{
-    int32_t n = 0;
-    for (int32_t i = 0; i < l->n_spans; i++) n += l->span[i].n_px;
-    return n;
-}
-
 GN_HOT void gn_lattice_begin_tile(gn_shading *s)
 {
 #if GN_SHADOWS
@@ -221,93 +215,61 @@ GN_HOT void gn_lattice_begin_tile(gn_shading *s)
     (void)s;
 }
 
-/* Each for itself, as corners or exactly. */
-GN_HOT static GN_NOINLINE void shade_pixels(gn_shading *s, int exactly)
+/* Pixels of the block, each for itself, exactly. */
+GN_HOT static GN_NOINLINE void shade_exactly(gn_shading *s)
 {
     const gn_lattice *l = &s->lattice;
-    for (int32_t i = 0; i < l->n_spans; i++)
-        for (int32_t k = 0; k < l->span[i].n_px; k++) {
-            if (exactly) gn_exact_pixel(s, l->span[i].x + k, l->span[i].y);
-            else gn_corner_pixel(s, l->span[i].x + k, l->span[i].y);
-        }
+    for (int32_t y = l->seen.y0; y < l->seen.y1; y++)
+        for (int32_t x = l->seen.x0; x < l->seen.x1; x++)
+            if (l->bits[(x - l->x) >> 5][y - l->y] >> ((x - l->x) & 31) & 1U) gn_exact_pixel(s, x, y);
 }
 
-/* Whether pixels are fewer than a part pays for. */
-GN_HOT static int are_few(const gn_lattice *l, const gn_rect *box, int32_t n_px)
+/* Part of the block that the surface may have, out to whole cells. */
+GN_HOT static void cut_block(gn_lattice *l)
 {
-    return n_px <= (l->uniform ? FEW_OF_ONE_COLOUR : FEW + ((box->x1 - box->x0 + box->y1 - box->y0) >> 2));
+    const int32_t size = 1 << l->size_log2;
+    gn_rect *r = &l->block;
+    r->x0 = gn_max32(l->bounds.x0 & -size, l->x);
+    r->x1 = gn_min32((l->bounds.x1 + size - 1) & -size, l->x + GN_PART_WIDTH);
+    r->y0 = gn_max32(l->bounds.y0 & -size, l->y);
+    r->y1 = gn_min32((l->bounds.y1 + size - 1) & -size, l->y + GN_PART_ROWS);
+    if (r->x0 < r->x1 && r->y0 < r->y1) return;
+    *r = (gn_rect){l->x, l->y, l->x + GN_PART_WIDTH, l->y + GN_PART_ROWS}; /* does not happen */
 }
 
-/* Rows of pixels in a part, but for low ones. */
-GN_HOT static int32_t part_rows(const gn_lattice *l)
-{
-    return l->size_log2 > GN_SMALLEST_CELL_LOG2 ? GN_PART_ROWS : GN_LOW_ROWS;
-}
-
-/* Shades a surface that takes no parts. Otherwise returns 1, and sets where parts are. */
-GN_HOT static GN_NOINLINE int begin_parts(gn_shading *s)
+GN_HOT static void shade_block(gn_shading *s, int32_t x, int32_t y, int exactly)
 {
     gn_lattice *l = &s->lattice;
-    gn_rect box = box_of(l);
-    int reached = gn_corner_begin_lights(l, s->frame, &s->surface);
-    int32_t n_px = count_pixels(l);
-    gn_surface_use_bary(s->frame, &s->surface);
-    /* of parallel rays each pixel has its own highlight: gn_sample_on_plane() is of rays from the eye */
-    const int alone = n_px == 1 || (GN_FLAT_Q16(s->frame) && GN_SPECULAR && s->surface.specular && s->surface.n_lights);
-    const int few = are_few(l, &box, n_px);
-    l->size_log2 = few ? 0 : cell_log2(s->frame, &s->surface, &box);
-    const int32_t beyond = 1 << (l->uniform && !few ? 4 : l->size_log2); /* rows of parts look ahead */
-    if (!reached || alone || !gn_corner_begin(l, s->frame, &s->surface, &box, beyond)) {
-        shade_pixels(s, 1);
-        return 0;
+    l->x = x;
+    l->y = y;
+    if (!mark(l)) return;
+    cut_block(l);
+    if (exactly || !gn_corner_begin(l, s->frame, &s->surface, &l->block)) {
+        shade_exactly(s);
+        return;
     }
-    l->has_face = 0;
-    if (few) {
-        l->cascade = l->surface_cascade;
-        shade_pixels(s, 0);
-        return 0;
-    }
-    l->n_rows = part_rows(l);
-    l->x = box.x0;
-    l->y = box.y0;
-    l->x_end = box.x1;
-    l->y_end = box.y1;
-    forget_windows(l);
-    return 1;
+    begin_block(s);
+    if (l->uniform) gn_part_shade(s);
+    else shade_cells(s);
 }
 
-/* Part by part. One of which a window holds too few texels is shaded in lower rows, all of them before the next one. */
 GN_HOT void gn_lattice_shade(gn_shading *s)
 {
     gn_lattice *l = &s->lattice;
-    if (!begin_parts(s)) return;
-    const int32_t x0 = l->x, x_end = l->x_end;
-    int32_t y = l->y, low_x = x0;
-    while (y < l->y_end) {
-        begin_part(s);
-        if (!gn_part_shade(s)) {
-            if (l->crowded) {
-                low_x = l->x;
-                l->x_end = l->part_end;
-                l->n_rows = GN_LOW_ROWS;
-                continue;
-            }
-            if (mark(l)) shade_part(s);
-        }
-        l->x = l->part_end;
-        if (l->x < l->x_end) continue;
-        l->y += l->n_rows;
-        l->x = low_x;
-        if (l->y < y + part_rows(l) && l->y < l->y_end) continue;
-        if (l->x_end < x_end) l->x = l->x_end; /* the tall part after low ones */
-        else {
-            y += part_rows(l);
-            l->x = x0;
-        }
-        l->y = y;
-        l->x_end = x_end;
-        l->n_rows = part_rows(l);
-    }
+    const gn_rect box = box_of(l);
+    const int reached = gn_corner_begin_lights(l, s->frame, &s->surface);
+    gn_surface_use_bary(s->frame, &s->surface);
+    find_screen_bounds(s->frame, &s->surface, &l->bounds);
+    l->size_log2 = cell_log2(s->frame, &s->surface, &l->bounds);
+    l->has_face = 0;
+#if GN_SHADOWS
+    gn_corner_begin_cascade(l, s->frame, &s->surface);
+#endif
+    /* of parallel rays each pixel has its own highlight: gn_sample_on_plane() is of rays from the eye */
+    const int exactly =
+        !reached || (GN_FLAT_Q16(s->frame) && GN_SPECULAR && s->surface.specular && s->surface.n_lights);
+    for (int32_t y = box.y0 & -GN_PART_ROWS; y < box.y1; y += GN_PART_ROWS)
+        for (int32_t x = box.x0 & -GN_PART_WIDTH; x < box.x1; x += GN_PART_WIDTH) shade_block(s, x, y, exactly);
 }
 
 #endif

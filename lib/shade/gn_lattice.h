@@ -107,10 +107,17 @@ uint32_t gn_lattice_textures_row(gn_lattice *lattice, const gn_cell_textures *te
 
 #if GN_INTERPOLATES
 
-/* The window of a view of the light in a slot, made for the part's columns from x on; it may cover nothing. `at` is any
- * point of the surface. NULL: the surface is not seen as a plane. */
+/* The window of a view of the light in a slot, made for what is visible of the block from column x on, out to whole
+ * `cells`; it may cover nothing. NULL: the surface is not seen as a plane. */
 gn_window *gn_lattice_window(gn_lattice *lattice, const gn_frame *frame, const gn_surface *surface, uint32_t slot,
-                             uint32_t view_idx, int32_t x, const gn_corner *at);
+                             uint32_t view_idx, int32_t x, int cells);
+
+#if GN_SHADOWS
+/* Attenuations of a row of n receivers that the window does not cover: it is made for them, and for `more` texels along
+ * each axis as far as it goes; or for a half, a quarter... of the row at a time. Returns what gn_window_row() does. */
+int gn_lattice_follow(const gn_frame *frame, gn_window *window, const gn_receiver_step *row,
+                      const gn_receiver_step *step, int32_t n, int placed, const int32_t more[2], uint32_t *out);
+#endif
 
 #if GN_SHADOWS
 /* The view's window among the lattice's, or one that is of no use from column x on, or any. */
@@ -133,15 +140,6 @@ GN_HOT static inline int gn_lattice_window_is_made(const gn_window *window, cons
     return window->view == view && (window->planar <= 0 || x < window->until_x);
 }
 #endif
-
-/* Of another part. */
-GN_HOT static inline void gn_lattice_forget_part(gn_lattice *l)
-{
-#if GN_SHADOWS
-    for (int i = 0; i < GN_WINDOWS; i++) l->window[i].until_x = INT32_MIN;
-#endif
-    (void)l;
-}
 
 #endif
 
@@ -229,9 +227,8 @@ void gn_corner_pixel(gn_shading *shading, int32_t x, int32_t y);
 /* Once per surface: whether it is of that kind. */
 void gn_part_begin(gn_shading *s);
 
-/* Shades the pixels of the spans in the part, which ends at part_end or before. Returns 0 if it is not of that kind: it
- * is to be shaded by cells. */
-int gn_part_shade(gn_shading *s);
+/* Shades the pixels of the spans in the block, if the surface is. */
+void gn_part_shade(gn_shading *s);
 
 /* ---- The cell at hand -------------------------------------------------------------------------------------------- */
 

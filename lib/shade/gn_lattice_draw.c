@@ -139,7 +139,7 @@ GN_HOT static GN_NOINLINE uint32_t look_up_corner(const gn_drawing *d, uint32_t 
     const gn_receiver_step place = {at->u_q16, at->v_q16, at->depth_q30};
     int32_t slope[2];
     GN_COUNT(edge_lookups, 1);
-    gn_corner_slopes(l, d->s->frame, &d->s->surface, c, view, slope);
+    gn_corner_slopes(l, d->s->frame, &d->s->surface, view, slope);
     return lookup(d, view, slope, &place, c->x, c->y);
 }
 
@@ -178,57 +178,6 @@ GN_HOT static void set_alike(uint32_t *out, const uint32_t *end, int said)
     while (out < end) *out++ = said == GN_WINDOW_LIT ? 65536 : 0;
 }
 
-#if GN_EDGE_BUILT
-/* The texels that n nodes of a row read, first and how many along each axis. Returns 0 if no window holds them. */
-GN_HOT static int texels_of_row(const gn_frame *frame, const gn_lattice_edge *edge, const gn_receiver_step *at,
-                                const gn_receiver_step *step, int32_t n, int32_t first[2], int32_t size[2])
-{
-    const int32_t from[2] = {at->u_q16, at->v_q16}, by[2] = {step->u_q16, step->v_q16};
-    for (int i = 0; i < 2; i++) {
-        const int32_t end = from[i] + (n - 1) * by[i];
-        gn_window_reads(edge->view, GN_VIEW_EDGE(frame, edge->view), gn_min32(from[i], end) - 64,
-                        gn_max32(from[i], end) + 1088, &first[i], &size[i]);
-        if (size[i] > GN_WINDOW_TEXELS) return 0;
-    }
-    return 1;
-}
-
-/* Looks up a row that its window does not cover in one that is made for it, and as far as it goes for those below; or
- * in one for each half, quarter... of the row where it reads too many texels. */
-GN_HOT static GN_NOINLINE int follow_row(const gn_drawing *d, const gn_lattice_edge *edge, int32_t below,
-                                         const gn_receiver_step *row, const gn_receiver_step *step, int32_t n,
-                                         uint32_t *out)
-{
-    const gn_frame *frame = d->s->frame;
-    const int32_t rows = (1 << d->size_log2) - below, down[2] = {edge->u_q16.dy, edge->v_q16.dy};
-    gn_receiver_step at = *row;
-    for (int32_t left = n, most = n, first[2], size[2]; left; left -= most) {
-        most = gn_min32(most, left);
-        while (!texels_of_row(frame, edge, &at, step, most, first, size)) {
-            if (most < 4) return GN_WINDOW_MISSED;
-            most = (most + 1) >> 1;
-        }
-        for (int i = 0; i < 2 && most == n; i++) {
-            const int32_t needed = (int32_t)((int64_t)rows * gn_abs32(down[i]) >> 16) + 1,
-                          more = gn_min32(needed, GN_WINDOW_TEXELS - size[i]);
-            if (down[i] < 0) first[i] -= more;
-            size[i] += more;
-        }
-        const gn_window_place place = {at.u_q16, at.v_q16, at.depth_q31, 0};
-        GN_COUNT(windows, 1);
-        if (!gn_window_compare(edge->window, &place, first[0], first[1], size[0], size[1])) return GN_WINDOW_MISSED;
-        const int said = gn_window_row(frame, edge->window, &at, step, most, 1, out);
-        if (said == GN_WINDOW_MISSED || most == n) return said;
-        if (said != GN_WINDOW_MIXED) set_alike(out, out + most, said);
-        out += most;
-        at.u_q16 += most * step->u_q16;
-        at.v_q16 += most * step->v_q16;
-        at.depth_q31 += most * step->depth_q31;
-    }
-    return GN_WINDOW_MIXED;
-}
-#endif
-
 /* Attenuations of nodes from .. end - 1 of such a row. Returns GN_WINDOW_LIT or _DARK if all of them are, and sets
  * none; else _MIXED. */
 GN_HOT static int look_up_row(const gn_drawing *d, const gn_lattice_edge *edge, int32_t below,
@@ -241,12 +190,12 @@ GN_HOT static int look_up_row(const gn_drawing *d, const gn_lattice_edge *edge, 
     if (edge->window && edge->window->view == edge->view) {
         int said = gn_window_row(d->s->frame, edge->window, &at, step, end - from, 1, out + from);
         if (said != GN_WINDOW_MISSED) return said;
-#if GN_EDGE_BUILT
         if (edge->follows) {
-            said = follow_row(d, edge, below, &at, step, end - from, out + from);
+            const int32_t rows = (1 << d->size_log2) - below,
+                          more[2] = {rows * (edge->u_q16.dy >> 8) >> 8, rows * (edge->v_q16.dy >> 8) >> 8};
+            said = gn_lattice_follow(d->s->frame, edge->window, &at, step, end - from, 1, more, out + from);
             if (said != GN_WINDOW_MISSED) return said;
         }
-#endif
     }
     for (int32_t i = from; i < end; i++) {
         out[i] = lookup(d, edge->view, edge->slope_q28, &at, d->x + d->first + i, d->y + below);

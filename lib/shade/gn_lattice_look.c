@@ -412,8 +412,7 @@ GN_HOT int gn_lattice_look_at(gn_lattice *lattice, const gn_frame *frame, const 
     for (uint32_t slot = 0; (slot = add_lights(cell, slot)) < surface->n_lights; ask->slot = -1) {
         if (ask->slot < 0) return 0;
 #if GN_SHADOWS
-        const gn_corner *first = lattice->cell_corner[0];
-        gn_lattice_window(lattice, frame, surface, (uint32_t)ask->slot, ask->view_idx, first->x, first);
+        gn_lattice_window(lattice, frame, surface, (uint32_t)ask->slot, ask->view_idx, lattice->cell_corner[0]->x, 1);
 #endif
     }
     return end_look(cell);

@@ -44,7 +44,7 @@ GN_HOT static void find_slopes(const gn_lattice_cell *cell, const gn_cell_places
         for (int i = 0; i < 2; i++) slope_q28[i] = p->window->slope_q30[i] / 4;
     else
 #endif
-        gn_corner_slopes(cell->lattice, cell->frame, cell->s, cell->corner[0], p->view, slope_q28);
+        gn_corner_slopes(cell->lattice, cell->frame, cell->s, p->view, slope_q28);
 }
 
 GN_HOT static void range_of(const int32_t at[4], int32_t *lo, int32_t *hi)
@@ -65,7 +65,7 @@ GN_HOT static gn_window_place middle_of(const gn_window *window, const gn_cell_p
     }
     int32_t apart = (int32_t)gn_clamp64((hi - lo + 2) >> 1, 0, 1 << 29);
     gn_window_place place = {p->u[0], p->v[0], p->depth[0], 0};
-    if (window->planar > 0) return place;
+    if (window->planar > 0) return window->place;
     place.depth_q30 = (int32_t)gn_clamp64(p->depth[0] + lo + apart, -(1 << 29), 1 << 30);
     place.apart_q30 = apart;
     return place;
@@ -98,9 +98,8 @@ GN_HOT static int find_window(const gn_lattice_cell *cell, uint32_t slot, const 
         if (window->planar) *out = window;
         return 1;
     }
-    int taken = window->view && x < window->until_x; /* by that of another view */
     gn_wanted_window *ask = &cell->lattice->by.look.ask;
-    if (taken || ask->asked & asked) return 1;
+    if (ask->asked & asked) return 1;
     ask->asked |= asked;
     ask->slot = (int32_t)slot;
     ask->view_idx = p->view_idx;
@@ -116,7 +115,7 @@ GN_HOT static int ask_new_window(const gn_lattice_cell *cell, gn_window *window,
     if (window->planar < 0) window->w = 0;
     if (alone && p->view->perspective) return GN_CELL_EDGE;
     const int said = verdict_of_window(cell->frame, window, p, lo, hi, 1);
-    p->follows = window->planar > 0 && GN_VIEW_EDGE(cell->frame, p->view);
+    p->follows = window->planar > 0;
     if (!alone && (said != GN_CELL_SPLIT || p->follows)) p->window = window;
     return said == GN_CELL_SPLIT ? GN_CELL_EDGE : said;
 }
@@ -140,7 +139,7 @@ GN_HOT static int verdict(const gn_lattice_cell *cell, uint32_t slot, gn_cell_pl
     int said = window && window->planar > 0 ? verdict_of_window(cell->frame, window, p, &lo, &hi, 0) : GN_CELL_SPLIT;
     if (said != GN_CELL_SPLIT) {
         p->window = window;
-        p->follows = GN_VIEW_EDGE(cell->frame, p->view) > 0;
+        p->follows = 1;
         return said;
     }
     return window ? ask_new_window(cell, window, p, &lo, &hi) : GN_CELL_EDGE;

@@ -234,7 +234,7 @@ typedef struct {
     int16_t x, y, n_px;
 } gn_run_span;
 
-enum { GN_SPANS = 32, GN_PART_WIDTH = 64, GN_PART_ROWS = 16, GN_LOW_ROWS = 8, GN_SMALLEST_CELL_LOG2 = 2 };
+enum { GN_SPANS = 32, GN_PART_WIDTH = 64, GN_PART_ROWS = 16, GN_SMALLEST_CELL_LOG2 = 2 };
 
 /* A directional view's coordinates of points in view space: texels, Q16, are m times points times 2^up, over
  * 2^(32 + down). */
@@ -270,8 +270,8 @@ typedef struct {
 /* A view of the light whose shadow has an edge in the part. */
 typedef struct {
     const gn_light_view *view;
-    const gn_window *window; /* NULL: none */
-    int said;                /* of the whole part */
+    gn_window *window; /* NULL: none */
+    int said;          /* of the whole part */
     int32_t offset_q16[3];   /* of receivers */
 } gn_part_view;
 
@@ -307,24 +307,28 @@ typedef struct gn_lattice {
 #if GN_PUNCTUAL_LIGHTS && GN_SHADOWS
     gn_view_forms forms[GN_VIEW_FORMS]; /* of the surface */
 #endif
+    struct {
+        uint8_t known, found; /* whether it has been looked for, and is there */
+        int16_t x, y;
+        int32_t z_q16, ray_q16[3]; /* and the way from the eye, along the world's axes */
+    } anchor;                      /* of the block: a pixel where the surface's plane is seen */
     int32_t has_face, face_q30[3];    /* the face's normal, once something has asked for it */
     const gn_light_view *offset_view; /* flat surfaces: a directional view, NULL: none, */
     int32_t offset_q16[3];            /* and the receiver's offset in it */
 #if GN_PLANES && GN_SHADOWS
     const gn_light_view *slope_view; /* a view, NULL: none, */
-    int32_t slope_q28[2];            /* and the slopes of the surface in it, */
-    int32_t slope_h_q14;             /* spots and points: found at this distance of the light from the plane */
+    int32_t slope_q28[2];            /* and the slopes of the surface in it */
 #endif
     int32_t uniform;            /* nothing but shadows varies over the surface */
     int16_t cascade;            /* of all of the part, none of which fades; -1: of each point for itself */
     uint16_t views;             /* views of cascades that the part, or the small triangle, may look into, a bit
                                    each, and GN_VIEWS_FADE */
     int16_t surface_cascade;    /* the same of the surface */
-    uint8_t crowded;            /* a window holds too few texels for one cell's width: the part is too tall */
     int32_t size_log2;          /* of the largest cells, in pixels */
-    int32_t x, y, x_end, y_end; /* of the part, and where the surface ends */
-    int32_t n_rows;             /* of the part */
-    int32_t part_end;           /* columns before it */
+    gn_rect bounds;             /* of the surface on the screen, no smaller than it */
+    int32_t x, y;               /* of the block of pixels at hand, 64 x 16 of the picture, */
+    int32_t part_x, part_end;   /* columns that windows hold together */
+    gn_rect block, seen;        /* what the surface may have of it, in cells, and what is visible */
     uint32_t bits[GN_PART_WIDTH / 32][GN_PART_ROWS]; /* its pixels */
     union {
         gn_corner corners[GN_CORNERS]; /* those of the part that were asked for last */

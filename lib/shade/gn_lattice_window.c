@@ -28,7 +28,8 @@ GN_HOT static uint32_t share_q30(uint64_t a, uint64_t b)
 
 /* How far bias keeps the surface's own texels behind it, Q30; INT32_MAX: as far as filters reach. */
 GN_HOT static int64_t own_distance_q30(const gn_lattice *l, const gn_frame *frame, const gn_surface *s, uint32_t slot,
-                                       const gn_light_view *view, const gn_corner *at, const int32_t slope_q28[2])
+                                       const gn_light_view *view, const int32_t from_q16[3],
+                                       const int32_t slope_q28[2])
 {
     const gn_light_state *light = s->light[slot].state;
     int64_t steepest = gn_max32((int32_t)gn_abs32(slope_q28[0]), (int32_t)gn_abs32(slope_q28[1]));
@@ -36,9 +37,7 @@ GN_HOT static int64_t own_distance_q30(const gn_lattice *l, const gn_frame *fram
     if (light->auto_bias) return INT32_MAX;
 #if GN_PUNCTUAL_LIGHTS
     if (light->kind != GN_LIGHT_DIRECTIONAL) {
-        int32_t from[3];
-        gn_corner_from(at, light, from);
-        uint64_t h = gn_abs64(gn_dot_q30(l->face_q30, from)) | 1U;
+        uint64_t h = gn_abs64(gn_dot_q30(l->face_q30, from_q16)) | 1U;
         int64_t k_q30 = view->fit.persp.lift_q31 >> 1, along_q30 = gn_dot_q30(s->normal_q30[0], view->axis_q30[2]);
         uint32_t whole = (uint32_t)gn_max32(1, (int32_t)((1 << 30) + (k_q30 * along_q30 >> 30)));
         uint64_t less_q30 = share_q30((uint64_t)k_q30, whole);
@@ -49,48 +48,8 @@ GN_HOT static int64_t own_distance_q30(const gn_lattice *l, const gn_frame *fram
     gn_sample_offset(frame, s, slot, view, s->normal_q30[0], offset);
     own += ((int64_t)offset[0] * slope_q28[0] + (int64_t)offset[1] * slope_q28[1]) >> 14;
     int64_t towards = (int64_t)view->bias_constant_q16 - offset[2];
-    (void)l, (void)at;
+    (void)l, (void)from_q16;
     return own + (up >= 0 ? towards * ((int64_t)1 << up) : towards >> -up);
-}
-
-GN_HOT static GN_NOINLINE void begin_window(gn_lattice *l, const gn_frame *frame, const gn_surface *s, uint32_t slot,
-                                            const gn_light_view *view, const gn_corner *at, gn_window *window)
-{
-    int32_t slope[2];
-    int32_t from[3] = {0, 0, 0};
-    int on_plane = GN_PLANES && gn_shadow_has_plane(frame, view);
-#if GN_CHANGES
-    window->squares = s->squares;
-#endif
-    window->view = view;
-    window->planar = 0;
-    window->w = 0;
-    window->until_x = INT32_MIN;
-    if (!l->has_face) gn_surface_face(frame, s, l->face_q30);
-    l->has_face = 1;
-#if GN_PUNCTUAL_LIGHTS
-    if (at && view->perspective) gn_corner_from(at, s->light[slot].state, from);
-#endif
-    gn_shadow_plane_slopes(view, l->face_q30, from, slope);
-    gn_window_begin(window, frame, view, slope, own_distance_q30(l, frame, s, slot, view, at, slope), on_plane);
-    if (window->planar && !stays_planar(l, s, slot)) window->planar = -1;
-}
-
-/* View depth of the surface's plane at a pixel; 0: it is not seen there, or far beyond the surface. */
-GN_HOT static int32_t seen_depth(const gn_lattice *l, const gn_frame *frame, const gn_surface *s, int32_t x, int32_t y)
-{
-    const gn_screen_plane *p = &l->plane;
-#if GN_ORTHOGRAPHIC
-    int32_t b_q28[2];
-    if (GN_FLAT_Q16(frame)) return gn_corner_flat_depth(p, s, x, y, b_q28);
-#endif
-    int32_t w = p->w.at + p->w.dx * (x - p->x) + p->w.dy * (y - p->y);
-    if (w < p->w_least || w >= 1 << 30) return 0;
-    int32_t clz = gn_clz32((uint32_t)w), shift = p->z_shift - clz;
-    if (shift < 1 || shift > 31) return 0;
-    uint32_t z = gn_umul_high(s->depth_scale.mant, gn_recip_norm((uint32_t)w << clz, GN_RECIP_STEPS(frame)));
-    z = ((z >> (shift - 1)) + 1) >> 1;
-    return z < (uint32_t)s->z_min_q16 >> 1 || z >> 1 > (uint32_t)s->z_max_q16 ? 0 : (int32_t)z;
 }
 
 /* Where a directional view sees a flat surface at a pixel: what corners say, without its depth if `uv`. Returns 0 if it
@@ -98,7 +57,7 @@ GN_HOT static int32_t seen_depth(const gn_lattice *l, const gn_frame *frame, con
 GN_HOT static inline int see_flat(gn_lattice *l, const gn_frame *frame, const gn_surface *s, uint32_t slot,
                                   const gn_light_view *view, int32_t x, int32_t y, int uv, gn_window_place *out)
 {
-    int32_t z = seen_depth(l, frame, s, x, y);
+    int32_t z = gn_corner_seen_depth(l, frame, s, x, y);
     gn_corner_ray at;
     if (z <= 0 || !gn_corner_ray_begin(&at, frame, view->fit.ortho.ray_shift, x, y, z)) return 0;
     if (l->offset_view != view) gn_sample_offset(frame, s, slot, view, s->normal_q30[0], l->offset_q16);
@@ -119,6 +78,59 @@ GN_HOT static inline int see_flat(gn_lattice *l, const gn_frame *frame, const gn
     if (up < 0) out->depth_q30 = depth >> gn_min32(-up, 31);
     else out->depth_q30 = gn_max32(-(1 << 29) >> up, gn_min32(depth, ((1 << 30) - 1) >> up)) * (1 << up);
     return 1;
+}
+
+/* Where the view sees the anchor of a flat surface. Returns 0 if it does not. */
+GN_HOT static int place_anchor(gn_lattice *l, const gn_frame *frame, const gn_surface *s, uint32_t slot,
+                               uint32_t view_idx, const gn_light_view *view, gn_window_place *out)
+{
+    gn_corner *c = &l->corner;
+    gn_corner_light *at = &c->light[slot];
+    *out = (gn_window_place){0, 0, 0, 0};
+    if (!view->perspective && see_flat(l, frame, s, slot, view, l->anchor.x, l->anchor.y, 0, out)) return 1;
+    c->x = l->anchor.x;
+    c->y = l->anchor.y;
+    c->z_q16 = l->anchor.z_q16;
+    for (int i = 0; i < 3; i++) {
+#if GN_PUNCTUAL_LIGHTS
+        c->ray_q16[i] = l->anchor.ray_q16[i];
+#endif
+#if GN_VERTEX_NORMALS
+        c->normal_q30[i] = s->normal_q30[0][i];
+#endif
+    }
+    at->placed = GN_VIEW_NONE;
+    at->arrives = GN_CORNER_FULLY;
+    if (!gn_corner_place(l, frame, s, c, slot, view_idx)) return 0;
+    *out = (gn_window_place){at->u_q16, at->v_q16, at->depth_q30, 0};
+    return !((gn_abs32(at->u_q16) | gn_abs32(at->v_q16)) >> 30);
+}
+
+/* The surface's plane in a view, by the block's anchor. */
+GN_HOT static GN_NOINLINE void begin_window(gn_lattice *l, const gn_frame *frame, const gn_surface *s, uint32_t slot,
+                                            uint32_t view_idx, gn_window *window)
+{
+    const gn_light_view *view = &frame->view[s->light[slot].state->view_idx + (int32_t)view_idx];
+    int32_t slope[2], from[3] = {0, 0, 0};
+    int on_plane = GN_PLANES && gn_shadow_has_plane(frame, view);
+#if GN_CHANGES
+    window->squares = s->squares;
+#endif
+    window->view = view;
+    window->planar = 0;
+    window->w = 0;
+    window->until_x = INT32_MIN;
+    if (!gn_corner_find_anchor(l, frame, s)) return;
+    if (!l->has_face) gn_surface_face(frame, s, l->face_q30);
+    l->has_face = 1;
+#if GN_PUNCTUAL_LIGHTS
+    if (view->perspective) gn_corner_from_ray(l->anchor.ray_q16, s->light[slot].state, from);
+#endif
+    gn_shadow_plane_slopes(view, l->face_q30, from, slope);
+    gn_window_begin(window, frame, view, slope, own_distance_q30(l, frame, s, slot, view, from, slope), on_plane);
+    if (!window->planar) return;
+    if (!stays_planar(l, s, slot)) window->planar = -1;
+    else window->planar = place_anchor(l, frame, s, slot, view_idx, view, &window->place);
 }
 
 /* Widens the box to a pixel, as the view sees it that a window is made of. The place in it is that of the last one that
@@ -151,7 +163,7 @@ GN_HOT static GN_NOINLINE int see_rows(gn_lattice *l, const gn_frame *frame, con
     for (int32_t i = 0; i < l->n_spans; i++) {
         const gn_run_span *span = &l->span[i];
         int32_t from = gn_max32(span->x, x), to = gn_min32(span->x + span->n_px, x_end);
-        if (span->y < l->y || span->y >= l->y + l->n_rows || from >= to) continue;
+        if (span->y < l->seen.y0 || span->y >= l->seen.y1 || from >= to) continue;
         if (!see(l, frame, s, from, span->y, 1, box) || !see(l, frame, s, to - 1, span->y, 0, box)) return 0;
         any = 1;
     }
@@ -174,12 +186,12 @@ GN_HOT static void empty(gn_seen_box *box)
 /* Makes it for columns x .. x_end - 1, of which the left corners may be seen (`left`): of cells up to the corners at
  * x_end and y_end, or of `pixels` before them. Returns 0 if that is too much. */
 GN_HOT static int make_window(gn_lattice *l, const gn_frame *frame, const gn_surface *s, int32_t x, int32_t x_end,
-                              int32_t y_end, int pixels, int left, gn_window *window)
+                              int32_t y, int32_t y_end, int pixels, int left, gn_window *window)
 {
     gn_seen_box *box = &l->row.seen.all;
     int32_t first[2], n[2];
     if (left) *box = l->row.seen.left;
-    if (!left || !see(l, frame, s, x_end - pixels, l->y, 1, box) ||
+    if (!left || !see(l, frame, s, x_end - pixels, y, 1, box) ||
         !see(l, frame, s, x_end - pixels, y_end - pixels, 0, box)) {
         empty(box);
         if (!pixels || !see_rows(l, frame, s, x, x_end, box)) return 0;
@@ -195,35 +207,79 @@ GN_HOT static int make_window(gn_lattice *l, const gn_frame *frame, const gn_sur
         if (n[i] > GN_WINDOW_TEXELS) return 0;
     }
     GN_COUNT(windows, 1);
-    gn_window_compare(window, &box->place, first[0], first[1], n[0], n[1]);
+    gn_window_compare(window, &window->place, first[0], first[1], n[0], n[1]);
     return 1;
 }
 
 GN_HOT gn_window *gn_lattice_window(gn_lattice *l, const gn_frame *frame, const gn_surface *s, uint32_t slot,
-                                    uint32_t view_idx, int32_t x, const gn_corner *at)
+                                    uint32_t view_idx, int32_t x, int cells)
 {
     const gn_light_view *view = &frame->view[s->light[slot].state->view_idx + (int32_t)view_idx];
     gn_window *window = gn_lattice_window_of(l, frame, view, x);
-    const int32_t log2 = l->size_log2, size = 1 << log2, pixels = !at;
-    if (window->view != view) begin_window(l, frame, s, slot, view, at, window);
+    const int32_t log2 = l->size_log2, size = 1 << log2, few = cells ? 2 : 0; /* their own corners tell as much */
+    if (window->view != view) begin_window(l, frame, s, slot, view_idx, window);
     if (window->planar <= 0) return NULL;
     window->w = 0;
-    int32_t y_end = gn_min32(l->y + l->n_rows, l->y_end), rows = (y_end - l->y + size - 1) >> log2;
-    int32_t columns = (gn_min32(GN_PART_WIDTH - (x - l->x), l->x_end - x) + size - 1) >> log2;
-    const int32_t few = at ? 2 : 0; /* for one or two cells their own corners tell as much */
-    if (!pixels) y_end = l->y + rows * size;
+    const int32_t y = cells ? l->seen.y0 & -size : l->seen.y0, rows = (l->seen.y1 - y + size - 1) >> log2,
+                  y_end = cells ? y + rows * size : l->seen.y1;
+    int32_t columns = (l->seen.x1 - x + size - 1) >> log2;
     gn_seen_places *places = &l->row.seen;
     places->slot = slot;
     places->view_idx = view_idx;
     empty(&places->left);
-    int left = columns * rows > few && see(l, frame, s, x, l->y, 1, &places->left) &&
-               see(l, frame, s, x, y_end - pixels, 1, &places->left);
+    int left = columns * rows > few && see(l, frame, s, x, y, 1, &places->left) &&
+               see(l, frame, s, x, y_end - !cells, 1, &places->left);
     while (columns * rows > few &&
-           !make_window(l, frame, s, x, pixels ? gn_min32(x + columns * size, l->x_end) : x + columns * size, y_end,
-                        pixels, left, window))
+           !make_window(l, frame, s, x, cells ? x + columns * size : gn_min32(x + columns * size, l->seen.x1), y, y_end,
+                        !cells, left, window))
         columns = columns > 1 ? (columns + 1) >> 1 : 0;
     window->until_x = x + columns * size;
     return window;
+}
+
+/* ---- Rows that a window does not cover --------------------------------------------------------------------------- */
+
+/* The texels that n nodes of a row read, first and how many along each axis. Returns 0 if no window holds them. */
+GN_HOT static int texels_of_row(const gn_frame *frame, const gn_light_view *view, const gn_receiver_step *at,
+                                const gn_receiver_step *step, int32_t n, int32_t first[2], int32_t size[2])
+{
+    const int32_t from[2] = {at->u_q16, at->v_q16}, by[2] = {step->u_q16, step->v_q16};
+    for (int i = 0; i < 2; i++) {
+        const int32_t end = from[i] + (n - 1) * by[i];
+        gn_window_reads(view, GN_VIEW_EDGE(frame, view), gn_min32(from[i], end) - 64, gn_max32(from[i], end) + 1088,
+                        &first[i], &size[i]);
+        if (size[i] > GN_WINDOW_TEXELS) return 0;
+    }
+    return 1;
+}
+
+GN_HOT GN_NOINLINE int gn_lattice_follow(const gn_frame *frame, gn_window *window, const gn_receiver_step *row,
+                                         const gn_receiver_step *step, int32_t n, int placed, const int32_t more[2],
+                                         uint32_t *out)
+{
+    gn_receiver_step at = *row;
+    for (int32_t left = n, most = n, first[2], size[2]; left; left -= most) {
+        most = gn_min32(most, left);
+        while (!texels_of_row(frame, window->view, &at, step, most, first, size)) {
+            if (most == 1) return GN_WINDOW_MISSED;
+            most = (most + 1) >> 1;
+        }
+        for (int i = 0; i < 2 && most == n; i++) {
+            const int32_t beyond = gn_min32((int32_t)gn_abs32(more[i]), GN_WINDOW_TEXELS - size[i]);
+            if (more[i] < 0) first[i] -= beyond;
+            size[i] += beyond;
+        }
+        GN_COUNT(windows, 1);
+        if (!gn_window_compare(window, &window->place, first[0], first[1], size[0], size[1])) return GN_WINDOW_MISSED;
+        const int said = gn_window_row(frame, window, &at, step, most, placed, out);
+        if (said == GN_WINDOW_MISSED || most == n) return said;
+        for (int32_t i = 0; said != GN_WINDOW_MIXED && i < most; i++) out[i] = said == GN_WINDOW_LIT ? 65536 : 0;
+        out += most;
+        at.u_q16 += most * step->u_q16;
+        at.v_q16 += most * step->v_q16;
+        at.depth_q31 += most * step->depth_q31;
+    }
+    return GN_WINDOW_MIXED;
 }
 
 #endif

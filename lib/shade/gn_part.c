@@ -35,25 +35,24 @@ GN_HOT static inline int bends(const gn_frame *frame, const row_ends *row)
 /* The first place of a row. */
 GN_HOT static inline void begin_row(const gn_shading *s, const gn_part_view *view, int32_t x, int32_t y, row_ends *row)
 {
-    row->last_z_q16 =
-        gn_corner_uv(&s->lattice, s->frame, &s->surface, view->window->view, x, y, view->offset_q16, row->last);
+    row->last_z_q16 = gn_corner_uv(&s->lattice, s->frame, &s->surface, view->view, x, y, view->offset_q16, row->last);
 }
 
-/* The next chunk of a row up to `end`, which begins where the last one ended. Returns its pixels; *ahead: those to its
- * last place, the next chunk's first pixel, or its own last. */
-GN_HOT static inline int32_t next_chunk(const gn_shading *s, const gn_part_view *view, int32_t x, int32_t y,
-                                        int32_t end, row_ends *row, int32_t *ahead)
+/* The next pixels of a row, which begin where the last ones ended, up to `end`: so few that places are linear between
+ * them and the place behind them. Returns how many; 1, without a place that is known, where the plane is not seen. */
+GN_HOT static inline int32_t next_places(const gn_shading *s, const gn_part_view *view, int32_t x, int32_t y,
+                                         int32_t end, row_ends *row)
 {
-    int32_t n = gn_min32(end - x, GN_CHUNK);
+    int32_t n = end - x;
     row->at[0] = row->last[0];
     row->at[1] = row->last[1];
     row->z_q16 = row->last_z_q16;
+    if (!row->z_q16) n = 1;
     for (;; n = (n + 1) >> 1) {
-        *ahead = x + n < end ? n : n - 1;
-        if (!*ahead) return n;
-        row->last_z_q16 = gn_corner_uv(&s->lattice, s->frame, &s->surface, view->window->view, x + *ahead, y,
-                                       view->offset_q16, row->last);
-        if (n <= FEW_BENT || !bends(s->frame, row)) return n;
+        row->last_z_q16 =
+            gn_corner_uv(&s->lattice, s->frame, &s->surface, view->view, x + n, y, view->offset_q16, row->last);
+        if (n == 1) return n;
+        if (row->last_z_q16 && (n <= FEW_BENT || !bends(s->frame, row))) return n;
     }
 }
 
@@ -84,7 +83,10 @@ GN_HOT void gn_part_begin(gn_shading *s)
     const gn_surface *surface = &s->surface;
     int varies = GN_SMOOTH(surface) | GN_COLOURED(surface) | surface->textured | surface->baked | surface->masked |
                  surface->specular | surface->n_punctual;
-    s->lattice.uniform = !varies;
+    int32_t n_realtime = 0; /* rows have two colours */
+    for (uint32_t i = 0; !varies && surface->shadowed && i < surface->n_lights; i++)
+        n_realtime += gn_shadow_is_realtime(surface->light[i].state, 65536);
+    s->lattice.uniform = !varies && n_realtime <= 1;
 }
 
 /* ---- Lights ------------------------------------------------------------------------------------------------------ */
@@ -105,16 +107,15 @@ GN_HOT static GN_NOINLINE int windows_of_part(gn_shading *s, uint32_t slot, gn_p
     uint32_t views = views_of_part(l, !first->border_lit);
     for (uint32_t i = 0; i < 4; i++) {
         int said = GN_WINDOW_MIXED;
-        if (view) view[i] = (gn_part_view){first + i, NULL, GN_WINDOW_MIXED, {0, 0, 0}};
+        view[i] = (gn_part_view){first + i, NULL, GN_WINDOW_MIXED, {0, 0, 0}};
         if (!(views >> i & 1U)) continue;
-        const gn_window *w = gn_lattice_window(l, s->frame, &s->surface, slot, i, l->x, NULL);
-        if (w && !w->w) l->crowded |= l->n_rows > GN_LOW_ROWS;
-        else if (w) {
+        gn_window *w = gn_lattice_window(l, s->frame, &s->surface, slot, i, l->part_x, 0);
+        if (w && w->w) {
             l->part_end = gn_min32(l->part_end, w->until_x);
             said = !w->any ? GN_WINDOW_LIT : w->all == UINT32_MAX ? GN_WINDOW_DARK : GN_WINDOW_MIXED;
-            if (view) view[i].window = w;
-            if (view) view[i].said = said;
         }
+        view[i].window = w;
+        view[i].said = said;
         all = all >= 0 && all != said ? GN_WINDOW_MIXED : said;
     }
     if (all < 0) return GN_WINDOW_LIT;
@@ -146,8 +147,7 @@ GN_HOT static void begin_edge(gn_shading *s, uint32_t slot, gn_part *part)
 }
 #endif
 
-/* Returns 0 if the shadows of several lights have edges in the part, or lower parts are to be tried. */
-GN_HOT static GN_NOINLINE int find_lights(gn_shading *s, gn_part *part)
+GN_HOT static GN_NOINLINE void find_lights(gn_shading *s, gn_part *part)
 {
     const gn_surface *surface = &s->surface;
     part->mixed = 0;
@@ -160,10 +160,7 @@ GN_HOT static GN_NOINLINE int find_lights(gn_shading *s, gn_part *part)
         uint32_t share = 65536;
         int said = GN_WINDOW_LIT;
         int32_t e = gn_max32(light->cosine_q24[0], 0);
-        if (surface->shadowed && gn_shadow_is_realtime(light->state, 65536))
-            said = windows_of_part(s, i, part->mixed ? NULL : part->view);
-        if (s->lattice.crowded) return 0;
-        if (said == GN_WINDOW_MIXED && part->mixed) return 0;
+        if (surface->shadowed && gn_shadow_is_realtime(light->state, 65536)) said = windows_of_part(s, i, part->view);
         if (said != GN_WINDOW_LIT) share = 65536 - light->state->strength_uq16;
         for (int c = 0; c < 3; c++) {
             uint32_t all = (uint32_t)gn_corner_times(light->radiance_uq16[c], e) >> 4,
@@ -173,7 +170,6 @@ GN_HOT static GN_NOINLINE int find_lights(gn_shading *s, gn_part *part)
         }
         if (said == GN_WINDOW_MIXED) begin_edge(s, i, part);
     }
-    return 1;
 }
 
 /* ---- Rows of two colours ----------------------------------------------------------------------------------------- */
@@ -190,19 +186,23 @@ GN_HOT static void store_row(gn_shading *s, int32_t x, int32_t y, int32_t n, con
     for (int32_t i = 0; i < n; i++) gn_pixel_store(s->frame, &s->rows, x + i, y, gn_levels_pixel(s, attenuation[i]));
 }
 
-/* Attenuations of n pixels in a row, `ahead` of them from its first place to its last: sets them where what is known of
- * all of them is GN_WINDOW_MIXED. */
-GN_HOT static inline int attenuations(const gn_shading *s, const gn_part_view *view, const row_ends *row, int32_t n,
-                                      int32_t ahead, uint32_t *out)
+/* Attenuations of n of a row's pixels from the one `skip` behind its place on, which has n_all to the place behind
+ * them: sets them where what is known of all of them is GN_WINDOW_MIXED. */
+GN_HOT static inline int attenuations(const gn_shading *s, const gn_part_view *view, const row_ends *row, int32_t n_all,
+                                      int32_t skip, int32_t n, uint32_t *out)
 {
-    gn_receiver_step from = {row->at[0], row->at[1], 0}, step = {0, 0, 0};
+    static const int32_t none[2] = {0, 0};
     if (view->said != GN_WINDOW_MIXED) return view->said;
-    if (!view->window) return GN_WINDOW_MISSED;
-    if (ahead) {
-        step.u_q16 = gn_step_of(row->at[0], row->last[0], ahead);
-        step.v_q16 = gn_step_of(row->at[1], row->last[1], ahead);
+    if (!view->window || !row->z_q16) return GN_WINDOW_MISSED;
+    gn_receiver_step from = {row->at[0], row->at[1], 0}, step = {0, 0, 0};
+    if (n_all > 1) {
+        step.u_q16 = gn_step_of(row->at[0], row->last[0], n_all);
+        step.v_q16 = gn_step_of(row->at[1], row->last[1], n_all);
+        from.u_q16 += skip * step.u_q16;
+        from.v_q16 += skip * step.v_q16;
     }
     int said = gn_window_row(s->frame, view->window, &from, &step, n, 0, out);
+    if (said == GN_WINDOW_MISSED) said = gn_lattice_follow(s->frame, view->window, &from, &step, n, 0, none, out);
     if (said == GN_WINDOW_MIXED) GN_COUNT(edge_lookups, n);
     return said;
 }
@@ -212,27 +212,32 @@ GN_HOT static void shade_row_by_pixels(gn_shading *s, int32_t x, int32_t y, int3
     for (; n > 0; n--, x++) gn_corner_pixel(s, x, y);
 }
 
-/* Pixels of one row between two places. */
-GN_HOT static GN_NOINLINE void mixed_chunk(gn_shading *s, const gn_part *part, const gn_part_view *view,
-                                           const row_ends *row, int32_t x, int32_t y, int32_t n, int32_t ahead)
+/* Pixels x .. end - 1 of one row in a view, of those from chunk `at` of the block on: in and out of the shadow, or
+ * between places. */
+GN_HOT static GN_NOINLINE void mixed_chunk(gn_shading *s, const gn_part *part, const gn_part_view *view, row_ends *row,
+                                           int32_t at, int32_t x, int32_t y, int32_t end)
 {
     uint32_t *attenuation = s->lattice.from.part.attenuation[0];
-    int said = attenuations(s, view, row, n, ahead, attenuation);
-    if (said == GN_WINDOW_MIXED) store_row(s, x, y, n, attenuation);
-    else if (said == GN_WINDOW_MISSED) shade_row_by_pixels(s, x, y, n);
-    else gn_pixel_fill(s->frame, &s->rows, x, y, n, said == GN_WINDOW_LIT ? part->lit : part->dark);
+    for (int32_t n_all, chunk_end = at + GN_CHUNK; x < end; at += n_all) {
+        n_all = next_places(s, view, at, y, chunk_end, row);
+        if (x >= at + n_all) continue;
+        const int32_t n = gn_min32(end, at + n_all) - x;
+        const int said = attenuations(s, view, row, n_all, x - at, n, attenuation);
+        if (said == GN_WINDOW_MIXED) store_row(s, x, y, n, attenuation);
+        else if (said == GN_WINDOW_MISSED) shade_row_by_pixels(s, x, y, n);
+        else gn_pixel_fill(s->frame, &s->rows, x, y, n, said == GN_WINDOW_LIT ? part->lit : part->dark);
+        x += n;
+    }
 }
 
-/* Pixels of one row in a view, in chunks that are in or out of the shadow, or between places at their ends. */
-GN_HOT static GN_NOINLINE void mixed_span(gn_shading *s, const gn_part *part, const gn_part_view *view, int32_t x,
-                                          int32_t y, int32_t end)
+/* Chunk by chunk. */
+GN_HOT static void mixed_span(gn_shading *s, const gn_part *part, const gn_part_view *view, int32_t x, int32_t y,
+                              int32_t end)
 {
     row_ends row;
-    begin_row(s, view, x, y, &row);
-    for (int32_t n, ahead; x < end; x += n) {
-        n = next_chunk(s, view, x, y, end, &row, &ahead);
-        mixed_chunk(s, part, view, &row, x, y, n, ahead);
-    }
+    int32_t at = x & -GN_CHUNK;
+    begin_row(s, view, at, y, &row);
+    for (; x < end; at += GN_CHUNK, x = at) mixed_chunk(s, part, view, &row, at, x, y, gn_min32(end, at + GN_CHUNK));
 }
 
 /* The cascade of a pixel, its share in a blend, and how far shadows fade there. */
@@ -273,7 +278,7 @@ GN_HOT static GN_NOINLINE void look_up_steps(gn_shading *s, const gn_light_view 
 {
     gn_receiver r;
     GN_COUNT(edge_lookups, n);
-    gn_corner_slopes(&s->lattice, s->frame, &s->surface, &s->lattice.corner, view, r.slope_q28);
+    gn_corner_slopes(&s->lattice, s->frame, &s->surface, view, r.slope_q28);
     r.pixel_y = y;
     for (const uint32_t *end = out + n; out < end; x++) {
         r.u_q16 = at.u_q16;
@@ -313,9 +318,9 @@ GN_HOT static GN_NOINLINE int attenuations_by_window(const gn_shading *s, const 
     int all = -1;
     row_ends row;
     begin_row(s, view, x, y, &row);
-    for (int32_t ahead; x < end; x += n, out += n) {
-        n = next_chunk(s, view, x, y, end, &row, &ahead);
-        int said = attenuations(s, view, &row, n, ahead, out);
+    for (; x < end; x += n, out += n) {
+        n = next_places(s, view, x, y, end, &row);
+        int said = attenuations(s, view, &row, n, 0, n, out);
         if (said == GN_WINDOW_MISSED) return -1;
         for (int32_t i = 0; said != GN_WINDOW_MIXED && i < n; i++) out[i] = said == GN_WINDOW_LIT ? 65536 : 0;
         all = all >= 0 && all != said ? GN_WINDOW_MIXED : said;
@@ -336,23 +341,23 @@ GN_HOT static int attenuations_in(gn_shading *s, const gn_part *part, uint32_t v
     return said;
 }
 
-/* Pixels of one row where shadows fade, or cascades blend: shares are linear along chunks. Returns 0 if they are to be
- * shaded each for itself. */
-GN_HOT static GN_NOINLINE int fading_chunk(gn_shading *s, const gn_part *part, int32_t x, int32_t y, int32_t n,
-                                           const row_end *a, const row_end *b)
+/* A row's pixels where shadows fade, or cascades blend, n from x on, of which the visible ones are those from `first`
+ * to `end`: shares are linear along them. Returns 0 if they are to be shaded each for itself. */
+GN_HOT static GN_NOINLINE int fading_pixels(gn_shading *s, const gn_part *part, int32_t x, int32_t y, int32_t n,
+                                            int32_t first, int32_t end, const row_end *a, const row_end *b)
 {
     uint32_t *here = s->lattice.from.part.attenuation[0], *next = s->lattice.from.part.attenuation[1];
     int blends = part->cascaded && (a->fade_uq16 & b->fade_uq16) != 65536 && GN_BLENDED_CASCADES &&
                  s->frame->scene->shadow.blend != GN_BLEND_HARD && a->cascade != GN_LAST_CASCADE(s->frame);
     if (!(a->g_uq16 | b->g_uq16)) {
-        gn_pixel_fill(s->frame, &s->rows, x, y, n, part->lit);
+        gn_pixel_fill(s->frame, &s->rows, first, y, end - first, part->lit);
         return 1;
     }
     int said = attenuations_in(s, part, part->cascaded ? (uint32_t)a->cascade : 0, x, y, n, here), there = said;
     if (blends) there = attenuations_in(s, part, (uint32_t)s->frame->cascade[a->cascade].next, x, y, n, next);
     if (said < 0 || there < 0) return 0;
     if (said == there && said == GN_WINDOW_LIT) {
-        gn_pixel_fill(s->frame, &s->rows, x, y, n, part->lit);
+        gn_pixel_fill(s->frame, &s->rows, first, y, end - first, part->lit);
         return 1;
     }
     int32_t fade = (int32_t)a->fade_uq16, g = (int32_t)a->g_uq16, fade_step = 0, g_step = 0;
@@ -362,26 +367,29 @@ GN_HOT static GN_NOINLINE int fading_chunk(gn_shading *s, const gn_part *part, i
     }
     if (blends) blend_row(s->frame, x, y, n, fade, fade_step, next, here);
     for (int32_t i = 0; i < n; i++, g += g_step) here[i] = 65536 - gn_mul_uq16(65536 - here[i], (uint32_t)g);
-    store_row(s, x, y, n, here);
+    store_row(s, first, y, end - first, here + (first - x));
     return 1;
 }
 
 GN_HOT static GN_NOINLINE void fading_span(gn_shading *s, const gn_part *part, int32_t x, int32_t y, int32_t end)
 {
-    row_end a = cascade_at(s, x, y), b;
-    for (int32_t n; x < end; x += n, a = b) {
-        n = gn_min32(end - x, GN_CHUNK);
-        b = n > 1 ? cascade_at(s, x + n - 1, y) : a;
+    row_end a, b;
+    for (int32_t at = x & -GN_CHUNK, n; x < end; at += n, a = b) {
+        n = GN_CHUNK - (at & (GN_CHUNK - 1));
+        if (n == GN_CHUNK) a = cascade_at(s, at, y);
+        b = n > 1 ? cascade_at(s, at + n - 1, y) : a;
         while (part->cascaded && a.cascade != b.cascade) { /* up to the border of the two */
             n >>= 1;
-            b = cascade_at(s, x + n - 1, y);
+            b = cascade_at(s, at + n - 1, y);
             if (n == 1) a = b;
         }
         while (n > 2 && (kinks(a.fade_uq16, b.fade_uq16) || kinks(a.g_uq16, b.g_uq16))) {
             n >>= 1;
-            b = cascade_at(s, x + n - 1, y);
+            b = cascade_at(s, at + n - 1, y);
         }
-        if (!fading_chunk(s, part, x, y, n, &a, &b)) shade_row_by_pixels(s, x, y, n);
+        const int32_t to = gn_min32(end, at + n);
+        if (x < to && !fading_pixels(s, part, at, y, n, x, to, &a, &b)) shade_row_by_pixels(s, x, y, to - x);
+        x = gn_max32(x, to);
     }
 }
 
@@ -418,48 +426,20 @@ GN_HOT static GN_NOINLINE void begin_rows(gn_shading *s, const gn_part *part)
     gn_levels_use(&s->lattice, dark, more);
 }
 
-/* Windows of other views may have taken their place. */
-GN_HOT static void drop_windows(gn_part *part)
-{
-    for (int i = 0; part->mixed && i < 4; i++)
-        if (part->view[i].window && part->view[i].window->view != part->view[i].view) part->view[i].window = NULL;
-}
-
-/* Whether the rows' windows are there, or rows do without: those of one light where shadows fade. */
-GN_HOT static int has_windows(const gn_shading *s, const gn_part *part)
-{
-    const gn_lattice *l = &s->lattice;
-    if (l->cascade >= 0) return part->view[part->cascaded ? l->cascade : 0].window != NULL;
-    int any = s->surface.n_lights == 1;
-    for (int i = 0; i < 4; i++) any |= part->view[i].window != NULL;
-    return any;
-}
 #else
 GN_HOT static void begin_rows(gn_shading *s, const gn_part *part)
 {
     (void)s, (void)part;
 }
 
-GN_HOT static void drop_windows(gn_part *part)
-{
-    (void)part;
-}
-
-GN_HOT static int has_windows(const gn_shading *s, const gn_part *part)
-{
-    (void)s, (void)part;
-    return 0;
-}
 #endif
 
-/* The part's rows, up to part_end, which windows may move. Returns 0 if they are not of one or two colours. */
-GN_HOT static int shade_rows(gn_shading *s)
+/* The part's rows. */
+GN_HOT static void shade_rows(gn_shading *s)
 {
     gn_lattice *l = &s->lattice;
     gn_part *part = &l->from.part;
-    if (!find_lights(s, part)) return 0;
-    drop_windows(part);
-    if (part->mixed && !has_windows(s, part)) return 0;
+    find_lights(s, part);
     part->dark = part->lit = pack_sum(s, part, 0);
     GN_COUNT(parts, 1);
     if (part->mixed) {
@@ -468,23 +448,20 @@ GN_HOT static int shade_rows(gn_shading *s)
     }
     for (int32_t i = 0; i < l->n_spans; i++) {
         const gn_run_span *span = &l->span[i];
-        int32_t x = gn_max32(span->x, l->x), end = gn_min32(span->x + span->n_px, l->part_end);
-        if (span->y < l->y || span->y >= l->y + l->n_rows || x >= end) continue;
+        int32_t x = gn_max32(span->x, l->part_x), end = gn_min32(span->x + span->n_px, l->part_end);
+        if (span->y < l->seen.y0 || span->y >= l->seen.y1 || x >= end) continue;
         if (part->mixed) shade_span(s, part, x, span->y, end);
         else gn_pixel_fill(s->frame, &s->rows, x, span->y, end - x, part->lit);
     }
-    return 1;
 }
 
-GN_HOT int gn_part_shade(gn_shading *s)
+GN_HOT void gn_part_shade(gn_shading *s)
 {
     gn_lattice *l = &s->lattice;
-    l->part_end = gn_min32(l->x_end, l->x + GN_PART_WIDTH);
-    if (!l->uniform) return 0;
-    if (shade_rows(s)) return 1;
-    gn_lattice_forget_part(l);
-    l->part_end = gn_min32(l->x_end, l->x + GN_PART_WIDTH);
-    return 0;
+    for (l->part_x = l->seen.x0; l->part_x < l->seen.x1; l->part_x = l->part_end) {
+        l->part_end = l->seen.x1;
+        shade_rows(s);
+    }
 }
 
 #endif

@@ -162,6 +162,12 @@ typedef struct {
 enum { GN_WINDOW_TEXELS = 32, GN_WINDOWS = GN_VIEWS_MAX >= 4 ? 4 : GN_VIEWS_MAX >= 2 ? 2 : 1 };
 enum { GN_WINDOW_LIT, GN_WINDOW_DARK, GN_WINDOW_MIXED, GN_WINDOW_MISSED };
 
+/* A receiver on the plane; how far others are before it and behind it. */
+typedef struct {
+    int32_t u_q16, v_q16, depth_q30;
+    int32_t apart_q30;
+} gn_window_place;
+
 typedef struct {
     const gn_light_view *view;     /* NULL: none */
     int32_t planar;                /* 0: of this view there is no window, -1: of single cells alone */
@@ -171,6 +177,7 @@ typedef struct {
     gn_squares *squares; /* to note what is compared */
 #endif
     int32_t until_x;                      /* gn_lattice: columns of the screen that it was made for */
+    gn_window_place place;                /* a point of the plane */
     int32_t u0, v0, w, h;                 /* texels, w = 0: none yet */
     int32_t plain;                        /* all of them in the tile, of 16 bits */
     int32_t depth_q30;                    /* of the plane, at the centre of the first */
@@ -178,12 +185,6 @@ typedef struct {
     uint32_t dark[GN_WINDOW_TEXELS + 3];  /* bit i of row j: texel (u0 + i, v0 + j) may be dark */
     uint32_t doubt[GN_WINDOW_TEXELS + 3]; /* or may not */
 } gn_window;
-
-/* A receiver on the plane; how far others are before it and behind it. */
-typedef struct {
-    int32_t u_q16, v_q16, depth_q30;
-    int32_t apart_q30;
-} gn_window_place;
 #endif
 
 /* Signatures of a view's kept tile. */
