@@ -365,23 +365,6 @@ GN_HOT static int find_ray(const gn_frame *frame, const gn_light_state *any, int
 #endif
 
 #if GN_SHADOWS
-GN_HOT int32_t gn_corner_seen_depth(const gn_lattice *l, const gn_frame *frame, const gn_surface *s, int32_t x,
-                                    int32_t y)
-{
-    const gn_screen_plane *p = &l->plane;
-#if GN_ORTHOGRAPHIC
-    int32_t b_q28[2];
-    if (GN_FLAT_Q16(frame)) return gn_corner_flat_depth(p, s, x, y, b_q28);
-#endif
-    int32_t w = along(&p->w, x - p->x, y - p->y);
-    if (w < p->w_least || w >= 1 << 30) return 0;
-    int32_t clz = gn_clz32((uint32_t)w), shift = p->z_shift - clz;
-    if (shift < 1 || shift > 31) return 0;
-    uint32_t z = gn_umul_high(s->depth_scale.mant, gn_recip_norm((uint32_t)w << clz, GN_RECIP_STEPS(frame)));
-    z = ((z >> (shift - 1)) + 1) >> 1;
-    return z < (uint32_t)s->z_min_q16 >> 1 || z >> 1 > (uint32_t)s->z_max_q16 ? 0 : (int32_t)z;
-}
-
 /* Whether the surface's plane is seen at a pixel: then it is the anchor. */
 GN_HOT static int anchor_at(gn_lattice *l, const gn_frame *frame, const gn_surface *s, int32_t x, int32_t y)
 {

@@ -17,8 +17,22 @@ int gn_corner_begin(gn_lattice *lattice, const gn_frame *frame, const gn_surface
 
 
 /* View depth of the plane at a pixel; 0: it is not seen there, or far beyond the surface. */
-int32_t gn_corner_seen_depth(const gn_lattice *lattice, const gn_frame *frame, const gn_surface *surface, int32_t x,
-                             int32_t y);
+GN_HOT static inline int32_t gn_corner_seen_depth(const gn_lattice *l, const gn_frame *frame, const gn_surface *s,
+                                                  int32_t x, int32_t y)
+{
+    const gn_screen_plane *p = &l->plane;
+#if GN_ORTHOGRAPHIC
+    int32_t b_q28[2];
+    if (GN_FLAT_Q16(frame)) return gn_corner_flat_depth(p, s, x, y, b_q28);
+#endif
+    int32_t w = p->w.at + p->w.dx * (x - p->x) + p->w.dy * (y - p->y);
+    if (w < p->w_least || w >= 1 << 30) return 0;
+    int32_t clz = gn_clz32((uint32_t)w), shift = p->z_shift - clz;
+    if (shift < 1 || shift > 31) return 0;
+    uint32_t z = gn_umul_high(s->depth_scale.mant, gn_recip_norm((uint32_t)w << clz, GN_RECIP_STEPS(frame)));
+    z = ((z >> (shift - 1)) + 1) >> 1;
+    return z < (uint32_t)s->z_min_q16 >> 1 || z >> 1 > (uint32_t)s->z_max_q16 ? 0 : (int32_t)z;
+}
 
 /* Looks for the block's anchor. Returns 0 if it has none. */
 int gn_corner_find_anchor(gn_lattice *lattice, const gn_frame *frame, const gn_surface *surface);

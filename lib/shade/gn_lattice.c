@@ -30,12 +30,12 @@ GN_HOT static inline uint32_t bits_of(int32_t from, int32_t to)
     return (UINT32_MAX >> (32 - (to - from))) << from;
 }
 
-/* Marks the block's pixels, and sets the box that they have. Returns 0 if there are none. */
+/* Sets the box of the block's pixels, and for cells which they are. Returns 0 if there are none. */
 GN_HOT static GN_NOINLINE int mark(gn_lattice *l)
 {
     gn_rect *seen = &l->seen;
     *seen = (gn_rect){INT32_MAX, INT32_MAX, INT32_MIN, INT32_MIN};
-    memset(l->bits, 0, sizeof l->bits);
+    if (!l->uniform) memset(l->bits, 0, sizeof l->bits);
     for (int32_t i = 0; i < l->n_spans; i++) {
         const gn_run_span *span = &l->span[i];
         int32_t row = span->y - l->y, from = gn_max32(span->x - l->x, 0),
@@ -45,6 +45,7 @@ GN_HOT static GN_NOINLINE int mark(gn_lattice *l)
         seen->x1 = gn_max32(seen->x1, l->x + to);
         seen->y0 = gn_min32(seen->y0, span->y);
         seen->y1 = span->y + 1;
+        if (l->uniform) continue;
         if (from < 32) l->bits[0][row] |= bits_of(from, gn_min32(to, 32));
         if (to > 32) l->bits[1][row] |= bits_of(gn_max32(from - 32, 0), to - 32);
     }
@@ -146,8 +147,8 @@ GN_HOT static GN_NOINLINE void shade_cells(gn_shading *s)
     gn_lattice *l = &s->lattice;
     int32_t log2 = l->size_log2, size = 1 << log2;
     forget_corners(l);
-    for (int32_t x = l->seen.x0 & -size; x < l->seen.x1; x += size)
-        for (int32_t y = l->seen.y0 & -size; y < l->seen.y1; y += size)
+    for (int32_t x = l->seen.x0 - ((l->seen.x0 - l->x) & (size - 1)); x < l->seen.x1; x += size)
+        for (int32_t y = l->seen.y0 - ((l->seen.y0 - l->y) & (size - 1)); y < l->seen.y1; y += size)
             if (gn_lattice_columns(l, x, y, size, log2)) shade_cell(s, x, y, log2);
 }
 
@@ -180,7 +181,7 @@ GN_HOT static int32_t halves_to(const gn_frame *frame, int32_t v_q16, int32_t z_
     return v_q16 < 0 ? -n - 1 : n;
 }
 
-/* The part of the picture that the surface's box of view space is in, and a pixel or two beyond. */
+/* The part of the picture that the surface's box of view space is in, to a pixel. */
 GN_HOT static void find_screen_bounds(const gn_frame *frame, const gn_surface *s, gn_rect *out)
 {
     int32_t lo[2], hi[2], near = s->z_min_q16, far = s->z_max_q16;
@@ -190,10 +191,10 @@ GN_HOT static void find_screen_bounds(const gn_frame *frame, const gn_surface *s
         hi[i] = halves_to(frame, s->hi_q16[i], s->hi_q16[i] < 0 ? far : near);
     }
     const int32_t w = frame->picture.width, h = frame->picture.height;
-    out->x0 = gn_max32(((lo[0] + w - 1) >> 1) - 1, 0);
-    out->x1 = gn_min32(((hi[0] + w - 1) >> 1) + 3, w);
-    out->y0 = gn_max32(((h - 1 - hi[1]) >> 1) - 1, 0);
-    out->y1 = gn_min32(((h - 1 - lo[1]) >> 1) + 3, h);
+    out->x0 = gn_max32((lo[0] + w) >> 1, 0);
+    out->x1 = gn_min32((hi[0] + w + 2) >> 1, w);
+    out->y0 = gn_max32((h - 1 - hi[1]) >> 1, 0);
+    out->y1 = gn_min32((h + 2 - lo[1]) >> 1, h);
 }
 
 /* Cells as large as the knob says, but not much larger than the surface; if its normals turn, than its shorter side. */
@@ -215,24 +216,30 @@ GN_HOT void gn_lattice_begin_tile(gn_shading *s)
     (void)s;
 }
 
-/* Pixels of the block, each for itself, exactly. */
-GN_HOT static GN_NOINLINE void shade_exactly(gn_shading *s)
+/* Pixels of the block, each for itself, as corners or exactly. */
+GN_HOT static GN_NOINLINE void shade_pixels(gn_shading *s, int exactly)
 {
     const gn_lattice *l = &s->lattice;
-    for (int32_t y = l->seen.y0; y < l->seen.y1; y++)
-        for (int32_t x = l->seen.x0; x < l->seen.x1; x++)
-            if (l->bits[(x - l->x) >> 5][y - l->y] >> ((x - l->x) & 31) & 1U) gn_exact_pixel(s, x, y);
+    for (int32_t i = 0; i < l->n_spans; i++) {
+        const gn_run_span *span = &l->span[i];
+        const int32_t end = gn_min32(span->x + span->n_px, l->seen.x1);
+        if (span->y < l->seen.y0 || span->y >= l->seen.y1) continue;
+        for (int32_t x = gn_max32(span->x, l->seen.x0); x < end; x++) {
+            if (exactly) gn_exact_pixel(s, x, span->y);
+            else gn_corner_pixel(s, x, span->y);
+        }
+    }
 }
 
 /* Part of the block that the surface may have, out to whole cells. */
 GN_HOT static void cut_block(gn_lattice *l)
 {
-    const int32_t size = 1 << l->size_log2;
+    const int32_t rest = (1 << l->size_log2) - 1;
     gn_rect *r = &l->block;
-    r->x0 = gn_max32(l->bounds.x0 & -size, l->x);
-    r->x1 = gn_min32((l->bounds.x1 + size - 1) & -size, l->x + GN_PART_WIDTH);
-    r->y0 = gn_max32(l->bounds.y0 & -size, l->y);
-    r->y1 = gn_min32((l->bounds.y1 + size - 1) & -size, l->y + GN_PART_ROWS);
+    r->x0 = gn_max32(l->bounds.x0 - ((l->bounds.x0 - l->x) & rest), l->x);
+    r->x1 = gn_min32(l->bounds.x1 + ((l->x - l->bounds.x1) & rest), l->x + GN_PART_WIDTH);
+    r->y0 = gn_max32(l->bounds.y0 - ((l->bounds.y0 - l->y) & rest), l->y);
+    r->y1 = gn_min32(l->bounds.y1 + ((l->y - l->bounds.y1) & rest), l->y + GN_PART_ROWS);
     if (r->x0 < r->x1 && r->y0 < r->y1) return;
     *r = (gn_rect){l->x, l->y, l->x + GN_PART_WIDTH, l->y + GN_PART_ROWS}; /* does not happen */
 }
@@ -245,22 +252,34 @@ GN_HOT static void shade_block(gn_shading *s, int32_t x, int32_t y, int exactly)
     if (!mark(l)) return;
     cut_block(l);
     if (exactly || !gn_corner_begin(l, s->frame, &s->surface, &l->block)) {
-        shade_exactly(s);
+        shade_pixels(s, 1);
         return;
     }
     begin_block(s);
-    if (l->uniform) gn_part_shade(s);
+    if (l->few) shade_pixels(s, 0);
+    else if (l->uniform) gn_part_shade(s);
     else shade_cells(s);
 }
+
+/* Where blocks of `size` pixels begin along an axis: of what is smaller than one, where it begins. */
+GN_HOT static int32_t first_block(int32_t from, int32_t end, int32_t seen, int32_t size)
+{
+    if (end - from > size) return seen & -size;
+    return seen - (((seen - from) % size + size) % size);
+}
+
+/* A surface of so many pixels is shaded pixel by pixel. */
+enum { FEW = 32 };
 
 GN_HOT void gn_lattice_shade(gn_shading *s)
 {
     gn_lattice *l = &s->lattice;
-    const gn_rect box = box_of(l);
+    const gn_rect box = box_of(l), *bounds = &l->bounds;
     const int reached = gn_corner_begin_lights(l, s->frame, &s->surface);
     gn_surface_use_bary(s->frame, &s->surface);
     find_screen_bounds(s->frame, &s->surface, &l->bounds);
     l->size_log2 = cell_log2(s->frame, &s->surface, &l->bounds);
+    l->few = (bounds->x1 - bounds->x0) * (bounds->y1 - bounds->y0) <= FEW;
     l->has_face = 0;
 #if GN_SHADOWS
     gn_corner_begin_cascade(l, s->frame, &s->surface);
@@ -268,8 +287,9 @@ GN_HOT void gn_lattice_shade(gn_shading *s)
     /* of parallel rays each pixel has its own highlight: gn_sample_on_plane() is of rays from the eye */
     const int exactly =
         !reached || (GN_FLAT_Q16(s->frame) && GN_SPECULAR && s->surface.specular && s->surface.n_lights);
-    for (int32_t y = box.y0 & -GN_PART_ROWS; y < box.y1; y += GN_PART_ROWS)
-        for (int32_t x = box.x0 & -GN_PART_WIDTH; x < box.x1; x += GN_PART_WIDTH) shade_block(s, x, y, exactly);
+    for (int32_t y = first_block(bounds->y0, bounds->y1, box.y0, GN_PART_ROWS); y < box.y1; y += GN_PART_ROWS)
+        for (int32_t x = first_block(bounds->x0, bounds->x1, box.x0, GN_PART_WIDTH); x < box.x1; x += GN_PART_WIDTH)
+            shade_block(s, x, y, exactly);
 }
 
 #endif

@@ -325,6 +325,7 @@ typedef struct gn_lattice {
                                    each, and GN_VIEWS_FADE */
     int16_t surface_cascade;    /* the same of the surface */
     int32_t size_log2;          /* of the largest cells, in pixels */
+    int32_t few;                /* pixels: each for itself */
     gn_rect bounds;             /* of the surface on the screen, no smaller than it */
     int32_t x, y;               /* of the block of pixels at hand, 64 x 16 of the picture, */
     int32_t part_x, part_end;   /* columns that windows hold together */

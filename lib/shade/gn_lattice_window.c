@@ -220,7 +220,7 @@ GN_HOT gn_window *gn_lattice_window(gn_lattice *l, const gn_frame *frame, const 
     if (window->view != view) begin_window(l, frame, s, slot, view_idx, window);
     if (window->planar <= 0) return NULL;
     window->w = 0;
-    const int32_t y = cells ? l->seen.y0 & -size : l->seen.y0, rows = (l->seen.y1 - y + size - 1) >> log2,
+    const int32_t y = l->seen.y0 - (cells ? (l->seen.y0 - l->y) & (size - 1) : 0), rows = (l->seen.y1 - y + size - 1) >> log2,
                   y_end = cells ? y + rows * size : l->seen.y1;
     int32_t columns = (l->seen.x1 - x + size - 1) >> log2;
     gn_seen_places *places = &l->row.seen;

@@ -110,8 +110,8 @@ GN_HOT static GN_NOINLINE int windows_of_part(gn_shading *s, uint32_t slot, gn_p
         view[i] = (gn_part_view){first + i, NULL, GN_WINDOW_MIXED, {0, 0, 0}};
         if (!(views >> i & 1U)) continue;
         gn_window *w = gn_lattice_window(l, s->frame, &s->surface, slot, i, l->part_x, 0);
+        if (w) l->part_end = gn_min32(l->part_end, w->w ? w->until_x : l->part_x + GN_CHUNK);
         if (w && w->w) {
-            l->part_end = gn_min32(l->part_end, w->until_x);
             said = !w->any ? GN_WINDOW_LIT : w->all == UINT32_MAX ? GN_WINDOW_DARK : GN_WINDOW_MIXED;
         }
         view[i].window = w;
@@ -186,12 +186,24 @@ GN_HOT static void store_row(gn_shading *s, int32_t x, int32_t y, int32_t n, con
     for (int32_t i = 0; i < n; i++) gn_pixel_store(s->frame, &s->rows, x + i, y, gn_levels_pixel(s, attenuation[i]));
 }
 
-/* Attenuations of n of a row's pixels from the one `skip` behind its place on, which has n_all to the place behind
+/* In a window that does not cover them: it is made for them, and for as many rows below as it holds. */
+GN_HOT static GN_NOINLINE int follow(const gn_shading *s, const gn_part_view *view, const gn_receiver_step *from,
+                                     const gn_receiver_step *step, int32_t n, int32_t x, int32_t y, uint32_t *out)
+{
+    const int32_t rows = s->lattice.seen.y1 - 1 - y;
+    int32_t more[2] = {0, 0}, below[2];
+    if (rows && gn_corner_uv(&s->lattice, s->frame, &s->surface, view->view, x, y + 1, view->offset_q16, below)) {
+        more[0] = rows * ((below[0] - from->u_q16) >> 8) >> 8;
+        more[1] = rows * ((below[1] - from->v_q16) >> 8) >> 8;
+    }
+    return gn_lattice_follow(s->frame, view->window, from, step, n, 0, more, out);
+}
+
+/* Attenuations of n of a row's pixels from (x, y) on, `skip` behind its place, which has n_all to the place behind
  * them: sets them where what is known of all of them is GN_WINDOW_MIXED. */
 GN_HOT static inline int attenuations(const gn_shading *s, const gn_part_view *view, const row_ends *row, int32_t n_all,
-                                      int32_t skip, int32_t n, uint32_t *out)
+                                      int32_t skip, int32_t n, int32_t x, int32_t y, uint32_t *out)
 {
-    static const int32_t none[2] = {0, 0};
     if (view->said != GN_WINDOW_MIXED) return view->said;
     if (!view->window || !row->z_q16) return GN_WINDOW_MISSED;
     gn_receiver_step from = {row->at[0], row->at[1], 0}, step = {0, 0, 0};
@@ -202,7 +214,7 @@ GN_HOT static inline int attenuations(const gn_shading *s, const gn_part_view *v
         from.v_q16 += skip * step.v_q16;
     }
     int said = gn_window_row(s->frame, view->window, &from, &step, n, 0, out);
-    if (said == GN_WINDOW_MISSED) said = gn_lattice_follow(s->frame, view->window, &from, &step, n, 0, none, out);
+    if (said == GN_WINDOW_MISSED) said = follow(s, view, &from, &step, n, x, y, out);
     if (said == GN_WINDOW_MIXED) GN_COUNT(edge_lookups, n);
     return said;
 }
@@ -222,7 +234,7 @@ GN_HOT static GN_NOINLINE void mixed_chunk(gn_shading *s, const gn_part *part, c
         n_all = next_places(s, view, at, y, chunk_end, row);
         if (x >= at + n_all) continue;
         const int32_t n = gn_min32(end, at + n_all) - x;
-        const int said = attenuations(s, view, row, n_all, x - at, n, attenuation);
+        const int said = attenuations(s, view, row, n_all, x - at, n, x, y, attenuation);
         if (said == GN_WINDOW_MIXED) store_row(s, x, y, n, attenuation);
         else if (said == GN_WINDOW_MISSED) shade_row_by_pixels(s, x, y, n);
         else gn_pixel_fill(s->frame, &s->rows, x, y, n, said == GN_WINDOW_LIT ? part->lit : part->dark);
@@ -293,9 +305,10 @@ GN_HOT static GN_NOINLINE void look_up_steps(gn_shading *s, const gn_light_view 
     }
 }
 
-/* The same between places at the row's ends. Returns 0 if they cannot be told. */
+/* The same of those from `first` to `end` of n pixels, between places at the ends of these. Returns 0 if they cannot be
+ * told. */
 GN_HOT static GN_NOINLINE int look_up_pixels(gn_shading *s, const gn_part *part, uint32_t view_idx, int32_t x,
-                                             int32_t y, int32_t n, uint32_t *out)
+                                             int32_t y, int32_t n, int32_t first, int32_t end, uint32_t *out)
 {
     gn_receiver_step at, last, step = {0, 0, 0};
     if (!place_pixel(s, part->slot, view_idx, x + n - 1, y, &last) || !place_pixel(s, part->slot, view_idx, x, y, &at))
@@ -306,38 +319,47 @@ GN_HOT static GN_NOINLINE int look_up_pixels(gn_shading *s, const gn_part *part,
         step.v_q16 = gn_step_of(at.v_q16, last.v_q16, n - 1);
         step.depth_q31 = gn_step_of(at.depth_q31, last.depth_q31, n - 1);
     }
-    look_up_steps(s, part->view[view_idx].view, at, &step, x, y, n, out);
+    at.u_q16 += (first - x) * step.u_q16;
+    at.v_q16 += (first - x) * step.v_q16;
+    at.depth_q31 += (first - x) * step.depth_q31;
+    look_up_steps(s, part->view[view_idx].view, at, &step, first, y, end - first, out);
     return 1;
 }
 
-/* Attenuations of a row by a window. Returns what is known of all of it; -1: nothing can be told. */
+/* Attenuations of a row by a window, n from x on, of those before `end` from `first` on. Returns what is known of all of
+ * them; -1: nothing can be told. */
 GN_HOT static GN_NOINLINE int attenuations_by_window(const gn_shading *s, const gn_part_view *view, int32_t x,
-                                                     int32_t y, int32_t n, uint32_t *out)
+                                                     int32_t y, int32_t n, int32_t first, int32_t end, uint32_t *out)
 {
-    const int32_t end = x + n;
+    const int32_t row_end = x + n;
     int all = -1;
     row_ends row;
     begin_row(s, view, x, y, &row);
-    for (; x < end; x += n, out += n) {
-        n = next_places(s, view, x, y, end, &row);
-        int said = attenuations(s, view, &row, n, 0, n, out);
+    for (; first < end; x += n) {
+        n = next_places(s, view, x, y, row_end, &row);
+        if (first >= x + n) continue;
+        const int32_t n_seen = gn_min32(end, x + n) - first;
+        int said = attenuations(s, view, &row, n, first - x, n_seen, first, y, out);
         if (said == GN_WINDOW_MISSED) return -1;
-        for (int32_t i = 0; said != GN_WINDOW_MIXED && i < n; i++) out[i] = said == GN_WINDOW_LIT ? 65536 : 0;
+        for (int32_t i = 0; said != GN_WINDOW_MIXED && i < n_seen; i++) out[i] = said == GN_WINDOW_LIT ? 65536 : 0;
         all = all >= 0 && all != said ? GN_WINDOW_MIXED : said;
+        first += n_seen;
+        out += n_seen;
     }
     return all;
 }
 
-/* Attenuations of a row in one view, with what is known of all of it. Returns what that is; -1: nothing can be told. */
+/* Attenuations of a row in one view, n from x on, of those before `end` from `first` on, with what is known of all of
+ * them. Returns what that is; -1: nothing can be told. */
 GN_HOT static int attenuations_in(gn_shading *s, const gn_part *part, uint32_t view_idx, int32_t x, int32_t y,
-                                  int32_t n, uint32_t *out)
+                                  int32_t n, int32_t first, int32_t end, uint32_t *out)
 {
     const gn_part_view *view = &part->view[view_idx];
     int said = view->said;
     if (said == GN_WINDOW_MIXED && !view->window)
-        return look_up_pixels(s, part, view_idx, x, y, n, out) ? GN_WINDOW_MIXED : -1;
-    if (said == GN_WINDOW_MIXED) return attenuations_by_window(s, view, x, y, n, out);
-    for (int32_t i = 0; i < n; i++) out[i] = said == GN_WINDOW_LIT ? 65536 : 0;
+        return look_up_pixels(s, part, view_idx, x, y, n, first, end, out) ? GN_WINDOW_MIXED : -1;
+    if (said == GN_WINDOW_MIXED) return attenuations_by_window(s, view, x, y, n, first, end, out);
+    for (int32_t i = 0; i < end - first; i++) out[i] = said == GN_WINDOW_LIT ? 65536 : 0;
     return said;
 }
 
@@ -353,8 +375,9 @@ GN_HOT static GN_NOINLINE int fading_pixels(gn_shading *s, const gn_part *part, 
         gn_pixel_fill(s->frame, &s->rows, first, y, end - first, part->lit);
         return 1;
     }
-    int said = attenuations_in(s, part, part->cascaded ? (uint32_t)a->cascade : 0, x, y, n, here), there = said;
-    if (blends) there = attenuations_in(s, part, (uint32_t)s->frame->cascade[a->cascade].next, x, y, n, next);
+    int said = attenuations_in(s, part, part->cascaded ? (uint32_t)a->cascade : 0, x, y, n, first, end, here),
+        there = said;
+    if (blends) there = attenuations_in(s, part, (uint32_t)s->frame->cascade[a->cascade].next, x, y, n, first, end, next);
     if (said < 0 || there < 0) return 0;
     if (said == there && said == GN_WINDOW_LIT) {
         gn_pixel_fill(s->frame, &s->rows, first, y, end - first, part->lit);
@@ -365,9 +388,12 @@ GN_HOT static GN_NOINLINE int fading_pixels(gn_shading *s, const gn_part *part, 
         fade_step = gn_step_of(fade, (int32_t)b->fade_uq16, n - 1);
         g_step = gn_step_of(g, (int32_t)b->g_uq16, n - 1);
     }
-    if (blends) blend_row(s->frame, x, y, n, fade, fade_step, next, here);
+    fade += (first - x) * fade_step;
+    g += (first - x) * g_step;
+    n = end - first;
+    if (blends) blend_row(s->frame, first, y, n, fade, fade_step, next, here);
     for (int32_t i = 0; i < n; i++, g += g_step) here[i] = 65536 - gn_mul_uq16(65536 - here[i], (uint32_t)g);
-    store_row(s, first, y, end - first, here + (first - x));
+    store_row(s, first, y, n, here);
     return 1;
 }
 
