@@ -171,24 +171,29 @@ GN_HOT static void begin_block(gn_shading *s)
 }
 #endif
 
-/* Half pixels from the picture's centre to a coordinate at a depth: up to 2^14. */
-GN_HOT static int32_t halves_to(const gn_frame *frame, int32_t v_q16, int32_t z_q16)
+/* Half pixels from the picture's centre to a coordinate, up to 2^14, with 2^63 / (depth 2^clz). */
+GN_HOT static inline int32_t halves_to(const gn_frame *frame, int32_t v_q16, uint32_t recip, int32_t clz)
 {
-    const int32_t clz = gn_clz32((uint32_t)z_q16);
-    const uint64_t slope_q16 = (uint64_t)gn_abs32(v_q16) * gn_recip_norm((uint32_t)z_q16 << clz, 1) >> (47 - clz);
-    const uint64_t halves = (slope_q16 >> 26 ? 1U << 26 : slope_q16) * frame->cam.focal2_px_q16 >> 32;
+    const uint64_t slope_q16 = (uint64_t)gn_abs32(v_q16) * recip >> (47 - clz),
+                   halves = (slope_q16 >> 26 ? 1U << 26 : slope_q16) * frame->cam.focal2_px_q16 >> 32;
     const int32_t n = halves >> 14 ? 1 << 14 : (int32_t)halves;
     return v_q16 < 0 ? -n - 1 : n;
 }
 
 /* The part of the picture that the surface's box of view space is in, to a pixel. */
-GN_HOT static void find_screen_bounds(const gn_frame *frame, const gn_surface *s, gn_rect *out)
+GN_HOT static GN_NOINLINE void find_screen_bounds(const gn_frame *frame, const gn_surface *s, gn_rect *out)
 {
-    int32_t lo[2], hi[2], near = s->z_min_q16, far = s->z_max_q16;
-    if (GN_FLAT_Q16(frame)) near = far = GN_FLAT_Q16(frame);
+    int32_t lo[2], hi[2], clz[2];
+    uint32_t recip[2];
     for (int i = 0; i < 2; i++) {
-        lo[i] = halves_to(frame, s->lo_q16[i], s->lo_q16[i] < 0 ? near : far);
-        hi[i] = halves_to(frame, s->hi_q16[i], s->hi_q16[i] < 0 ? far : near);
+        const int32_t z = GN_FLAT_Q16(frame) ? GN_FLAT_Q16(frame) : i ? s->z_max_q16 : s->z_min_q16;
+        clz[i] = gn_clz32((uint32_t)z);
+        recip[i] = gn_recip_norm((uint32_t)z << clz[i], 1);
+    }
+    for (int i = 0; i < 2; i++) {
+        const int far_lo = s->lo_q16[i] >= 0, far_hi = s->hi_q16[i] < 0;
+        lo[i] = halves_to(frame, s->lo_q16[i], recip[far_lo], clz[far_lo]);
+        hi[i] = halves_to(frame, s->hi_q16[i], recip[far_hi], clz[far_hi]);
     }
     const int32_t w = frame->picture.width, h = frame->picture.height;
     out->x0 = gn_max32((lo[0] + w) >> 1, 0);

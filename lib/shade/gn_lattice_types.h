@@ -254,7 +254,7 @@ typedef struct {
 /* What a window is made of: places in a view of a light of the list. */
 typedef struct {
     uint32_t slot, view_idx;
-    gn_seen_box all, left; /* of all of it; at its left corners */
+    gn_seen_box all;
 } gn_seen_places;
 #endif
 
@@ -328,7 +328,7 @@ typedef struct gn_lattice {
     int32_t few;                /* pixels: each for itself */
     gn_rect bounds;             /* of the surface on the screen, no smaller than it */
     int32_t x, y;               /* of the block of pixels at hand, 64 x 16 of the picture, */
-    int32_t part_x, part_end;   /* columns that windows hold together */
+    int32_t part_x, part_end, part_y, part_bottom; /* what windows hold together */
     gn_rect block, seen;        /* what the surface may have of it, in cells, and what is visible */
     uint32_t bits[GN_PART_WIDTH / 32][GN_PART_ROWS]; /* its pixels */
     union {

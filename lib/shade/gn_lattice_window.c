@@ -157,13 +157,13 @@ GN_HOT static int see(gn_lattice *l, const gn_frame *frame, const gn_surface *s,
 
 /* The ends of all rows of pixels, where corners of the part lie off the surface. */
 GN_HOT static GN_NOINLINE int see_rows(gn_lattice *l, const gn_frame *frame, const gn_surface *s, int32_t x,
-                                       int32_t x_end, gn_seen_box *box)
+                                       int32_t x_end, int32_t y, int32_t y_end, gn_seen_box *box)
 {
     int any = 0;
     for (int32_t i = 0; i < l->n_spans; i++) {
         const gn_run_span *span = &l->span[i];
         int32_t from = gn_max32(span->x, x), to = gn_min32(span->x + span->n_px, x_end);
-        if (span->y < l->seen.y0 || span->y >= l->seen.y1 || from >= to) continue;
+        if (span->y < y || span->y >= y_end || from >= to) continue;
         if (!see(l, frame, s, from, span->y, 1, box) || !see(l, frame, s, to - 1, span->y, 0, box)) return 0;
         any = 1;
     }
@@ -183,18 +183,19 @@ GN_HOT static void empty(gn_seen_box *box)
     *box = (gn_seen_box){{INT32_MAX, INT32_MAX}, {INT32_MIN, INT32_MIN}, {0, 0, 0, 0}};
 }
 
-/* Makes it for columns x .. x_end - 1, of which the left corners may be seen (`left`): of cells up to the corners at
- * x_end and y_end, or of `pixels` before them. Returns 0 if that is too much. */
-GN_HOT static int make_window(gn_lattice *l, const gn_frame *frame, const gn_surface *s, int32_t x, int32_t x_end,
-                              int32_t y, int32_t y_end, int pixels, int left, gn_window *window)
+/* Makes it for pixels x .. x_end - 1, y .. y_end - 1, or for cells, up to their corners at x_end and y_end. Returns 0 if
+ * that is too much. */
+GN_HOT static int make_window(gn_lattice *l, const gn_frame *frame, const gn_surface *s, const gn_rect *r, int cells,
+                              gn_window *window)
 {
     gn_seen_box *box = &l->row.seen.all;
+    const int32_t right = r->x1 - !cells, bottom = r->y1 - !cells;
     int32_t first[2], n[2];
-    if (left) *box = l->row.seen.left;
-    if (!left || !see(l, frame, s, x_end - pixels, y, 1, box) ||
-        !see(l, frame, s, x_end - pixels, y_end - pixels, 0, box)) {
+    empty(box);
+    if (!see(l, frame, s, r->x0, r->y0, 1, box) || !see(l, frame, s, r->x0, bottom, 1, box) ||
+        !see(l, frame, s, right, r->y0, 1, box) || !see(l, frame, s, right, bottom, 1, box)) {
         empty(box);
-        if (!pixels || !see_rows(l, frame, s, x, x_end, box)) return 0;
+        if (cells || !see_rows(l, frame, s, r->x0, r->x1, r->y0, r->y1, box)) return 0;
     }
     if (gn_beyond_tile(window->view, box->lo[0], box->hi[0], box->lo[1], box->hi[1])) {
         light_up(window);
@@ -211,29 +212,40 @@ GN_HOT static int make_window(gn_lattice *l, const gn_frame *frame, const gn_sur
     return 1;
 }
 
+/* The next smaller box that a window may be made for: lower ones of pixels, then narrower ones. Returns 0 if there is
+ * none. */
+GN_HOT static int smaller(gn_rect *r, int cells, int32_t size_log2)
+{
+    enum { LOW = 4 };
+    const int32_t size = 1 << size_log2, columns = (r->x1 - r->x0 + size - 1) >> size_log2;
+    if (!cells && r->y1 - r->y0 > LOW) r->y1 = (r->y0 + r->y1 + 1) >> 1;
+    else if (columns > 1) r->x1 = r->x0 + (((columns + 1) >> 1) << size_log2);
+    else return 0;
+    return 1;
+}
+
 GN_HOT gn_window *gn_lattice_window(gn_lattice *l, const gn_frame *frame, const gn_surface *s, uint32_t slot,
                                     uint32_t view_idx, int32_t x, int cells)
 {
     const gn_light_view *view = &frame->view[s->light[slot].state->view_idx + (int32_t)view_idx];
     gn_window *window = gn_lattice_window_of(l, frame, view, x);
-    const int32_t log2 = l->size_log2, size = 1 << log2, few = cells ? 2 : 0; /* their own corners tell as much */
+    const int32_t log2 = cells ? l->size_log2 : GN_CHUNK_LOG2, rest = (1 << log2) - 1;
     if (window->view != view) begin_window(l, frame, s, slot, view_idx, window);
     if (window->planar <= 0) return NULL;
     window->w = 0;
-    const int32_t y = l->seen.y0 - (cells ? (l->seen.y0 - l->y) & (size - 1) : 0), rows = (l->seen.y1 - y + size - 1) >> log2,
-                  y_end = cells ? y + rows * size : l->seen.y1;
-    int32_t columns = (l->seen.x1 - x + size - 1) >> log2;
-    gn_seen_places *places = &l->row.seen;
-    places->slot = slot;
-    places->view_idx = view_idx;
-    empty(&places->left);
-    int left = columns * rows > few && see(l, frame, s, x, y, 1, &places->left) &&
-               see(l, frame, s, x, y_end - !cells, 1, &places->left);
-    while (columns * rows > few &&
-           !make_window(l, frame, s, x, cells ? x + columns * size : gn_min32(x + columns * size, l->seen.x1), y, y_end,
-                        !cells, left, window))
-        columns = columns > 1 ? (columns + 1) >> 1 : 0;
-    window->until_x = x + columns * size;
+    gn_rect r = {x, l->part_y, l->part_end, l->seen.y1};
+    if (cells) {
+        r.y0 = l->seen.y0 - ((l->seen.y0 - l->y) & rest);
+        r.x1 = l->seen.x1 + ((x - l->seen.x1) & rest);
+        r.y1 = l->seen.y1 + ((r.y0 - l->seen.y1) & rest);
+    }
+    l->row.seen.slot = slot;
+    l->row.seen.view_idx = view_idx;
+    /* for one or two cells their own corners tell as much */
+    while (!(cells && ((r.x1 - r.x0) >> log2) * ((r.y1 - r.y0) >> log2) <= 2) &&
+           !make_window(l, frame, s, &r, cells, window) && smaller(&r, cells, log2)) {}
+    window->until_x = r.x1;
+    window->until_y = r.y1;
     return window;
 }
 

@@ -110,7 +110,8 @@ GN_HOT static GN_NOINLINE int windows_of_part(gn_shading *s, uint32_t slot, gn_p
         view[i] = (gn_part_view){first + i, NULL, GN_WINDOW_MIXED, {0, 0, 0}};
         if (!(views >> i & 1U)) continue;
         gn_window *w = gn_lattice_window(l, s->frame, &s->surface, slot, i, l->part_x, 0);
-        if (w) l->part_end = gn_min32(l->part_end, w->w ? w->until_x : l->part_x + GN_CHUNK);
+        if (w) l->part_end = gn_min32(l->part_end, w->until_x);
+        if (w) l->part_bottom = gn_min32(l->part_bottom, w->until_y);
         if (w && w->w) {
             said = !w->any ? GN_WINDOW_LIT : w->all == UINT32_MAX ? GN_WINDOW_DARK : GN_WINDOW_MIXED;
         }
@@ -190,7 +191,7 @@ GN_HOT static void store_row(gn_shading *s, int32_t x, int32_t y, int32_t n, con
 GN_HOT static GN_NOINLINE int follow(const gn_shading *s, const gn_part_view *view, const gn_receiver_step *from,
                                      const gn_receiver_step *step, int32_t n, int32_t x, int32_t y, uint32_t *out)
 {
-    const int32_t rows = s->lattice.seen.y1 - 1 - y;
+    const int32_t rows = s->lattice.part_bottom - 1 - y;
     int32_t more[2] = {0, 0}, below[2];
     if (rows && gn_corner_uv(&s->lattice, s->frame, &s->surface, view->view, x, y + 1, view->offset_q16, below)) {
         more[0] = rows * ((below[0] - from->u_q16) >> 8) >> 8;
@@ -385,8 +386,8 @@ GN_HOT static GN_NOINLINE int fading_pixels(gn_shading *s, const gn_part *part, 
     }
     int32_t fade = (int32_t)a->fade_uq16, g = (int32_t)a->g_uq16, fade_step = 0, g_step = 0;
     if (n > 1) {
-        fade_step = gn_step_of(fade, (int32_t)b->fade_uq16, n - 1);
-        g_step = gn_step_of(g, (int32_t)b->g_uq16, n - 1);
+        fade_step = gn_step_of(fade, (int32_t)b->fade_uq16, n);
+        g_step = gn_step_of(g, (int32_t)b->g_uq16, n);
     }
     fade += (first - x) * fade_step;
     g += (first - x) * g_step;
@@ -399,19 +400,15 @@ GN_HOT static GN_NOINLINE int fading_pixels(gn_shading *s, const gn_part *part, 
 
 GN_HOT static GN_NOINLINE void fading_span(gn_shading *s, const gn_part *part, int32_t x, int32_t y, int32_t end)
 {
-    row_end a, b;
-    for (int32_t at = x & -GN_CHUNK, n; x < end; at += n, a = b) {
+    int32_t at = x & -GN_CHUNK;
+    row_end a = cascade_at(s, at, y), b;
+    for (int32_t n; x < end; at += n, a = b) {
         n = GN_CHUNK - (at & (GN_CHUNK - 1));
-        if (n == GN_CHUNK) a = cascade_at(s, at, y);
-        b = n > 1 ? cascade_at(s, at + n - 1, y) : a;
-        while (part->cascaded && a.cascade != b.cascade) { /* up to the border of the two */
-            n >>= 1;
-            b = cascade_at(s, at + n - 1, y);
-            if (n == 1) a = b;
-        }
-        while (n > 2 && (kinks(a.fade_uq16, b.fade_uq16) || kinks(a.g_uq16, b.g_uq16))) {
-            n >>= 1;
-            b = cascade_at(s, at + n - 1, y);
+        for (;; n >>= 1) { /* up to the border of two cascades, or where a ramp begins or ends */
+            b = cascade_at(s, at + n, y);
+            if (n == 1 || !((part->cascaded && a.cascade != b.cascade) || kinks(a.fade_uq16, b.fade_uq16) ||
+                            kinks(a.g_uq16, b.g_uq16)))
+                break;
         }
         const int32_t to = gn_min32(end, at + n);
         if (x < to && !fading_pixels(s, part, at, y, n, x, to, &a, &b)) shade_row_by_pixels(s, x, y, to - x);
@@ -460,12 +457,13 @@ GN_HOT static void begin_rows(gn_shading *s, const gn_part *part)
 
 #endif
 
-/* The part's rows. */
-GN_HOT static void shade_rows(gn_shading *s)
+/* The part's rows, of columns before `most`. */
+GN_HOT static void shade_rows(gn_shading *s, int32_t most)
 {
     gn_lattice *l = &s->lattice;
     gn_part *part = &l->from.part;
     find_lights(s, part);
+    if (most != INT32_MAX) l->part_end = most;
     part->dark = part->lit = pack_sum(s, part, 0);
     GN_COUNT(parts, 1);
     if (part->mixed) {
@@ -475,7 +473,7 @@ GN_HOT static void shade_rows(gn_shading *s)
     for (int32_t i = 0; i < l->n_spans; i++) {
         const gn_run_span *span = &l->span[i];
         int32_t x = gn_max32(span->x, l->part_x), end = gn_min32(span->x + span->n_px, l->part_end);
-        if (span->y < l->seen.y0 || span->y >= l->seen.y1 || x >= end) continue;
+        if (span->y < l->part_y || span->y >= l->part_bottom || x >= end) continue;
         if (part->mixed) shade_span(s, part, x, span->y, end);
         else gn_pixel_fill(s->frame, &s->rows, x, span->y, end - x, part->lit);
     }
@@ -486,7 +484,11 @@ GN_HOT void gn_part_shade(gn_shading *s)
     gn_lattice *l = &s->lattice;
     for (l->part_x = l->seen.x0; l->part_x < l->seen.x1; l->part_x = l->part_end) {
         l->part_end = l->seen.x1;
-        shade_rows(s);
+        for (l->part_y = l->seen.y0; l->part_y < l->seen.y1; l->part_y = l->part_bottom) {
+            const int32_t end = l->part_end;
+            l->part_bottom = l->seen.y1;
+            shade_rows(s, l->part_y == l->seen.y0 ? INT32_MAX : end);
+        }
     }
 }
 
