@@ -273,8 +273,9 @@ GN_HOT static int32_t first_block(int32_t from, int32_t end, int32_t seen, int32
     return seen - (((seen - from) % size + size) % size);
 }
 
-/* A surface of so many pixels is shaded pixel by pixel. */
-enum { FEW = 32 };
+/* A surface whose box has so many pixels is shaded pixel by pixel, one whose normals turn with more: corners beside it
+ * are of no use. */
+enum { FEW = 64, FEW_SMOOTH = 256 };
 
 GN_HOT void gn_lattice_shade(gn_shading *s)
 {
@@ -284,7 +285,7 @@ GN_HOT void gn_lattice_shade(gn_shading *s)
     gn_surface_use_bary(s->frame, &s->surface);
     find_screen_bounds(s->frame, &s->surface, &l->bounds);
     l->size_log2 = cell_log2(s->frame, &s->surface, &l->bounds);
-    l->few = (bounds->x1 - bounds->x0) * (bounds->y1 - bounds->y0) <= FEW;
+    l->few = (bounds->x1 - bounds->x0) * (bounds->y1 - bounds->y0) <= (GN_SMOOTH(&s->surface) ? FEW_SMOOTH : FEW);
     l->has_face = 0;
 #if GN_SHADOWS
     gn_corner_begin_cascade(l, s->frame, &s->surface);
