@@ -16,6 +16,19 @@ int gn_corner_begin_lights(gn_lattice *lattice, const gn_frame *frame, const gn_
 int gn_corner_begin(gn_lattice *lattice, const gn_frame *frame, const gn_surface *surface, const gn_rect *rect);
 
 
+/* Looks for the block's anchor. Returns 0 if it has none. */
+int gn_corner_find_anchor(gn_lattice *lattice, const gn_frame *frame, const gn_surface *surface);
+
+/* Makes a corner known, at the centre of pixel (x, y), or unseen where the plane cannot be sampled there. `sample` is
+ * scratch. */
+void gn_corner_find(const gn_lattice *lattice, const gn_frame *frame, const gn_surface *surface, int32_t x, int32_t y,
+                    gn_sample *sample, gn_corner *corner);
+
+/* View depth of the plane at a pixel, and barycentrics there, both linear on the screen: of an orthographic camera
+ * alone. Returns 0 far off the triangle. */
+int32_t gn_corner_flat_depth(const gn_screen_plane *plane, const gn_surface *surface, int32_t x, int32_t y,
+                             int32_t b_q28[2]);
+
 /* View depth of the plane at a pixel; 0: it is not seen there, or far beyond the surface. */
 GN_HOT static inline int32_t gn_corner_seen_depth(const gn_lattice *l, const gn_frame *frame, const gn_surface *s,
                                                   int32_t x, int32_t y)
@@ -33,19 +46,6 @@ GN_HOT static inline int32_t gn_corner_seen_depth(const gn_lattice *l, const gn_
     z = ((z >> (shift - 1)) + 1) >> 1;
     return z < (uint32_t)s->z_min_q16 >> 1 || z >> 1 > (uint32_t)s->z_max_q16 ? 0 : (int32_t)z;
 }
-
-/* Looks for the block's anchor. Returns 0 if it has none. */
-int gn_corner_find_anchor(gn_lattice *lattice, const gn_frame *frame, const gn_surface *surface);
-
-/* Makes a corner known, at the centre of pixel (x, y), or unseen where the plane cannot be sampled there. `sample` is
- * scratch. */
-void gn_corner_find(const gn_lattice *lattice, const gn_frame *frame, const gn_surface *surface, int32_t x, int32_t y,
-                    gn_sample *sample, gn_corner *corner);
-
-/* View depth of the plane at a pixel, and barycentrics there, both linear on the screen: of an orthographic camera
- * alone. Returns 0 far off the triangle. */
-int32_t gn_corner_flat_depth(const gn_screen_plane *plane, const gn_surface *surface, int32_t x, int32_t y,
-                             int32_t b_q28[2]);
 
 /* View depth of the plane at a pixel, up to its largest on the triangle. */
 int32_t gn_corner_depth(const gn_lattice *lattice, const gn_frame *frame, const gn_surface *surface, int32_t x,

@@ -332,12 +332,12 @@ GN_HOT static GN_NOINLINE int look_up_pixels(gn_shading *s, const gn_part *part,
 GN_HOT static GN_NOINLINE int attenuations_by_window(const gn_shading *s, const gn_part_view *view, int32_t x,
                                                      int32_t y, int32_t n, int32_t first, int32_t end, uint32_t *out)
 {
-    const int32_t row_end = x + n;
+    const int32_t to = x + n;
     int all = -1;
     row_ends row;
     begin_row(s, view, x, y, &row);
     for (; first < end; x += n) {
-        n = next_places(s, view, x, y, row_end, &row);
+        n = next_places(s, view, x, y, to, &row);
         if (first >= x + n) continue;
         const int32_t n_seen = gn_min32(end, x + n) - first;
         int said = attenuations(s, view, &row, n, first - x, n_seen, first, y, out);
