@@ -116,7 +116,7 @@ gn_window *gn_lattice_window(gn_lattice *lattice, const gn_frame *frame, const g
 /* Attenuations of a row of n receivers that the window does not cover: it is made for them, and for `more` texels along
  * each axis as far as it goes; or for a half, a quarter... of the row at a time. Returns what gn_window_row() does. */
 int gn_lattice_follow(const gn_frame *frame, gn_window *window, const gn_receiver_step *row,
-                      const gn_receiver_step *step, int32_t n, int placed, const int32_t more[2], uint32_t *out);
+                      const gn_receiver_step *step, int32_t n, int32_t behind, const int32_t more[2], uint32_t *out);
 #endif
 
 #if GN_SHADOWS

@@ -188,12 +188,12 @@ GN_HOT static int look_up_row(const gn_drawing *d, const gn_lattice_edge *edge, 
                            row->depth_q31 + from * step->depth_q31};
     GN_COUNT(edge_lookups, end - from);
     if (edge->window && edge->window->view == edge->view) {
-        int said = gn_window_row(d->s->frame, edge->window, &at, step, end - from, 1, out + from);
+        int said = gn_window_row(d->s->frame, edge->window, &at, step, end - from, -1, out + from);
         if (said != GN_WINDOW_MISSED) return said;
         if (edge->follows) {
             const int32_t rows = (1 << d->size_log2) - below,
                           more[2] = {rows * (edge->u_q16.dy >> 8) >> 8, rows * (edge->v_q16.dy >> 8) >> 8};
-            said = gn_lattice_follow(d->s->frame, edge->window, &at, step, end - from, 1, more, out + from);
+            said = gn_lattice_follow(d->s->frame, edge->window, &at, step, end - from, -1, more, out + from);
             if (said != GN_WINDOW_MISSED) return said;
         }
     }

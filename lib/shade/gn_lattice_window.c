@@ -266,7 +266,7 @@ GN_HOT static int texels_of_row(const gn_frame *frame, const gn_light_view *view
 }
 
 GN_HOT GN_NOINLINE int gn_lattice_follow(const gn_frame *frame, gn_window *window, const gn_receiver_step *row,
-                                         const gn_receiver_step *step, int32_t n, int placed, const int32_t more[2],
+                                         const gn_receiver_step *step, int32_t n, int32_t behind, const int32_t more[2],
                                          uint32_t *out)
 {
     gn_receiver_step at = *row;
@@ -283,10 +283,11 @@ GN_HOT GN_NOINLINE int gn_lattice_follow(const gn_frame *frame, gn_window *windo
         }
         GN_COUNT(windows, 1);
         if (!gn_window_compare(window, &window->place, first[0], first[1], size[0], size[1])) return GN_WINDOW_MISSED;
-        const int said = gn_window_row(frame, window, &at, step, most, placed, out);
+        const int said = gn_window_row(frame, window, &at, step, most, behind, out);
         if (said == GN_WINDOW_MISSED || most == n) return said;
         for (int32_t i = 0; said != GN_WINDOW_MIXED && i < most; i++) out[i] = said == GN_WINDOW_LIT ? 65536 : 0;
         out += most;
+        if (behind >= 0) behind += most;
         at.u_q16 += most * step->u_q16;
         at.v_q16 += most * step->v_q16;
         at.depth_q31 += most * step->depth_q31;

@@ -189,7 +189,8 @@ GN_HOT static void store_row(gn_shading *s, int32_t x, int32_t y, int32_t n, con
 
 /* In a window that does not cover them: it is made for them, and for as many rows below as it holds. */
 GN_HOT static GN_NOINLINE int follow(const gn_shading *s, const gn_part_view *view, const gn_receiver_step *from,
-                                     const gn_receiver_step *step, int32_t n, int32_t x, int32_t y, uint32_t *out)
+                                     const gn_receiver_step *step, int32_t n, int32_t behind, int32_t x, int32_t y,
+                                     uint32_t *out)
 {
     const int32_t rows = s->lattice.part_bottom - 1 - y;
     int32_t more[2] = {0, 0}, below[2];
@@ -197,7 +198,7 @@ GN_HOT static GN_NOINLINE int follow(const gn_shading *s, const gn_part_view *vi
         more[0] = rows * ((below[0] - from->u_q16) >> 8) >> 8;
         more[1] = rows * ((below[1] - from->v_q16) >> 8) >> 8;
     }
-    return gn_lattice_follow(s->frame, view->window, from, step, n, 0, more, out);
+    return gn_lattice_follow(s->frame, view->window, from, step, n, behind, more, out);
 }
 
 /* Attenuations of n of a row's pixels from (x, y) on, `skip` behind its place, which has n_all to the place behind
@@ -214,8 +215,8 @@ GN_HOT static inline int attenuations(const gn_shading *s, const gn_part_view *v
         from.u_q16 += skip * step.u_q16;
         from.v_q16 += skip * step.v_q16;
     }
-    int said = gn_window_row(s->frame, view->window, &from, &step, n, 0, out);
-    if (said == GN_WINDOW_MISSED) said = follow(s, view, &from, &step, n, x, y, out);
+    int said = gn_window_row(s->frame, view->window, &from, &step, n, skip, out);
+    if (said == GN_WINDOW_MISSED) said = follow(s, view, &from, &step, n, skip, x, y, out);
     if (said == GN_WINDOW_MIXED) GN_COUNT(edge_lookups, n);
     return said;
 }

@@ -339,10 +339,10 @@ GN_HOT static inline int32_t gn_window_depth_step(const gn_window *window, int32
 int gn_window_says(const gn_window *window, int32_t u0, int32_t v0, int32_t w, int32_t h);
 
 /* Attenuations of n receivers on the plane; texels in doubt are compared with their depths, which are in Q30 here, and
- * if not `placed` the plane's. Returns GN_WINDOW_LIT or _DARK if all of them are, and sets none; else _MIXED, or
+ * the plane's, from that at so many receivers `behind` on, if that is not negative. Returns GN_WINDOW_LIT or _DARK if all of them are, and sets none; else _MIXED, or
  * GN_WINDOW_MISSED if the window does not cover all. */
 int gn_window_row(const gn_frame *frame, const gn_window *window, const gn_receiver_step *from,
-                  const gn_receiver_step *step, int32_t n, int placed, uint32_t *attenuation);
+                  const gn_receiver_step *step, int32_t n, int32_t behind, uint32_t *attenuation);
 
 #endif
 

@@ -231,7 +231,8 @@ typedef struct {
     uint32_t doubts; /* of their texels */
 } window_rows;
 
-/* Which of n x n texels from texel s of row j on keep a receiver dark, a byte per row. Returns the OR of all rows, and
+/* Which of n x n texels from texel s of row j on keep a receiver dark, a byte per row: if some are in doubt, all of
+ * more than four are compared. Returns the OR of all rows, and
  * in the upper half their AND. */
 GN_HOT static uint32_t dark_texels(const window_rows *rows, int32_t s, int32_t j, int32_t n, int32_t depth_q30,
                                    uint8_t *dark)
@@ -254,7 +255,7 @@ GN_HOT static uint32_t dark_texels(const window_rows *rows, int32_t s, int32_t j
     any = 0;
     all = mask;
     for (int32_t i = 0; i < n; i++) {
-        uint32_t unknown = doubt[i] & mask << s, bits = row[i] ^ unknown;
+        uint32_t unknown = (n > 2 ? UINT32_MAX : doubt[i]) & mask << s, bits = row[i] & ~unknown;
         if (unknown) bits |= compare_doubts(window, j + i, unknown, least);
         bits = bits >> s & mask;
         dark[i] = (uint8_t)bits;
@@ -397,7 +398,7 @@ GN_HOT static int find_rows(const gn_frame *frame, const gn_window *window, cons
 }
 
 GN_HOT int gn_window_row(const gn_frame *frame, const gn_window *window, const gn_receiver_step *from,
-                         const gn_receiver_step *step, int32_t n, int placed, uint32_t *attenuation)
+                         const gn_receiver_step *step, int32_t n, int32_t behind, uint32_t *attenuation)
 {
     window_rows rows;
     gn_receiver_step across = *step;
@@ -408,9 +409,10 @@ GN_HOT int gn_window_row(const gn_frame *frame, const gn_window *window, const g
         view->filter == GN_FILTER_HARD || GN_VIEW_EDGE(frame, view) ? 0 : (view->filter_idx + 1) * 65536 - 32768;
     int32_t u = from->u_q16 - shift - window->u0 * 65536, v = from->v_q16 - shift - window->v0 * 65536;
     int32_t depth_q30 = from->depth_q31;
-    if (!placed && rows.doubts) {
-        depth_q30 = gn_window_depth(window, from->u_q16, from->v_q16);
+    if (behind >= 0 && rows.doubts) {
         across.depth_q31 = gn_window_depth_step(window, step->u_q16, step->v_q16);
+        depth_q30 = gn_window_depth(window, from->u_q16 - behind * step->u_q16, from->v_q16 - behind * step->v_q16) +
+                    behind * across.depth_q31;
     }
     GN_COUNT(window_lookups, n);
 #if GN_FILTER_MAX >= 2
