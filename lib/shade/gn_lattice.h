@@ -120,18 +120,29 @@ int gn_lattice_follow(const gn_frame *frame, gn_window *window, const gn_receive
 #endif
 
 #if GN_SHADOWS
-/* The view's window among the lattice's, or one that is of no use from column x on, or any. */
+/* Whether an edge of the cell at hand has the window: of five, four at most. */
+GN_HOT static inline int gn_lattice_has_window(const gn_lattice_look *look, const gn_window *window)
+{
+    int has = 0;
+    for (int32_t i = 0; i < look->n_edges; i++) has |= look->edge[i].window == window;
+    return has;
+}
+
+/* The view's window among the lattice's, or one that is of no use from column x on, or any that no edge has. */
 GN_HOT static inline gn_window *gn_lattice_window_of(gn_lattice *l, const gn_frame *frame, const gn_light_view *view,
                                                      int32_t x)
 {
-    const uint32_t first = (uint32_t)(view - frame->view) & (GN_WINDOWS - 1);
+    gn_window *other = NULL;
     for (uint32_t i = 0; i < GN_WINDOWS; i++)
         if (l->window[i].view == view) return &l->window[i];
-    for (uint32_t i = 0; i < GN_WINDOWS; i++) {
-        gn_window *window = &l->window[(first + i) & (GN_WINDOWS - 1)];
+    for (uint32_t i = 0, at = (uint32_t)(view - frame->view) % GN_WINDOWS; i < GN_WINDOWS; i++) {
+        gn_window *window = &l->window[at];
+        at = at + 1 < GN_WINDOWS ? at + 1 : 0;
+        if (gn_lattice_has_window(&l->look, window)) continue;
         if (!window->view || x >= window->until_x) return window;
+        if (!other) other = window;
     }
-    return &l->window[first];
+    return other;
 }
 
 /* Whether it is already made. */

@@ -54,8 +54,9 @@ GN_HOT static int find_nearness(gn_patch_record *r, const gn_frame *frame)
     const uint32_t bend = ((most - least) >> 6) * (uint32_t)r->px, fine = GN_K(frame, persp_step) < 16;
     r->deep = bend > least >> (7 + fine);
     if (!r->deep) return 1;
-    /* rows are straight between their ends, where they change by q off by q / 4 of their length: half a pixel, or less */
-    if ((uint64_t)gn_abs32(tri->iz_dx) * (uint32_t)(r->px * r->px) > least >> (1 + fine)) return 0;
+    /* rows are straight between their ends: where it changes by q they are off by up to q / 8 of their length */
+    const int32_t w_px = (gn_max32(gn_max32(r->a[0], r->b[0]), 0) - gn_min32(gn_min32(r->a[0], r->b[0]), 0)) >> bits;
+    if ((uint64_t)gn_abs32(tri->iz_dx) * (uint32_t)(w_px * w_px) > least >> fine) return 0;
     const int32_t clz = gn_clz32(r->iz_q32[0]);
     const uint32_t recip = recip_16(r->iz_q32[0] << clz);
     for (int k = 0; k < 2; k++) {

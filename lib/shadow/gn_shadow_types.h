@@ -159,7 +159,7 @@ typedef struct {
 
 #if GN_INTERPOLATES
 /* Texels of a tile that keep a plane in the dark: gn_filter.h. */
-enum { GN_WINDOW_TEXELS = 32, GN_WINDOWS = GN_VIEWS_MAX >= 4 ? 4 : GN_VIEWS_MAX >= 2 ? 2 : 1 };
+enum { GN_WINDOW_TEXELS = 32, GN_WINDOWS = GN_VIEWS_MAX >= 5 ? 5 : GN_VIEWS_MAX >= 1 ? GN_VIEWS_MAX : 1 };
 enum { GN_WINDOW_LIT, GN_WINDOW_DARK, GN_WINDOW_MIXED, GN_WINDOW_MISSED };
 
 /* A receiver on the plane; how far others are before it and behind it. */
