@@ -393,6 +393,9 @@ typedef struct gn_shading {
     gn_surface_cache cache;
     gn_surface surface;
     const gn_tri_source *tri;
+#if GN_INTERPOLATES
+    gn_tri_source root; /* the first triangle of the surface's plane */
+#endif
     uint32_t last_q20[3]; /* the last radiance and its pixel: neighbours are often equal */
     uint32_t last_pixel;
     uint32_t radiance_q20[3];

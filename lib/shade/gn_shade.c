@@ -127,30 +127,24 @@ GN_HOT static inline uint32_t id_behind(const gn_frame *frame, uint32_t at, uint
 }
 
 #if GN_INTERPOLATES
-/* Large enough on the screen for cells: small triangles are quicker each for itself. */
-GN_HOT static int is_large(const gn_frame *frame, const gn_surface *s)
-{
-    const uint32_t w = (uint32_t)s->hi_q16[0] - (uint32_t)s->lo_q16[0],
-                   h = (uint32_t)s->hi_q16[1] - (uint32_t)s->lo_q16[1];
-    const uint64_t z = (uint32_t)(GN_FLAT_Q16(frame) ? GN_FLAT_Q16(frame) : s->hi_q16[2]);
-    return (uint64_t)(w > h ? w : h) * (frame->cam.focal2_px_q16 >> 8) >> 9 > z * GN_JOIN_PX; /* 2^31 * 2^24 */
-}
-
-/* Takes the runs of triangles behind it in the tile's list that are one surface with it. */
+/* Begins the surface that the triangle is part of, and takes the runs of others of it behind it in the tile's list that
+ * are no patches. */
 GN_HOT static GN_NOINLINE void join(gn_shading *s, const char *sources, uint32_t at, uint32_t end)
 {
     const gn_frame *frame = s->frame;
-    const gn_tri_source *last = s->tri;
-    if (is_exact(s) || !is_large(frame, &s->surface) || !gn_join_may(frame, last)) return;
-    for (uint32_t k = 1, id; (id = id_behind(frame, at, end, k)) != 0; k++) {
-        if (!gn_runs_any(s->scratch, id)) continue;
-        const gn_tri_source *next = gn_cell_source(frame, sources, id);
-        const int32_t vertex = gn_join_vertex(frame, s->tri, last, next);
-        if (vertex == GN_JOIN_NONE || !gn_runs_join(frame, s->scratch, id_behind(frame, at, end, 0), id)) return;
-        if (vertex >= 0) gn_surface_extend(s->scratch, &s->cache, &s->surface, next, (uint32_t)vertex);
-        s->surface.joined = 1;
-        last = next;
+    const uint32_t object_idx = s->tri->object_idx;
+    const gn_join all = gn_join_find(frame, s->tri);
+    for (uint32_t k = 1, id; all.end - all.first > 1 && (id = id_behind(frame, at, end, k)) != 0; k++) {
+        s->tri = gn_cell_source(frame, sources, id);
+        if (s->tri->object_idx != object_idx || s->tri->triangle_idx >= all.end) break;
+        if (gn_runs_any(s->scratch, id) && !gn_patch_begin(s, id))
+            gn_runs_join(frame, s->scratch, id_behind(frame, at, end, 0), id);
     }
+    s->root = (gn_tri_source){(uint16_t)object_idx, (uint16_t)all.first};
+    s->tri = &s->root;
+    gn_surface_place(frame, s->scratch, &s->cache, &s->surface, s->tri);
+    for (uint32_t k = all.first + 1; k < all.end; k++)
+        gn_surface_extend(s->scratch, &s->cache, &s->surface, object_idx, k);
 }
 #else
 GN_HOT static void join(gn_shading *s, const char *sources, uint32_t at, uint32_t end)
@@ -176,8 +170,8 @@ GN_HOT static void shade_triangle(gn_shading *s, const char *sources, uint32_t a
         return;
     }
 #endif
-    gn_surface_place(frame, s->scratch, &s->cache, &s->surface, s->tri);
-    join(s, sources, at, end);
+    if (is_exact(s)) gn_surface_place(frame, s->scratch, &s->cache, &s->surface, s->tri);
+    else join(s, sources, at, end);
     gn_surface_begin(frame, s->scratch, &s->cache, &s->surface, s->tri);
     if (GN_INTERPOLATES) { /* with those that were joined */
         gn_runs_begin(&taker, s->scratch, id);

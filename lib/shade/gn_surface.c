@@ -335,15 +335,19 @@ void gn_surface_place(const gn_frame *frame, gn_scratch *scratch, gn_surface_cac
 }
 
 #if GN_INTERPOLATES
-void gn_surface_extend(gn_scratch *scratch, const gn_surface_cache *cache, gn_surface *s, const gn_tri_source *tri,
-                       uint32_t vertex_idx)
+void gn_surface_extend(gn_scratch *scratch, const gn_surface_cache *cache, gn_surface *s, uint32_t object_idx,
+                       uint32_t triangle_idx)
 {
-    int32_t v[3];
-    gn_setup_vertex(v, scratch->vertex, &cache->to_view, s->object, tri->object_idx, vertex_idx);
-    for (int k = 0; k < 3; k++) {
-        s->lo_q16[k] = gn_min32(s->lo_q16[k], v[k]);
-        s->hi_q16[k] = gn_max32(s->hi_q16[k], v[k]);
+    const uint16_t *idx = s->object->mesh->idx + 3 * (size_t)triangle_idx;
+    for (int i = 0; i < 3; i++) {
+        int32_t v[3];
+        if (!gn_setup_vertex(v, scratch->vertex, &cache->to_view, s->object, object_idx, idx[i])) continue;
+        for (int k = 0; k < 3; k++) {
+            s->lo_q16[k] = gn_min32(s->lo_q16[k], v[k]);
+            s->hi_q16[k] = gn_max32(s->hi_q16[k], v[k]);
+        }
     }
+    s->joined = 1;
 }
 #endif
 

@@ -14,9 +14,9 @@
 void gn_surface_place(const gn_frame *frame, gn_scratch *scratch, gn_surface_cache *cache, gn_surface *surface,
                       const gn_tri_source *tri);
 
-/* Another vertex of its plane belongs to it, too. */
-void gn_surface_extend(gn_scratch *scratch, const gn_surface_cache *cache, gn_surface *surface,
-                       const gn_tri_source *tri, uint32_t vertex_idx);
+/* Another triangle of its plane belongs to it, too. */
+void gn_surface_extend(gn_scratch *scratch, const gn_surface_cache *cache, gn_surface *surface, uint32_t object_idx,
+                       uint32_t triangle_idx);
 
 /* All that shading needs of it, then. */
 void gn_surface_begin(const gn_frame *frame, gn_scratch *scratch, const gn_surface_cache *cache, gn_surface *surface,
@@ -54,19 +54,14 @@ GN_HOT static inline int gn_surface_is_constant(const gn_surface *s)
 
 #if GN_INTERPOLATES
 
-/* Smaller triangles, in pixels, are quicker each for itself. */
-enum { GN_JOIN_PX = 8 };
+/* Triangles first .. end - 1 of a mesh. */
+typedef struct {
+    uint32_t first, end;
+} gn_join;
 
-/* Whether others may be one surface with a triangle: it is opaque, and its normals do not turn. */
-int gn_join_may(const gn_frame *frame, const gn_tri_source *tri);
-
-enum { GN_JOIN_NONE = -1, GN_JOIN_SAME = -2 };
-
-/* The vertex by which a triangle goes on in the plane of `first`, which it may, beyond an edge of `last`, which does,
- * too. GN_JOIN_SAME: it is another part of the last one; GN_JOIN_NONE: it does not, or
- * what vertices have does not go on linearly. */
-int32_t gn_join_vertex(const gn_frame *frame, const gn_tri_source *first, const gn_tri_source *last,
-                       const gn_tri_source *next);
+/* Those of one plane with a triangle, of which the first one is the surface's: by the mesh alone, whatever is visible.
+ */
+gn_join gn_join_find(const gn_frame *frame, const gn_tri_source *tri);
 
 #endif
 
