@@ -49,18 +49,17 @@ GN_HOT static inline int gn_surface_is_constant(const gn_surface *s)
 
 /* ---- Triangles of one plane that are one surface ----------------------------------------------------------------- */
 
-/* Those of a quad, of a polygon, or of one that was cut. What cells, parts and windows need of a surface is found
- * once for all of them. */
+/* Triangles 2 k and 2 k + 1 of a mesh, as of a quad, or of a polygon. What cells, parts and windows need of a surface is
+ * found once for both. */
 
 #if GN_INTERPOLATES
 
-/* Triangles first .. end - 1 of a mesh. */
+/* Triangles first .. end - 1 of a mesh: one or two. */
 typedef struct {
     uint32_t first, end;
 } gn_join;
 
-/* Those of one plane with a triangle, of which the first one is the surface's: by the mesh alone, whatever is visible.
- */
+/* Those of a triangle's surface, whose plane is that of the first: by the mesh alone, whatever is visible. */
 gn_join gn_join_find(const gn_frame *frame, const gn_tri_source *tri);
 
 #endif

@@ -271,10 +271,9 @@ static int same_normal(const gn_mesh *mesh, uint32_t a, uint32_t b)
     return n[0] == m[0] && n[1] == m[1] && n[2] == m[2];
 }
 
-/* Whether others may be one surface with a triangle: it is opaque, and its normals do not turn. */
-static int may_join(const gn_object *object, uint32_t triangle_idx)
+/* Whether another one may be one surface with a triangle: it is opaque, and its normals do not turn. */
+static int may_join(const gn_object *object, const uint16_t *p)
 {
-    const uint16_t *p = object->mesh->idx + 3 * (size_t)triangle_idx;
     return object->visible_alpha == GN_ALPHA_OPAQUE && !(GN_VERTEX_JOINTS && GN_SKIN(object)) &&
            same_normal(object->mesh, p[0], p[1]) && same_normal(object->mesh, p[0], p[2]);
 }
@@ -295,34 +294,21 @@ static int find_shared_edge(const uint16_t *p, const uint16_t *q, corners *v)
     return 0;
 }
 
-/* Whether the triangle behind `last` goes on in the plane of `first`, which `last` is of, beyond an edge of that: what
- * vertices have goes on linearly. */
-static int goes_on(const gn_frame *frame, const gn_object *object, uint32_t first, uint32_t last)
-{
-    const uint16_t *idx = object->mesh->idx, *p = idx + 3 * (size_t)last, *q = p + 3, *root = idx + 3 * (size_t)first;
-    corners v;
-    if (!find_shared_edge(p, q, &v) || !same_normal(object->mesh, root[0], (uint32_t)v.d)) return 0;
-    if (first == last && is_parallelogram(object, &v)) return 1;
-    return looks_even(object, root, (uint32_t)v.d) && !GN_FLAT_Q16(frame) &&
-           is_on_plane(object->mesh, root, q, (uint32_t)v.d);
-}
-
-/* Chains of triangles end where an index is a multiple of this: none is walked far. */
-enum { CHAIN = 8 };
-
 gn_join gn_join_find(const gn_frame *frame, const gn_tri_source *tri)
 {
     const gn_object *object = &frame->scene->objects[tri->object_idx];
-    const uint32_t at = tri->triangle_idx, n = object->mesh->n_triangles;
-    gn_join out = {at, at + 1};
-    if (!may_join(object, at)) return out;
-    while (out.first % CHAIN && may_join(object, out.first - 1) &&
-           goes_on(frame, object, out.first - 1, out.first - 1))
-        out.first--;
-    for (uint32_t k = out.end = out.first + 1; k < n && k % CHAIN && k <= out.end; k++)
-        if (goes_on(frame, object, out.first, k - 1)) out.end = k + 1;
-        else if (k <= at) out.first = k, out.end = k + 1;
-    return out;
+    const gn_mesh *mesh = object->mesh;
+    const uint32_t first = tri->triangle_idx & ~1U;
+    const uint16_t *p = mesh->idx + 3 * (size_t)first, *q = p + 3;
+    const gn_join alone = {tri->triangle_idx, tri->triangle_idx + 1U}, both = {first, first + 2};
+    corners v;
+    if (first + 1 >= mesh->n_triangles || !may_join(object, p) || !find_shared_edge(p, q, &v) ||
+        !same_normal(mesh, p[0], (uint32_t)v.d))
+        return alone;
+    if (is_parallelogram(object, &v)) return both;
+    return looks_even(object, p, (uint32_t)v.d) && !GN_FLAT_Q16(frame) && is_on_plane(mesh, p, q, (uint32_t)v.d)
+               ? both
+               : alone;
 }
 
 #endif
