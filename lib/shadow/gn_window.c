@@ -205,6 +205,16 @@ GN_HOT static uint32_t least_depth(const gn_light_view *view, int32_t depth_q30)
     return gn_rounded_depth(depth_q32, gn_dropped_bits(view), gn_texel_far(GN_VIEW_BITS(view)));
 }
 
+/* Texels of row j that can be dark: beyond a border that is lit none can. */
+GN_HOT static uint32_t texels_inside(const gn_window *window, int32_t j)
+{
+    const gn_light_view *view = window->view;
+    const int32_t v = window->v0 + j, left = gn_max32(-window->u0, 0), end = view->tile_texels - window->u0;
+    if (!gn_border_lit(view)) return UINT32_MAX;
+    if (v < 0 || v >= GN_TILE_ROWS(view) || end <= left) return 0;
+    return UINT32_MAX << left & UINT32_MAX >> gn_max32(32 - end, 0);
+}
+
 /* Of texels in doubt, from texel 0 of row j on, those before `least`. */
 GN_HOT static uint32_t compare_doubts(const gn_window *window, int32_t j, uint32_t doubt, uint32_t least)
 {
@@ -255,7 +265,7 @@ GN_HOT static uint32_t dark_texels(const window_rows *rows, int32_t s, int32_t j
     any = 0;
     all = mask;
     for (int32_t i = 0; i < n; i++) {
-        uint32_t unknown = (n > 2 ? UINT32_MAX : doubt[i]) & mask << s, bits = row[i] & ~unknown;
+        uint32_t unknown = (n > 2 ? texels_inside(window, j + i) : doubt[i]) & mask << s, bits = row[i] & ~unknown;
         if (unknown) bits |= compare_doubts(window, j + i, unknown, least);
         bits = bits >> s & mask;
         dark[i] = (uint8_t)bits;
