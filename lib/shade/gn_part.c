@@ -110,9 +110,9 @@ GN_HOT static GN_NOINLINE int windows_of_part(gn_shading *s, uint32_t slot, gn_p
         view[i] = (gn_part_view){first + i, NULL, GN_WINDOW_MIXED, {0, 0, 0}};
         if (!(views >> i & 1U)) continue;
         gn_window *w = gn_lattice_window(l, s->frame, &s->surface, slot, i, l->part_x, 0);
-        if (w) l->part_end = gn_min32(l->part_end, w->until_x);
+        if (w && l->part_y == l->seen.y0) l->part_end = gn_min32(l->part_end, w->until_x);
         if (w) l->part_bottom = gn_min32(l->part_bottom, w->until_y);
-        if (w && w->w) {
+        if (w && w->w && w->until_x >= l->part_end) {
             said = !w->any ? GN_WINDOW_LIT : w->all == UINT32_MAX ? GN_WINDOW_DARK : GN_WINDOW_MIXED;
         }
         view[i].window = w;
@@ -458,13 +458,12 @@ GN_HOT static void begin_rows(gn_shading *s, const gn_part *part)
 
 #endif
 
-/* The part's rows, of columns before `most`. */
-GN_HOT static void shade_rows(gn_shading *s, int32_t most)
+/* The part's rows. */
+GN_HOT static void shade_rows(gn_shading *s)
 {
     gn_lattice *l = &s->lattice;
     gn_part *part = &l->from.part;
     find_lights(s, part);
-    if (most != INT32_MAX) l->part_end = most;
     part->dark = part->lit = pack_sum(s, part, 0);
     GN_COUNT(parts, 1);
     if (part->mixed) {
@@ -480,15 +479,15 @@ GN_HOT static void shade_rows(gn_shading *s, int32_t most)
     }
 }
 
+/* Columns as wide as windows of the first rows are, and down these, as low as windows are. */
 GN_HOT void gn_part_shade(gn_shading *s)
 {
     gn_lattice *l = &s->lattice;
     for (l->part_x = l->seen.x0; l->part_x < l->seen.x1; l->part_x = l->part_end) {
         l->part_end = l->seen.x1;
         for (l->part_y = l->seen.y0; l->part_y < l->seen.y1; l->part_y = l->part_bottom) {
-            const int32_t end = l->part_end;
             l->part_bottom = l->seen.y1;
-            shade_rows(s, l->part_y == l->seen.y0 ? INT32_MAX : end);
+            shade_rows(s);
         }
     }
 }
