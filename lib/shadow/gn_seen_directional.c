@@ -67,20 +67,20 @@ GN_COLD int gn_seen_take_fixed(gn_view_seen *seen, const gn_fixed_fit *fit)
 GN_COLD void gn_seen_note(gn_seen_job *job)
 {
     for (int k = 0; k < 3; k++) {
-        int32_t half = job->object->half_q16[k] - (job->object->half_q16[k] >> 3);
-        job->below[k] = gn_min32(job->below[k], gn_sat32((int64_t)job->from[k] - half));
-        job->above[k] = gn_max32(job->above[k], gn_sat32((int64_t)job->from[k] + half));
+        const int64_t from = job->from[k], half = job->object->half_q16[k];
+        job->below[k] = gn_min32(job->below[k], gn_sat32(from - half));
+        job->above[k] = gn_max32(job->above[k], gn_sat32(from + half));
     }
 }
 
-/* Whether the box is as flat as a sheet, with all that is seen on the side of it that faces the light: a ground that
- * casts shadows nothing. */
+/* Whether the box is as flat as a sheet, and what is seen reaches no farther than next to nothing behind it: a ground
+ * that casts shadows nothing. */
 static int shadows_nothing(const gn_seen_job *job)
 {
     const int32_t *half = job->object->half_q16, *away = job->axis_q30[2];
     int32_t longest = gn_max32(half[0], gn_max32(half[1], half[2]));
     for (int k = 0; k < 3; k++) {
-        int64_t slack = longest >> 10;
+        int64_t slack = longest >> 8;
         if (half[k] > longest >> 12) continue;
         if (away[k] < 0 ? job->below[k] >= job->from[k] - slack : job->above[k] <= job->from[k] + slack)
             return gn_abs32(away[k]) > 1 << 20;

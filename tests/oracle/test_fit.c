@@ -403,6 +403,36 @@ static void check_scene(fixture *f, long i)
     ref_free(&fine);
 }
 
+/* A sheet low over the lower end of a slope, whose box is 18 times as high as that, beside a caster. */
+static void check_sheet(fixture *f)
+{
+    static const double slope[12] = {-16, 0, 16, 16, 0, 16, 16, 16, -16, -16, 16, -16};
+    static const double sheet[12] = {-1, 0.9, 16, 1, 0.9, 16, 1, 0.9, 14.8, -1, 0.9, 14.8};
+    static const double lo[3] = {-5, 3, 9}, hi[3] = {-4, 4, 10}, from[3] = {4, 3, 19}, at[3] = {-1, 1, 13},
+                        up[3] = {0, 1, 0};
+    const long dark_before = n_dark;
+    settings set;
+    begin(f);
+    add_quad(f, slope);
+    add_quad(f, sheet);
+    add_box(f, lo, hi);
+    f->objects[0].caster = SCENE_CASTER_OFF;
+    add_light(f, 1, -1, 0);
+    look(f, from, at, up);
+    f->s.camera.focal = 1.5;
+    f->s.shadow.max_distance = 30;
+    f->s.shadow.fit = SCENE_FIT_TIGHT;
+    settings_init(&set);
+    settings_preset(&set, SETTINGS_BALANCED);
+    const ref_options options = engine_ref_options(&f->s, &set, WIDTH, HEIGHT);
+    ref_picture tight = render_with(f, &options);
+    check_choices(f, &set, &tight);
+    check_coverage(f, &options);
+    CHECK(n_dark > dark_before + 40);
+    ref_free(&tight);
+    end(f);
+}
+
 int main(void)
 {
     static fixture f;
@@ -412,6 +442,7 @@ int main(void)
         check_scene(&f, i);
         end(&f);
     }
+    check_sheet(&f);
     printf("%ld views, %ld unseen, %ld otherwise chosen; %ld near planes are raised; of %ld shadowed points "
            "%ld are lost, %ld lie beyond their tile; %ld texels are flattened; off: tight %ld, stable %ld\n",
            n_views, n_unseen, n_other_choice, n_raised, n_dark, n_lost, n_beyond, n_flat, n_off[0], n_off[1]);
