@@ -384,7 +384,7 @@ static void see_cascade(gn_frame *frame, gn_seen_job *job, gn_view_seen *seen, i
     }
     if (first_q16 >= last_q16) return;
     job->sphere_q16[0] = gn_cascade_fit_sphere(frame, near_q16, far_q16, &radius);
-    job->sphere_q16[1] = (int32_t)gn_clamp64(gn_bf_apply(1, radius, 16), 1, (int64_t)1 << 30);
+    job->sphere_q16[1] = (int32_t)gn_clamp64(gn_bf_apply(1, radius, 14), 1, (int64_t)1 << 30);
     begin_frustum(job, first_q16, last_q16);
     see_directional(job, seen);
 }

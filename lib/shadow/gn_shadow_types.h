@@ -37,7 +37,7 @@ typedef struct {
     const gn_object_state *object;
     int32_t axis_q30[3][3];        /* of the light */
     int32_t depth_q16[2];          /* of the part */
-    int32_t sphere_q16[2];         /* of a directional view: depth of the centre, radius */
+    int32_t sphere_q16[2];         /* of a directional view: depth of the centre, a quarter of the radius */
     int32_t part[8][6];            /* its corners */
     int32_t part_world[8][3];      /* along the world's axes */
     int32_t from[3];               /* middle of the box, along the world's axes */
