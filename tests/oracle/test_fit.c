@@ -433,25 +433,32 @@ static void check_sheet(fixture *f)
     end(f);
 }
 
-/* Spheres of more than 16384 of the library's units, of which tiles are r/4 wide. */
-static void check_wide(fixture *f)
+/* Large spheres, in the library's units: of more than 16384 where tiles are r/4 wide, of less where cascades of a wide
+ * angle blend. */
+static void check_wide(fixture *f, bool blends)
 {
-    static const double lo[3] = {-0.5, 0, -0.5}, hi[3] = {0.5, 1, 0.5};
+    const double half = blends ? 12 : 0.5, lo[3] = {-half, 0, -half}, hi[3] = {half, 1, half};
     static const double from[3] = {3, 4, 5}, at[3] = {0, 0, 0}, up[3] = {0, 1, 0};
     const long other_before = n_other_choice;
     settings set;
     begin(f);
-    add_floor(f, 4, 0);
+    add_floor(f, blends ? 15 : 4, 0);
     add_box(f, lo, hi);
     add_light(f, 1, -2, -1);
     look(f, from, at, up);
     f->s.shadow.fit = SCENE_FIT_TIGHT;
     f->s.shadow.max_distance = 9;
+    if (blends) {
+        f->s.shadow.n_cascades = 2;
+        f->s.shadow.cascade_ratio[0] = 0.8;
+        f->s.shadow.blend = SCENE_BLEND_SOFT;
+    }
     settings_init(&set);
     settings_preset(&set, SETTINGS_ACCURATE);
     for (int i = 0; i < 8; i++) {
-        f->s.camera.half_height = 2 + i;
-        f->s.shadow.cascade_fade = 0.8 + 0.01 * i;
+        f->s.camera.half_height = blends ? 0 : 2 + i;
+        f->s.camera.focal = 0.4 + 0.02 * i;
+        f->s.shadow.cascade_fade = blends ? 0.1 : 0.8 + 0.01 * i;
         const ref_options options = engine_ref_options(&f->s, &set, WIDTH, HEIGHT);
         ref_picture p = render_with(f, &options);
         check_choices(f, &set, &p);
@@ -471,7 +478,8 @@ int main(void)
         end(&f);
     }
     check_sheet(&f);
-    check_wide(&f);
+    check_wide(&f, false);
+    check_wide(&f, true);
     printf("%ld views, %ld unseen, %ld otherwise chosen; %ld near planes are raised; of %ld shadowed points "
            "%ld are lost, %ld lie beyond their tile; %ld texels are flattened; off: tight %ld, stable %ld\n",
            n_views, n_unseen, n_other_choice, n_raised, n_dark, n_lost, n_beyond, n_flat, n_off[0], n_off[1]);
