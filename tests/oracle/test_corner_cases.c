@@ -369,6 +369,20 @@ static void test_depth_below_the_range(void)
     }
 }
 
+/* A sphere of 27000 of the library's units, and a floor in the dark: shadows fade as far as it reaches. [D6] */
+static void test_fade_in_a_large_sphere(void)
+{
+    static const double quad[12] = {-12, 0, -1, 12, 0, -1, 12, 0, -15, -12, 0, -15};
+    begin();
+    f.s.camera.focal = 0.25;
+    f.s.shadow.max_distance = 15.9;
+    f.s.shadow.cascade_fade = 0.875;
+    add(4, quad)->to_world.m[1][3] = -2;
+    add(4, quad)->to_world.m[1][3] = 2;
+    const metrics m = compare();
+    CHECK(m.atten_rms < 2e-4);
+}
+
 /* A lamp `away` before a point, without a shadow. */
 static void add_lamp(scene_light_kind kind, double away, const double to[3], double colour)
 {
@@ -487,6 +501,7 @@ int main(void)
     test_mirrored();
     test_sun_along_a_wall();
     test_depth_below_the_range();
+    test_fade_in_a_large_sphere();
     test_nearer_than_the_least_distance();
     test_cone_between_corners();
     test_terminator_of_a_lamp();
