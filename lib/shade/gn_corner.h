@@ -15,7 +15,6 @@ int gn_corner_begin_lights(gn_lattice *lattice, const gn_frame *frame, const gn_
 /* Then, for pixels of `rect`. Returns 0 if its plane does not fit 32 bits there. */
 int gn_corner_begin(gn_lattice *lattice, const gn_frame *frame, const gn_surface *surface, const gn_rect *rect);
 
-
 /* Looks for the block's anchor. Returns 0 if it has none. */
 int gn_corner_find_anchor(gn_lattice *lattice, const gn_frame *frame, const gn_surface *surface);
 
@@ -202,8 +201,7 @@ int32_t gn_corner_irradiance(const gn_frame *frame, const gn_light_state *light,
                              int32_t facing_q16, gn_corner_light *out, int32_t *rim_q20);
 
 /* From a spot or point light to a point: both lie within 2^30 of the eye. */
-GN_HOT static inline void gn_corner_from_ray(const int32_t ray_q16[3], const gn_light_state *light,
-                                             int32_t from_q16[3])
+GN_HOT static inline void gn_corner_from_ray(const int32_t ray_q16[3], const gn_light_state *light, int32_t from_q16[3])
 {
     GN_UNROLL
     for (int i = 0; i < 3; i++) from_q16[i] = ray_q16[i] + (int32_t)light->from_light[i].d_q16;

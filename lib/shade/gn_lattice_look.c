@@ -286,7 +286,8 @@ GN_HOT static int add_light(gn_lattice_cell *cell, uint32_t slot)
     if (GN_RAW_VIEWS && least != most && cell->frame->picture.format == GN_FORMAT_RAW32) return 0;
     if (gn_cell_is_limited(cell->s, colour, most)) return 0;
     if (!find_highlight(cell, slot, light)) return 0;
-    if (GN_SPECULAR && !least && any_of(light->highlight_q24)) return 0; /* it ends at once where the surface turns away */
+    if (GN_SPECULAR && !least && any_of(light->highlight_q24))
+        return 0; /* it ends at once where the surface turns away */
     int faint = is_faint(cell, slot, least, most);
     int realtime = find_shares(cell, slot, light),
         shadow = realtime > 0 && !faint ? gn_cell_shadow(cell, slot, light) : GN_CELL_LIT;

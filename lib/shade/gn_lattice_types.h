@@ -270,9 +270,9 @@ typedef struct {
 /* A view of the light whose shadow has an edge in the part. */
 typedef struct {
     const gn_light_view *view;
-    gn_window *window; /* NULL: none */
-    int said;          /* of the whole part */
-    int32_t offset_q16[3];   /* of receivers */
+    gn_window *window;     /* NULL: none */
+    int said;              /* of the whole part */
+    int32_t offset_q16[3]; /* of receivers */
 } gn_part_view;
 
 enum { GN_CHUNK_LOG2 = 4, GN_CHUNK = 1 << GN_CHUNK_LOG2 }; /* pixels of a row between two places */
@@ -310,8 +310,8 @@ typedef struct gn_lattice {
     struct {
         uint8_t known, found; /* whether it has been looked for, and is there */
         int16_t x, y;
-        int32_t z_q16, ray_q16[3]; /* and the way from the eye, along the world's axes */
-    } anchor;                      /* of the block: a pixel where the surface's plane is seen */
+        int32_t z_q16, ray_q16[3];    /* and the way from the eye, along the world's axes */
+    } anchor;                         /* of the block: a pixel where the surface's plane is seen */
     int32_t has_face, face_q30[3];    /* the face's normal, once something has asked for it */
     const gn_light_view *offset_view; /* flat surfaces: a directional view, NULL: none, */
     int32_t offset_q16[3];            /* and the receiver's offset in it */
@@ -319,17 +319,17 @@ typedef struct gn_lattice {
     const gn_light_view *slope_view; /* a view, NULL: none, */
     int32_t slope_q28[2];            /* and the slopes of the surface in it */
 #endif
-    int32_t uniform;            /* nothing but shadows varies over the surface */
-    int16_t cascade;            /* of all of the part, none of which fades; -1: of each point for itself */
-    uint16_t views;             /* views of cascades that the part, or the small triangle, may look into, a bit
-                                   each, and GN_VIEWS_FADE */
-    int16_t surface_cascade;    /* the same of the surface */
-    int32_t size_log2;          /* of the largest cells, in pixels */
-    int32_t few;                /* pixels: each for itself */
-    gn_rect bounds;             /* of the surface on the screen, no smaller than it */
-    int32_t x, y;               /* of the block of pixels at hand, 64 x 16 of the picture, */
+    int32_t uniform;         /* nothing but shadows varies over the surface */
+    int16_t cascade;         /* of all of the part, none of which fades; -1: of each point for itself */
+    uint16_t views;          /* views of cascades that the part, or the small triangle, may look into, a bit
+                                each, and GN_VIEWS_FADE */
+    int16_t surface_cascade; /* the same of the surface */
+    int32_t size_log2;       /* of the largest cells, in pixels */
+    int32_t few;             /* pixels: each for itself */
+    gn_rect bounds;          /* of the surface on the screen, no smaller than it */
+    int32_t x, y;            /* of the block of pixels at hand, 64 x 16 of the picture, */
     int32_t part_x, part_end, part_y, part_bottom; /* what windows hold together */
-    gn_rect block, seen;        /* what the surface may have of it, in cells, and what is visible */
+    gn_rect block, seen;                           /* what the surface may have of it, in cells, and what is visible */
     uint32_t bits[GN_PART_WIDTH / 32][GN_PART_ROWS]; /* its pixels */
     union {
         gn_corner corners[GN_CORNERS]; /* those of the part that were asked for last */

@@ -28,8 +28,7 @@ GN_HOT static uint32_t share_q30(uint64_t a, uint64_t b)
 
 /* How far bias keeps the surface's own texels behind it, Q30; INT32_MAX: as far as filters reach. */
 GN_HOT static int64_t own_distance_q30(const gn_lattice *l, const gn_frame *frame, const gn_surface *s, uint32_t slot,
-                                       const gn_light_view *view, const int32_t from_q16[3],
-                                       const int32_t slope_q28[2])
+                                       const gn_light_view *view, const int32_t from_q16[3], const int32_t slope_q28[2])
 {
     const gn_light_state *light = s->light[slot].state;
     int64_t steepest = gn_max32((int32_t)gn_abs32(slope_q28[0]), (int32_t)gn_abs32(slope_q28[1]));
@@ -183,8 +182,8 @@ GN_HOT static void empty(gn_seen_box *box)
     *box = (gn_seen_box){{INT32_MAX, INT32_MAX}, {INT32_MIN, INT32_MIN}, {0, 0, 0, 0}};
 }
 
-/* Makes it for pixels x .. x_end - 1, y .. y_end - 1, or for cells, up to their corners at x_end and y_end. Returns 0 if
- * that is too much. */
+/* Makes it for pixels x .. x_end - 1, y .. y_end - 1, or for cells, up to their corners at x_end and y_end. Returns 0
+ * if that is too much. */
 GN_HOT static int make_window(gn_lattice *l, const gn_frame *frame, const gn_surface *s, const gn_rect *r, int cells,
                               gn_window *window)
 {

@@ -328,8 +328,8 @@ GN_HOT static GN_NOINLINE int look_up_pixels(gn_shading *s, const gn_part *part,
     return 1;
 }
 
-/* Attenuations of a row by a window, n from x on, of those before `end` from `first` on. Returns what is known of all of
- * them; -1: nothing can be told. */
+/* Attenuations of a row by a window, n from x on, of those before `end` from `first` on. Returns what is known of all
+ * of them; -1: nothing can be told. */
 GN_HOT static GN_NOINLINE int attenuations_by_window(const gn_shading *s, const gn_part_view *view, int32_t x,
                                                      int32_t y, int32_t n, int32_t first, int32_t end, uint32_t *out)
 {
@@ -379,7 +379,8 @@ GN_HOT static GN_NOINLINE int fading_pixels(gn_shading *s, const gn_part *part, 
     }
     int said = attenuations_in(s, part, part->cascaded ? (uint32_t)a->cascade : 0, x, y, n, first, end, here),
         there = said;
-    if (blends) there = attenuations_in(s, part, (uint32_t)s->frame->cascade[a->cascade].next, x, y, n, first, end, next);
+    if (blends)
+        there = attenuations_in(s, part, (uint32_t)s->frame->cascade[a->cascade].next, x, y, n, first, end, next);
     if (said < 0 || there < 0) return 0;
     if (said == there && said == GN_WINDOW_LIT) {
         gn_pixel_fill(s->frame, &s->rows, first, y, end - first, part->lit);

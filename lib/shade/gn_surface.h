@@ -49,8 +49,8 @@ GN_HOT static inline int gn_surface_is_constant(const gn_surface *s)
 
 /* ---- Triangles of one plane that are one surface ----------------------------------------------------------------- */
 
-/* Triangles 2 k and 2 k + 1 of a mesh, as of a quad, or of a polygon. What cells, parts and windows need of a surface is
- * found once for both. */
+/* Triangles 2 k and 2 k + 1 of a mesh, as of a quad, or of a polygon. What cells, parts and windows need of a surface
+ * is found once for both. */
 
 #if GN_INTERPOLATES
 
