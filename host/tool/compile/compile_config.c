@@ -151,6 +151,9 @@ static void choose_features(compiled *c)
     for (uint32_t i = 0; i < f->n_meshes; i++) uses_mesh(&to, &f->meshes[i], i);
     uses_camera(&to, &f->scene.camera);
     if (c->set.feature.shadows) uses_shadows(&to, &f->scene);
+    if (!c->set.quality.transparent_layers || c->set.feature.materials & USES_ALPHA) return;
+    c->set.quality.transparent_layers = 0;
+    because(c, "transparent_layers", "nothing has alpha");
 }
 
 /* What changes no picture is built where it has something to do, unless it was switched off. */
