@@ -483,6 +483,9 @@ fi
 bad 1 '/a??(???b-é\.obj: cannot be opened (no such file)$' info "$tmp/$wrong-é.obj"
 [ "$(grep -c "$tmp.*$tmp" "$tmp/err")" = 0 ] && pass || fail "the path stands twice: $(head -n 1 "$tmp/err")"
 bad 1 'a??(???b' render "$cube" -o "$tmp/no/$wrong.png" --size 8x8
+sed 's/"Wave!"/"a\\u001b[31m\\u009b"/; s/"torch"/"b\\u0007"/' tests/data/robot.gltf >"$tmp/control.gltf" # nor control characters of a file
+good info "$tmp/control.gltf" --size 8x8
+grep -q "0 'a?\[31m??', 3 s" "$tmp/out" && grep -q "'b?': " "$tmp/out" && pass || fail "control characters: $(grep "'" "$tmp/out" | cat -v)"
 bad 1 "unknown setting 'a?" info "$cube" --set "$(printf 'a\377')=1"
 
 # ---- What the configuration lacks, both engines lack ---------------------------------------------------------------------------

@@ -87,6 +87,9 @@ __attribute__((format(printf, 1, 2)))
 #endif
 void tool_error(const char *format, ...);
 
+/* Prints a name of the scene's in quotes, as a terminal may have it. */
+void tool_print_name(const char *name);
+
 /* Prints "gnomon: path: message" to stderr; returns TOOL_FAILED. */
 int tool_fail(const char *path, const char *message);
 

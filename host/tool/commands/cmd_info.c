@@ -293,7 +293,9 @@ static void text_light(const report *r, size_t i)
 {
     const scene_light *l = &r->scene->lights[i];
     int n = r->picture->n_tiles[i], t = r->picture->atlas_texels[i];
-    printf("    %zu '%s': %s, ", i, l->name, kind_names[l->kind]);
+    printf("    %zu ", i);
+    tool_print_name(l->name);
+    printf(": %s, ", kind_names[l->kind]);
     if (l->mode != SCENE_REALTIME) printf("%s, ", mode_names[l->mode]);
     if (r->picture->shadow_state[i] == GN_SHADOW_REALTIME && differ(r->picture, i)) text_tiles(r->picture, i, l->kind);
     else if (r->picture->shadow_state[i] == GN_SHADOW_REALTIME)
@@ -344,7 +346,8 @@ static void text_clips(const scene *s)
     if (s->n_clips) printf("  %zu clip%s:\n", s->n_clips, s->n_clips == 1 ? "" : "s");
     for (size_t i = 0; i < s->n_clips; i++) {
         const double duration = i == s->clip_idx ? s->duration : s->clips[i].duration;
-        printf("    %zu '%s'", i, s->clips[i].name);
+        printf("    %zu ", i);
+        tool_print_name(s->clips[i].name);
         if (duration > 0) printf(", %.3g s", duration);
         printf("%s\n", i == s->clip_idx && s->n_clips > 1 ? ", plays" : "");
     }
