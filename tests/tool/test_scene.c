@@ -168,7 +168,7 @@ static void test_gltf_errors(void)
     }
     CHECK(refused(load_text(TMP ".gltf", "[]"), "an object"));
     CHECK(refused(load(TMP "_missing.gltf", &plain), "cannot be opened"));
-    CHECK(refused(load("build/tmp", &plain), "not a scene"));
+    CHECK(refused(load("build/tmp", &plain), "is a folder, not a file"));
     CHECK(refused(load_text(TMP ".txt", "x"), "not a scene"));
     CHECK(refused(load(TMP ".gltf", &(scene_options){.width = 0, .height = 1}), "picture size"));
     mkdir("build/tmp/folder.gltf", 0777);

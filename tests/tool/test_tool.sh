@@ -394,7 +394,7 @@ bad 2 '--set' info "$cube" "$@"
 
 bad 1 missing.obj info "$tmp/missing.obj"
 bad 1 missing.gltf render "$tmp/missing.gltf" -o "$tmp/a.png"
-bad 1 'scene.xyz' info "$tmp/scene.xyz"
+bad 1 'scene.xyz: cannot be opened (no such file)' info "$tmp/scene.xyz"
 bad 1 "$tmp" info "$tmp"
 mkdir "$tmp/folder.obj" "$tmp/folder.glb" "$tmp/folder.gltf"
 for kind in obj glb gltf; do bad 1 "folder.$kind" info "$tmp/folder.$kind"; done
