@@ -886,6 +886,10 @@ grep -q "on average" "$tmp/out" && fail "one frame has later ones" || pass
 bad 1 "cannot be written\|No such file" render "$cube" --size 8x8 --frames 0-1 -o "$tmp/no/x.png"
 bad 2 "bad value" render "$cube" --frames 3-1 -o "$tmp/x.png"
 
+sed 's/"fps": *[0-9]*/"fps": 1000/' host/scenes/cube.gltf >"$tmp/long.gltf"
+good info "$tmp/long.gltf" --size 8x8 --set fit=compiled
+grep -q "note: fit=compiled looks at 256 of 4001 frames" "$tmp/out" && pass || fail "fits of a long animation: $(grep note: "$tmp/out")"
+
 # ---- Names of what is written ----------------------------------------------------------------------------------------------
 
 cp host/scenes/cube.gltf "$tmp/own.gltf"
