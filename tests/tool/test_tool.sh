@@ -550,6 +550,7 @@ done
 good info "$cube" --size 8x6 --set max_width=8 --set max_height=6 --set cascades=4 --set max_shadow_tiles=4 --set filter=3x3 --set shadows=3
 good info "$cube" --size 8x6 --set cascades=4 --set cascade_blend=hard --set many_cascades=1
 good info "$cube" --size 8x6 --set filter=7x7 --set cascades=4 --set max_shadow_tiles=1 --set shadows=0 # no filter, no tiles
+for command in info compare "render -o $tmp/a.png"; do bad 1 "'clipping': 0, and [0-9]* visible triangles are clipped" $command host/scenes/fence.gltf --size 16x12 --set clipping=0; done
 bad 1 'max_objects is 1' compare "$cube" --size 8x8 --set max_objects=1
 bad 1 'max_lights is 2' compare "$cube" --size 8x8 --set lights=spot,point,spot --set max_lights=2
 bad 1 'surface_lights is 1' compare "$cube" --size 8x8 --set lights=directional,directional --set surface_lights=1
