@@ -522,6 +522,8 @@ for engine in fixed reference; do # no shadows is what lights without a shadow d
 done
 bad 1 shadow render "$cube" -o "$tmp/a.png" --size 8x8 --view atlas --set shadows=0
 differ "$tmp/bright.obj" vertex_values=1 vertex_values=2
+good info "$tmp/bright.obj" --size 8x8
+grep -q '^  needs: .* vertex_values=2$' "$tmp/out" && pass || fail "info: $(grep needs: "$tmp/out")"
 good compare "$tmp/bright.obj" --size 64x48 --set vertex_values=1 --json
 case $(value within1) in 1 | 0.99*) pass ;; *) fail "vertex_values=1: within1 is $(value within1)" ;; esac
 for engine in fixed reference; do # smooth normals that are not built are face normals
@@ -839,7 +841,7 @@ while read -r name low high; do
         1) # a capacity that is too small for the scene, or a feature that it needs: said in one line
             if [ "$(wc -l <"$tmp/err")" = 1 ] && grep -q '^gnomon: ' "$tmp/err"; then pass
             else fail "$name=$value is refused without a clear line: $(head -n 1 "$tmp/err")"; fi
-            case $name in max_* | atlas_texels | shadows | biases | vertex_* | persp_step | tile_* | compact) ;;
+            case $name in max_* | atlas_texels | shadows | biases | vertex_* | clipping | persp_step | tile_* | compact) ;;
             *) fail "$name=$value, an end of its range, is refused: $(head -n 1 "$tmp/err")" ;; esac ;;
         *) fail "$name=$value exits with $status" ;;
         esac
