@@ -236,6 +236,8 @@ static const change gltf_notes[] = {
      "animation of node 0 ignored: the node has a matrix"},
     {"\"type\":\"perspective\",\"perspective\":{\"yfov\":1.5707963267948966,\"znear\":0.5",
      "\"type\":\"orthographic\",\"orthographic\":{\"ymag\":2,\"znear\":-1", "the camera is moved back by 1.002"},
+    {"\"type\":\"perspective\",\"perspective\":{\"yfov\":1.5707963267948966",
+     "\"type\":\"orthographic\",\"orthographic\":{\"ymag\":-2", "ymag -2 of the camera is negative: 2 is taken"},
     {"\"yfov\":1.5707963267948966", "\"yfov\":0.001",
      "the camera sees 0.0573 degrees from top to bottom: drawn are 0.448"},
     {"\"yfov\":1.5707963267948966", "\"yfov\":3.14", "the camera sees 180 degrees from top to bottom: drawn are 176"},
