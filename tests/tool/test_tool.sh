@@ -379,6 +379,11 @@ for light in -1 64 '' one 0.5 - 0x1; do bad 2 "^gnomon: --light: bad value '$lig
 bad 2 "^gnomon: --size: bad value 'abc', not WxH" info "$cube" --size abc
 bad 2 "bad value 'a?b'" info "$cube" --size "$(printf 'a\nb')" # still one line
 bad 2 "bad value ''" render "$cube" -o ''
+for flag in -Obanana -Os2 -O4 O2 ''; do bad 2 "--optimise: bad value '$flag'" info "$cube" --optimise "$flag"; done
+for flag in -O3:-O2 -Og:-O2 -Oz:-Os; do
+    good info "$cube" --size 8x8 --optimise "${flag%:*}"
+    grep -q " with ${flag#*:}:$" "$tmp/out" && pass || fail "--optimise $flag: $(grep ' compiled (' "$tmp/out")"
+done
 # what a command does not use
 for option in "--view colour" "--light 0" "--engine fixed"; do bad 2 "info does not use ${option% *}" info "$cube" $option; done
 bad 2 "compare does not use --engine" compare "$cube" --engine fixed

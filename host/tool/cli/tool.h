@@ -37,7 +37,7 @@ typedef struct {
                       */
     int first_frame; /* of them, while frame goes through them; else -1 */
     int margin;      /* compile: per cent */
-    const char *optimise; /* compile: -Os, -O2: how the library is built; NULL: as the board says */
+    const char *optimise; /* compile: -Os or -O2: how the library is built; NULL: as the board says */
     int simplify;         /* compile */
     const char *board;    /* compile, info: or NULL */
     const char *target;   /* sweep, advise: a board that instructions are counted on; or NULL */
