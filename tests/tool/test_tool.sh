@@ -371,6 +371,8 @@ said render "$cube" -o "$tmp/a.png" --size 8x8 --frame 3
 grep -q 'nothing moves in the file: frame 3 is as frame 0' "$tmp/err" && pass || fail "a frame of a still scene: $(cat "$tmp/err")"
 said compare host/scenes/desk.gltf --size 8x8 --frame 900
 grep -q 'the animation ends with frame 48, which is drawn for frame 900' "$tmp/err" && pass || fail "a frame beyond the end: $(cat "$tmp/err")"
+said render host/scenes/desk.gltf -o "$tmp/a.png" --size 8x8 --frames 47-50
+grep -q 'the animation ends with frame 48, which is drawn for frame 50' "$tmp/err" && pass || fail "frames beyond the end: $(cat "$tmp/err")"
 for size in 0x0 99999x1 1x99999 -1x5 5x-1 1e3x4 '' x 10 10x 10x10x10 10X10 10.5x10 2049x1 1x2049 99999999999999999999x1 ' 5x5' '5x 5' +5x5; do
     bad 2 '--size' info "$cube" --size "$size"
 done
