@@ -560,6 +560,7 @@ good info "$cube" --size 8x6 --set max_width=8 --set max_height=6 --set cascades
 good info "$cube" --size 8x6 --set cascades=4 --set cascade_blend=hard --set many_cascades=1
 good info "$cube" --size 8x6 --set filter=7x7 --set cascades=4 --set max_shadow_tiles=1 --set shadows=0 # no filter, no tiles
 for command in info compare "render -o $tmp/a.png"; do bad 1 "'clipping': 0, and [0-9]* visible triangles are clipped" $command host/scenes/fence.gltf --size 16x12 --set clipping=0; done
+bad 1 "'clipping': 1, and casters lie up to [0-9]* texels from a shadow tile's corner, of 8192" render docs/scenes/near.gltf -o "$tmp/a.png" --size 64x64 --set max_distance=1.75 --set cascades=1 --set atlas_size=1024 --set clipping=1
 bad 1 'max_objects is 1' compare "$cube" --size 8x8 --set max_objects=1
 bad 1 'max_lights is 2' compare "$cube" --size 8x8 --set lights=spot,point,spot --set max_lights=2
 bad 1 'surface_lights is 1' compare "$cube" --size 8x8 --set lights=directional,directional --set surface_lights=1

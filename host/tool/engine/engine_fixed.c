@@ -7,6 +7,7 @@
 #include "engine.h"
 #include "../fixed/output.h"
 #include "../fixed/quantise.h"
+#include "../library/casters.h"
 #include "../library/library.h"
 
 typedef struct {
@@ -220,12 +221,12 @@ static int allocate(engine_picture *out, const scene *s, int width, int height)
 /* What was drawn must be what firmware with these settings draws. */
 static int check_demand(const job *j, engine_picture *out)
 {
+    casters c = {.clipped = out->stats.n_clipped};
+    const bool looks = !j->set->build.compact && j->set->feature.clipping < 2;
     j->lib->get_demand(j->renderer, &out->demand);
-    if (j->set->build.compact || j->set->feature.clipping || !out->stats.n_clipped)
-        return settings_suffice(j->set, &out->demand, j->error, j->error_bytes);
-    snprintf(j->error, j->error_bytes, "setting 'clipping': 0, and %u visible triangles are clipped",
-             (unsigned)out->stats.n_clipped);
-    return -1;
+    if (looks) casters_add(&c, j->renderer);
+    if (looks && casters_check(&c, j->set, j->error, j->error_bytes)) return -1;
+    return settings_suffice(j->set, &out->demand, j->error, j->error_bytes);
 }
 
 int engine_fixed(engine_picture *out, const scene *s, const settings *set, int width, int height, int what, char *error,
