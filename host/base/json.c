@@ -141,21 +141,21 @@ static bool parse_hex4(parser *p, uint32_t *code)
     return true;
 }
 
-/* Behind \u: one code unit, or the two of a surrogate pair. */
+/* Behind \u: one code unit, or the two of a surrogate pair. U+FFFD for zero and for half of a pair. */
 static bool parse_unicode(parser *p, char *out, size_t *n_out)
 {
-    size_t start = p->at;
-    uint32_t code, low;
+    uint32_t code, low = 0;
     if (!parse_hex4(p, &code)) return false;
-    if (code == 0) return fail_at(p, start, "\\u0000 is not supported");
-    if (code >= 0xDC00 && code < 0xE000) return fail_at(p, start, "lone low surrogate");
-    if (code >= 0xD800 && code < 0xDC00) {
-        if (p->n_bytes - p->at < 2 || memcmp(p->text + p->at, "\\u", 2) != 0)
-            return fail_at(p, start, "lone high surrogate");
+    const size_t behind = p->at;
+    if (code >= 0xD800 && code < 0xDC00 && p->n_bytes - behind >= 2 && memcmp(p->text + behind, "\\u", 2) == 0) {
         p->at += 2;
         if (!parse_hex4(p, &low)) return false;
-        if (low < 0xDC00 || low >= 0xE000) return fail_at(p, start, "lone high surrogate");
-        code = 0x10000 + ((code - 0xD800) << 10) + (low - 0xDC00);
+        if (low >= 0xDC00 && low < 0xE000) code = 0x10000 + ((code - 0xD800) << 10) + (low - 0xDC00);
+        else p->at = behind;
+    }
+    if (code == 0 || (code >= 0xD800 && code < 0xE000)) {
+        code = 0xFFFD;
+        p->doc->n_replaced++;
     }
     *n_out += utf8_encode(out + *n_out, code);
     return true;

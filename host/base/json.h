@@ -1,7 +1,7 @@
-/* A small strict JSON parser (RFC 8259). Stricter than the grammar: no byte order mark, well-formed UTF-8 only, no
- * \u0000 (strings are C strings), numbers must fit a double, nesting is at most JSON_MAX_DEPTH deep, and there are at
- * most JSON_MAX_VALUES values: two bytes of text make a value of a hundred. Looser: strings may hold raw tabs and line
- * breaks, and of members with one key the last counts. */
+/* A small strict JSON parser (RFC 8259). Stricter than the grammar: no byte order mark, well-formed UTF-8 only, numbers
+ * must fit a double, nesting is at most JSON_MAX_DEPTH deep, and there are at most JSON_MAX_VALUES values: two bytes of
+ * text make a value of a hundred. Looser: strings may hold raw tabs and line breaks, and of members with one key the
+ * last counts. \u0000 and half a surrogate pair become U+FFFD. */
 #ifndef GNOMON_HOST_JSON_H
 #define GNOMON_HOST_JSON_H
 
@@ -29,6 +29,7 @@ struct json_value {
 typedef struct {
     json_value *root;
     size_t n_duplicates;         /* members that a later one of the same key replaced */
+    size_t n_replaced;           /* characters that became U+FFFD */
     const json_value *duplicate; /* a member that replaced one; NULL: there is none */
     arena memory;
 } json_doc;

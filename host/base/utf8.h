@@ -24,9 +24,10 @@ static inline size_t utf8_length(const unsigned char *s, size_t n)
 static inline void utf8_clean(char *text)
 {
     while (*text) {
-        size_t length = utf8_length((const unsigned char *)text, 4); /* the terminating zero continues no sequence */
-        if (length == 0 || (unsigned char)*text < 0x20 || *text == 0x7F) *text = '?';
-        text += length ? length : 1;
+        const unsigned char *s = (const unsigned char *)text;
+        const size_t length = utf8_length(s, 4); /* the terminating zero continues no sequence */
+        if (length == 0 || s[0] < 0x20 || s[0] == 0x7F || (s[0] == 0xC2 && s[1] < 0xA0)) *text++ = '?';
+        else text += length;
     }
 }
 

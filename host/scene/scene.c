@@ -49,7 +49,6 @@ static format format_of_bytes(const uint8_t *bytes, size_t n, format named)
 {
     const char *text = (const char *)bytes;
     if (n >= 4 && memcmp(bytes, "glTF", 4) == 0) return FORMAT_GLB;
-    if (named == FORMAT_UNKNOWN) return named;
     if (n >= 3 && memcmp(bytes, "\xEF\xBB\xBF", 3) == 0) text += 3; /* of UTF-8 */
     if (text[strspn(text, " \t\r\n")] == '{') return FORMAT_GLTF;
     return named != FORMAT_OBJ && begins_as_obj(text, (const char *)bytes + n) ? FORMAT_OBJ : named;
@@ -67,8 +66,8 @@ static bool load_any(loader *l)
                            l->options->height);
     }
     if (!loader_try_file(l, l->path, &bytes, &n_bytes, &problem)) return false;
-    if (problem && named != FORMAT_UNKNOWN) return loader_fail(l, "%s: %s", l->path, problem);
-    const format found = problem ? named : format_of_bytes(bytes, n_bytes, named);
+    if (problem) return loader_fail(l, "%s: %s", l->path, problem);
+    const format found = format_of_bytes(bytes, n_bytes, named);
     if (found == FORMAT_UNKNOWN)
         return loader_fail(l, "%s: not a scene: .gltf, .glb and .obj are read; export others as glTF", l->path);
     if (found != named && !loader_note(l, "the file is %s, whatever its name ends in", names[found])) return false;

@@ -63,8 +63,8 @@ const option options[] = {
     {"--ram", BY_ADVISE | BY_COMPILE | BY_INFO, "BYTES", "a number of bytes from 1 to 1000000000",
      "the most RAM: of the renderer (advise), of everything (compile, info)"},
     {"--flash", BY_COMPILE | BY_INFO, "BYTES", "a number of bytes from 1 to 1000000000", "the most flash"},
-    {"--optimise", BY_COMPILE | BY_INFO, "-Os|-O2", "-Os, -O2, ...",
-     "how the library is built, for the estimate of flash (as board.mk says; else -O2)"},
+    {"--optimise", BY_COMPILE | BY_INFO, "-Os|-O2", "an -O of GCC or Clang",
+     "how the library is built, for the estimate of flash: -Oz as -Os, others as -O2 (as board.mk says; else -O2)"},
     {"--margin", BY_COMPILE | BY_INFO | BY_CONFIG, "PERCENT", "per cent from 0 to 1000",
      "capacity for more triangles and tile references than the frames took (10)"},
     {"--simplify", BY_COMPILE, "HOW", "none, safe or path",
@@ -187,6 +187,15 @@ static int simplify_from_name(const char *name)
     return -1;
 }
 
+/* That of which there are figures, -Os or -O2; NULL: no compiler knows the flag. */
+static const char *known_optimisation(const char *flag)
+{
+    static const char *const known[] = {"-Os", "-Oz", "-O2", "-O3", "-O1", "-O", "-Og", "-Ofast", "-O0"};
+    for (size_t i = 0; i < sizeof known / sizeof *known; i++)
+        if (strcmp(flag, known[i]) == 0) return i < 2 ? "-Os" : "-O2";
+    return NULL;
+}
+
 static int is_no_double_engine(const char *name)
 {
     return strcmp(name, "reference") != 0 && strcmp(name, "truth") != 0;
@@ -215,7 +224,7 @@ static int take_value(tool_options *o, const char *name, char *value)
     else if (strcmp(name, "--budget") == 0) failed = parse_int(value, 1, 64, &o->budget);
     else if (strcmp(name, "--triangles") == 0) failed = parse_int(value, 1, 100000000, &o->triangles);
     else if (strcmp(name, "--flash") == 0) failed = parse_int(value, 1, BUDGET_MAX, &o->flash);
-    else if (strcmp(name, "--optimise") == 0) failed = strncmp(o->optimise = value, "-O", 2) != 0;
+    else if (strcmp(name, "--optimise") == 0) failed = !(o->optimise = known_optimisation(value));
     else if (strcmp(name, "--margin") == 0) failed = parse_int(value, 0, 1000, &o->margin);
     else if (strcmp(name, "--simplify") == 0) failed = (o->simplify = simplify_from_name(value)) < 0;
     else if (strcmp(name, "--light") == 0) {

@@ -80,6 +80,9 @@ grep -q '"moving": 4, "casters_kept": true' "$tmp/out" && pass || fail "the desk
 holds "desk with moving objects" "$(field masks shadow_texels) > 0"
 good bake host/scenes/room.gltf -o "$tmp/vertices.glb" --texels 0 --size 80x60 --json
 [ "$(field masks shadow_texels)" = 0 ] && grep -q '"charts": 0' "$tmp/out" && grep -q -a '_GNOMON_MASK' "$tmp/vertices.glb" && pass || fail "no masks per vertex"
+sed 's/"lamp"/"\\u001b[31m"/' host/scenes/room.gltf >"$tmp/control.gltf"
+run bake "$tmp/control.gltf" -o "$tmp/vertices.glb" --texels 0 --size 16x12
+grep -q "^  light 0 '?\[31m': channel 0$" "$tmp/out" && pass || fail "a light's name: $(grep ' light 0' "$tmp/out" | cat -v)"
 good bake host/scenes/room.gltf -o "$tmp/set.gltf" --size 80x60 --set preset=tiny --set persp_step=4 --set strength=0.5
 grep -q '"preset": "tiny", "persp_step": "4"' "$tmp/set.gltf" && grep -q '"strength": 0.5' "$tmp/set.gltf" && pass || fail "settings are not in the file"
 printf 'v -1 0 -1\nv 1 0 -1\nv 1 0 1\nv -1 0 1\nv 0 1 0\nf 4 3 5\nf 3 2 5\nf 2 1 5\nf 1 4 5\n' >"$tmp/pyramid.obj"

@@ -265,14 +265,17 @@ png 4 4 >"$tmp/in/in.png"
 head -c 36 /dev/zero >"$tmp/out.bin"
 cp "$tmp/out.bin" "$tmp/in/in.bin"
 here=$(pwd)/$tmp
-for uri in ../out.bin "$here/out.bin" deeper/../../out.bin %2e%2e/out.bin ./../in/in.bin /dev/zero; do
+ln -s ../out.bin "$tmp/in/link.bin"
+ln -s .. "$tmp/in/up"
+ln -s ../in/in.bin "$tmp/in/within.bin"
+for uri in link.bin up/out.bin ../out.bin "$here/out.bin" deeper/../../out.bin %2e%2e/out.bin ./../in/in.bin /dev/zero; do
     buffer "$uri"
     mv "$tmp/buffer.gltf" "$tmp/in"
     refused "/buffers/0/uri: .*outside the folder of the scene, which only --outside allows" "$tmp/in/buffer.gltf"
     [ "$uri" = /dev/zero ] || drawn '' "$tmp/in/buffer.gltf" --outside
 done
 refused '/buffers/0/uri: /dev/zero is a device' "$tmp/in/buffer.gltf" --outside
-for uri in in.bin ./in.bin deeper/../in.bin; do
+for uri in in.bin within.bin up/in/in.bin ./in.bin deeper/../in.bin; do
     buffer "$uri"
     mv "$tmp/buffer.gltf" "$tmp/in"
     drawn '' "$tmp/in/buffer.gltf"

@@ -423,6 +423,24 @@ static void test_arrays(void)
     quantise_free(&fixed);
 }
 
+/* However large the scene: a corner is where it was, to 2^-21 of its distance. */
+static void test_large(void)
+{
+    for (int k = 0; k < 60; k++) {
+        begin();
+        s.n_lights = 0;
+        object.to_world.m[0][0] = 1.0 / 3;
+        pos[3] = pos[7] = ldexp(100, k);
+        s.shadow.max_distance = ldexp(100, k);
+        if (!quantise()) continue;
+        const gn_affine *m = &fixed.objects[0].to_world;
+        const double x = ldexp((double)fixed.meshes[0].pos[3] * m->m_q30[0][0],
+                               m->exp - 30 - fixed.meshes[0].pos_frac_bits - fixed.world_exp);
+        CHECK_NEAR(ldexp(x, -k), 100.0 / 3, 100.0 / 3 * ldexp(1, -21));
+        quantise_free(&fixed);
+    }
+}
+
 static void test_material(void)
 {
     static const struct {
@@ -523,6 +541,7 @@ int main(void)
     test_levels();
     test_shrink();
     test_arrays();
+    test_large();
     test_material();
     test_shadow_settings();
     test_flat();

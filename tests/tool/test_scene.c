@@ -64,6 +64,20 @@ static void test_json_values(void)
     json_free(&doc);
 }
 
+/* What is no character becomes U+FFFD. */
+static void test_json_replaced(void)
+{
+    static const char text[] = "\"\\u0000a\\ud800b\\ud800\\u0041\\udc00\\ud800\\ud83d\\ude00\"";
+    json_doc doc;
+    if (!CHECK_EQ_INT(json_parse(&doc, text, sizeof text - 1, error, sizeof error), 0)) return;
+    CHECK_EQ_INT(doc.n_replaced, 5);
+    CHECK(strcmp(doc.root->string, "\xEF\xBF\xBD"
+                                   "a\xEF\xBF\xBD"
+                                   "b\xEF\xBF\xBD"
+                                   "A\xEF\xBF\xBD\xEF\xBF\xBD\xF0\x9F\x98\x80") == 0);
+    json_free(&doc);
+}
+
 /* Of members with one key the last counts. Strings may hold raw tabs and line breaks. */
 static void test_json_loose(void)
 {
@@ -168,7 +182,7 @@ static void test_gltf_errors(void)
     }
     CHECK(refused(load_text(TMP ".gltf", "[]"), "an object"));
     CHECK(refused(load(TMP "_missing.gltf", &plain), "cannot be opened"));
-    CHECK(refused(load("build/tmp", &plain), "not a scene"));
+    CHECK(refused(load("build/tmp", &plain), "is a folder, not a file"));
     CHECK(refused(load_text(TMP ".txt", "x"), "not a scene"));
     CHECK(refused(load(TMP ".gltf", &(scene_options){.width = 0, .height = 1}), "picture size"));
     mkdir("build/tmp/folder.gltf", 0777);
@@ -980,6 +994,7 @@ int main(void)
     make_base_bin();
     write_file("build/tmp/test_scene.bin", base_bin, sizeof base_bin);
     test_json_errors();
+    test_json_replaced();
     test_json_depth();
     test_json_values();
     test_json_loose();

@@ -637,6 +637,11 @@ static void test_casting(void)
     CHECK_NEAR(s.objects[1].alpha_cutoff, 0.125, 0);
     CHECK_NEAR(s.objects[0].alpha_cutoff, 0.5, 0);
     scene_free(&s);
+    if (!CHECK_EQ_INT(load_textured("\"alphaMode\":\"BLEND\"", "\"alphaMode\":\"MASK\",\"alphaCutoff\":1.5"), 0))
+        return;
+    CHECK(s.objects[1].alpha <= 0 && s.objects[1].caster == SCENE_CASTER_CLIP &&
+          has_remark("is above 1: it is invisible"));
+    scene_free(&s);
 }
 
 static int moves(const char *text)

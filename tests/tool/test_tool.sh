@@ -371,6 +371,8 @@ said render "$cube" -o "$tmp/a.png" --size 8x8 --frame 3
 grep -q 'nothing moves in the file: frame 3 is as frame 0' "$tmp/err" && pass || fail "a frame of a still scene: $(cat "$tmp/err")"
 said compare host/scenes/desk.gltf --size 8x8 --frame 900
 grep -q 'the animation ends with frame 48, which is drawn for frame 900' "$tmp/err" && pass || fail "a frame beyond the end: $(cat "$tmp/err")"
+said render host/scenes/desk.gltf -o "$tmp/a.png" --size 8x8 --frames 47-50
+grep -q 'the animation ends with frame 48, which is drawn for frame 50' "$tmp/err" && pass || fail "frames beyond the end: $(cat "$tmp/err")"
 for size in 0x0 99999x1 1x99999 -1x5 5x-1 1e3x4 '' x 10 10x 10x10x10 10X10 10.5x10 2049x1 1x2049 99999999999999999999x1 ' 5x5' '5x 5' +5x5; do
     bad 2 '--size' info "$cube" --size "$size"
 done
@@ -379,6 +381,11 @@ for light in -1 64 '' one 0.5 - 0x1; do bad 2 "^gnomon: --light: bad value '$lig
 bad 2 "^gnomon: --size: bad value 'abc', not WxH" info "$cube" --size abc
 bad 2 "bad value 'a?b'" info "$cube" --size "$(printf 'a\nb')" # still one line
 bad 2 "bad value ''" render "$cube" -o ''
+for flag in -Obanana -Os2 -O4 O2 ''; do bad 2 "--optimise: bad value '$flag'" info "$cube" --optimise "$flag"; done
+for flag in -O3:-O2 -Og:-O2 -Oz:-Os; do
+    good info "$cube" --size 8x8 --optimise "${flag%:*}"
+    grep -q " with ${flag#*:}:$" "$tmp/out" && pass || fail "--optimise $flag: $(grep ' compiled (' "$tmp/out")"
+done
 # what a command does not use
 for option in "--view colour" "--light 0" "--engine fixed"; do bad 2 "info does not use ${option% *}" info "$cube" $option; done
 bad 2 "compare does not use --engine" compare "$cube" --engine fixed
@@ -394,7 +401,7 @@ bad 2 '--set' info "$cube" "$@"
 
 bad 1 missing.obj info "$tmp/missing.obj"
 bad 1 missing.gltf render "$tmp/missing.gltf" -o "$tmp/a.png"
-bad 1 'scene.xyz' info "$tmp/scene.xyz"
+bad 1 'scene.xyz: cannot be opened (no such file)' info "$tmp/scene.xyz"
 bad 1 "$tmp" info "$tmp"
 mkdir "$tmp/folder.obj" "$tmp/folder.glb" "$tmp/folder.gltf"
 for kind in obj glb gltf; do bad 1 "folder.$kind" info "$tmp/folder.$kind"; done
@@ -483,6 +490,9 @@ fi
 bad 1 '/a??(???b-é\.obj: cannot be opened (no such file)$' info "$tmp/$wrong-é.obj"
 [ "$(grep -c "$tmp.*$tmp" "$tmp/err")" = 0 ] && pass || fail "the path stands twice: $(head -n 1 "$tmp/err")"
 bad 1 'a??(???b' render "$cube" -o "$tmp/no/$wrong.png" --size 8x8
+sed 's/"Wave!"/"a\\u001b[31m\\u009b"/; s/"torch"/"b\\u0007"/' tests/data/robot.gltf >"$tmp/control.gltf" # nor control characters of a file
+good info "$tmp/control.gltf" --size 8x8
+grep -q "0 'a?\[31m??', 3 s" "$tmp/out" && grep -q "'b?': " "$tmp/out" && pass || fail "control characters: $(grep "'" "$tmp/out" | cat -v)"
 bad 1 "unknown setting 'a?" info "$cube" --set "$(printf 'a\377')=1"
 
 # ---- What the configuration lacks, both engines lack ---------------------------------------------------------------------------
@@ -519,6 +529,8 @@ for engine in fixed reference; do # no shadows is what lights without a shadow d
 done
 bad 1 shadow render "$cube" -o "$tmp/a.png" --size 8x8 --view atlas --set shadows=0
 differ "$tmp/bright.obj" vertex_values=1 vertex_values=2
+good info "$tmp/bright.obj" --size 8x8
+grep -q '^  needs: .* vertex_values=2$' "$tmp/out" && pass || fail "info: $(grep needs: "$tmp/out")"
 good compare "$tmp/bright.obj" --size 64x48 --set vertex_values=1 --json
 case $(value within1) in 1 | 0.99*) pass ;; *) fail "vertex_values=1: within1 is $(value within1)" ;; esac
 for engine in fixed reference; do # smooth normals that are not built are face normals
@@ -547,6 +559,8 @@ done
 good info "$cube" --size 8x6 --set max_width=8 --set max_height=6 --set cascades=4 --set max_shadow_tiles=4 --set filter=3x3 --set shadows=3
 good info "$cube" --size 8x6 --set cascades=4 --set cascade_blend=hard --set many_cascades=1
 good info "$cube" --size 8x6 --set filter=7x7 --set cascades=4 --set max_shadow_tiles=1 --set shadows=0 # no filter, no tiles
+for command in info compare "render -o $tmp/a.png"; do bad 1 "'clipping': 0, and [0-9]* visible triangles are clipped" $command host/scenes/fence.gltf --size 16x12 --set clipping=0; done
+bad 1 "'clipping': 1, and casters lie up to [0-9]* texels from a shadow tile's corner, of 8192" render docs/scenes/near.gltf -o "$tmp/a.png" --size 64x64 --set max_distance=1.75 --set cascades=1 --set atlas_size=1024 --set clipping=1
 bad 1 'max_objects is 1' compare "$cube" --size 8x8 --set max_objects=1
 bad 1 'max_lights is 2' compare "$cube" --size 8x8 --set lights=spot,point,spot --set max_lights=2
 bad 1 'surface_lights is 1' compare "$cube" --size 8x8 --set lights=directional,directional --set surface_lights=1
@@ -835,7 +849,7 @@ while read -r name low high; do
         1) # a capacity that is too small for the scene, or a feature that it needs: said in one line
             if [ "$(wc -l <"$tmp/err")" = 1 ] && grep -q '^gnomon: ' "$tmp/err"; then pass
             else fail "$name=$value is refused without a clear line: $(head -n 1 "$tmp/err")"; fi
-            case $name in max_* | atlas_texels | shadows | biases | vertex_* | persp_step | tile_* | compact) ;;
+            case $name in max_* | atlas_texels | shadows | biases | vertex_* | clipping | persp_step | tile_* | compact) ;;
             *) fail "$name=$value, an end of its range, is refused: $(head -n 1 "$tmp/err")" ;; esac ;;
         *) fail "$name=$value exits with $status" ;;
         esac
@@ -882,6 +896,10 @@ grep -q "on average" "$tmp/out" && fail "one frame has later ones" || pass
 "$tool" render "$cube" --size 40x30 --frames 0-1 -o /dev/stdout >"$tmp/out" && tail -c 12 "$tmp/out" | grep -q -a IEND && pass || fail "more than the picture in it"
 bad 1 "cannot be written\|No such file" render "$cube" --size 8x8 --frames 0-1 -o "$tmp/no/x.png"
 bad 2 "bad value" render "$cube" --frames 3-1 -o "$tmp/x.png"
+
+sed 's/"fps": *[0-9]*/"fps": 1000/' host/scenes/cube.gltf >"$tmp/long.gltf"
+good info "$tmp/long.gltf" --size 8x8 --set fit=compiled
+grep -q "note: fit=compiled looks at 256 of 4001 frames" "$tmp/out" && pass || fail "fits of a long animation: $(grep note: "$tmp/out")"
 
 # ---- Names of what is written ----------------------------------------------------------------------------------------------
 

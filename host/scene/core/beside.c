@@ -1,8 +1,9 @@
 /* Files that a scene names: they lie in its folder. Their names may come from a machine that does not tell upper from
  * lower case. */
-#define _POSIX_C_SOURCE 200809L
+#define _XOPEN_SOURCE 700
 #include "loader.h"
 
+#include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
 
@@ -44,7 +45,27 @@ static bool respell_path(loader *l, char *path, size_t n_folder)
     }
     return true;
 }
+
+/* Whether a link on the way to the path leads out of the scene's folder. */
+static bool leads_out(const loader *l, const char *path)
+{
+    const char *slash = strrchr(l->path, '/');
+    char *name = strndup(l->path, slash ? (size_t)(slash - l->path) + 1 : 0);
+    char *folder = name ? realpath(*name ? name : ".", NULL) : NULL, *to = realpath(path, NULL);
+    const size_t n = folder && folder[1] ? strlen(folder) : 0; /* all is in "/" */
+    const bool out = to && (!folder || strncmp(to, folder, n) != 0 || to[n] != '/');
+    free(name);
+    free(folder);
+    free(to);
+    return out;
+}
 #else
+static bool leads_out(const loader *l, const char *path)
+{
+    (void)l, (void)path;
+    return false;
+}
+
 static bool respell_path(loader *l, char *path, size_t n_folder)
 {
     (void)l, (void)path, (void)n_folder;
@@ -54,14 +75,15 @@ static bool respell_path(loader *l, char *path, size_t n_folder)
 
 bool loader_find_beside(loader *l, const char *name, const char **path, const char **problem)
 {
+    static const char *const outside = "is outside the folder of the scene, which only --outside allows";
     struct stat about;
     *path = name;
-    *problem = loader_may_read(l, name) ? NULL : "is outside the folder of the scene, which only --outside allows";
+    *problem = loader_may_read(l, name) ? NULL : outside;
     if (*problem) return true;
     char *joined = loader_relative_path(l, name), *spelled = joined ? loader_format(l, "%s", joined) : NULL;
     if (!spelled) return false;
-    *path = joined;
-    if (stat(joined, &about) == 0 || !respell_path(l, spelled, strlen(joined) - strlen(name))) return true;
-    *path = spelled;
-    return loader_note(l, "'%.200s' is read from '%.200s': upper and lower case differ", name, spelled);
+    const bool other = stat(joined, &about) != 0 && respell_path(l, spelled, strlen(joined) - strlen(name));
+    *path = other ? spelled : joined;
+    if (!l->options->outside && leads_out(l, *path)) *problem = outside;
+    return !other || loader_note(l, "'%.200s' is read from '%.200s': upper and lower case differ", name, spelled);
 }

@@ -89,7 +89,7 @@ bool loader_read_file(loader *l, const char *path, uint8_t **bytes, size_t *n_by
 bool loader_try_file(loader *l, const char *path, uint8_t **bytes, size_t *n_bytes, const char **problem);
 
 /* Whether the name, as seen from the folder of the scene file, may be read: with scene_options.outside any; else none
- * that is absolute or steps out of the folder by "..". Links are followed: no file makes one. */
+ * that is absolute or steps out of the folder by "..". Of links: loader_find_beside. */
 bool loader_may_read(const loader *l, const char *name);
 /* name, as seen from the folder of the scene file. */
 char *loader_relative_path(loader *l, const char *name);

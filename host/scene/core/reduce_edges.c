@@ -7,6 +7,8 @@
 
 /* Of borders and seams against faces: they are lines that the eye follows. */
 #define BORDER_WEIGHT 10.0
+/* Of the turn, 45 degrees, that makes a corner of a border. */
+#define COS_BORDER 0.7
 
 size_t reduce_corners(const reduce_mesh *m, uint32_t point, uint32_t *out)
 {
@@ -155,6 +157,20 @@ static bool is_border(const ring *r)
     return false;
 }
 
+/* Whether a border goes through the point nearly straight: it has no corner there. */
+static bool is_straight(const reduce_mesh *m, const ring *r, uint32_t point)
+{
+    double edge[2][3];
+    size_t n = 0;
+    for (size_t i = 0; i < r->n; i++) {
+        if (r->n_triangles[i] != 1) continue;
+        if (n == 2) return false;
+        vec_sub(edge[n], m->world + 3 * (size_t)r->point[i], m->world + 3 * (size_t)point);
+        if (!vec_normalise(edge[n++])) return true;
+    }
+    return n < 2 || vec_dot(edge[0], edge[1]) < -COS_BORDER;
+}
+
 /* Something is left: a mesh does not vanish. */
 static bool keeps_piece(const reduce_mesh *m, const uint32_t *corner, size_t n, uint32_t other)
 {
@@ -254,5 +270,6 @@ bool reduce_allowed(const reduce_mesh *m, uint32_t from, uint32_t to, reduce_ste
     ring_of(&a, m, step->corner, step->n);
     ring_of(&b, m, corner_b, n_b);
     if (!keeps_piece(m, step->corner, step->n, to) && !keeps_piece(m, corner_b, n_b, from)) return false;
-    return keeps_shape(&a, &b, from, to) && find_vertices(m, step, to) && keeps_faces(m, step, to, corner_b, n_b);
+    return keeps_shape(&a, &b, from, to) && is_straight(m, &a, from) && find_vertices(m, step, to) &&
+           keeps_faces(m, step, to, corner_b, n_b);
 }

@@ -57,6 +57,9 @@ bool gltf_clean(loader *l, json_doc *doc)
     if (n > 0 &&
         !loader_remark(l, "null or a reference below 0 counts as not there: %zu of them, the first is %s", n, first))
         return false;
+    if (doc->n_replaced > 0 &&
+        !loader_remark(l, "\\u0000 and half a surrogate pair are read as U+FFFD: %zu of them", doc->n_replaced))
+        return false;
     if (doc->n_duplicates == 0) return true;
     json_path(doc->duplicate, twice, sizeof twice);
     return loader_remark(l, "members come twice, and the last counts: %zu of them, the first is %s", doc->n_duplicates,

@@ -90,7 +90,11 @@ static bool read_alpha(gltf *g, const json_value *json, const char *name, gltf_m
     const char *mode = "OPAQUE";
     double *cutoff = &out->surface.alpha_cutoff;
     if (!gltf_get_string(g, json, "alphaMode", &mode) || !gltf_get_number(g, json, "alphaCutoff", cutoff)) return false;
-    if (!loader_clamp_colour(cutoff, 1) &&
+    const bool invisible = strcmp(mode, "MASK") == 0 && *cutoff > 1;
+    if (invisible) out->surface.alpha = 0;
+    if (invisible && !loader_remark(g->l, "alpha cutoff of material '%s' is above 1: it is invisible", name))
+        return false;
+    if (!loader_clamp_colour(cutoff, 1) && !invisible &&
         !loader_note(g->l, "alpha cutoff of material '%s' outside 0..1 is clamped", name))
         return false;
     for (size_t i = 0; i < sizeof modes / sizeof *modes; i++) {

@@ -222,8 +222,11 @@ static bool read_orthographic(gltf *g, const json_value *orthographic, scene_cam
         !gltf_get_number(g, orthographic, "znear", &near_distance) ||
         !gltf_get_number(g, orthographic, "zfar", &far_distance))
         return false;
+    if (height < 0 && !loader_remark(g->l, "ymag %g of the camera is negative: %g is taken", height, -height))
+        return false;
+    height = fabs(height);
     if (!(height > 0 && height <= LOADER_MAX_COORDINATE))
-        return gltf_fail(g, orthographic, "ymag %g is not positive, or too large", height);
+        return gltf_fail(g, orthographic, "ymag %g is 0, or too large", height);
     if (!(far_distance > near_distance))
         return gltf_fail(g, orthographic, "zfar %g is not beyond znear %g", far_distance, near_distance);
     out->focal = 1;

@@ -23,6 +23,14 @@ void tool_error(const char *format, ...)
     fprintf(stderr, "gnomon: %s\n", line);
 }
 
+void tool_print_name(const char *name)
+{
+    char clean[LINE_BYTES];
+    snprintf(clean, sizeof clean, "%s", name);
+    utf8_clean(clean);
+    printf("'%s'", clean);
+}
+
 int tool_fail(const char *path, const char *message)
 {
     /* loaders begin their messages with the path, cleaned, and the line or place in it */

@@ -37,7 +37,7 @@ typedef struct {
                       */
     int first_frame; /* of them, while frame goes through them; else -1 */
     int margin;      /* compile: per cent */
-    const char *optimise; /* compile: -Os, -O2: how the library is built; NULL: as the board says */
+    const char *optimise; /* compile: -Os or -O2: how the library is built; NULL: as the board says */
     int simplify;         /* compile */
     const char *board;    /* compile, info: or NULL */
     const char *target;   /* sweep, advise: a board that instructions are counted on; or NULL */
@@ -86,6 +86,9 @@ int tool_load_with(const tool_options *o, const char *const *sets, int n_sets, s
 __attribute__((format(printf, 1, 2)))
 #endif
 void tool_error(const char *format, ...);
+
+/* Prints a name of the scene's in quotes, as a terminal may have it. */
+void tool_print_name(const char *name);
 
 /* Prints "gnomon: path: message" to stderr; returns TOOL_FAILED. */
 int tool_fail(const char *path, const char *message);

@@ -253,12 +253,14 @@ static void name_lights(const job *j)
 {
     for (size_t l = 0; l < j->baked.n_lights; l++) {
         const scene_light *light = &j->baked.lights[l];
-        if (j->result.fate[l] == BAKE_MASKED)
-            printf("  light %zu '%s': channel %d\n", l, light->name, light->mask_channel);
-        if (j->result.fate[l] == BAKE_WHOLE)
-            printf("  light %zu '%s': baked whole, into the vertices: its range meets those of lights in all %d "
-                   "channels\n",
-                   l, light->name, (int)BAKE_CHANNELS);
+        const bake_fate fate = j->result.fate[l];
+        if (fate != BAKE_MASKED && fate != BAKE_WHOLE) continue;
+        printf("  light %zu ", l);
+        tool_print_name(light->name);
+        if (fate == BAKE_MASKED) printf(": channel %d\n", light->mask_channel);
+        else
+            printf(": baked whole, into the vertices: its range meets those of lights in all %d channels\n",
+                   (int)BAKE_CHANNELS);
     }
 }
 

@@ -16,7 +16,7 @@ typedef struct {
     size_t visible[4];                                                /* objects by scene_alpha */
     size_t casters[4];                                                /* objects by scene_caster */
     int smooth, coloured;
-    settings_need needs[SETTINGS_NEEDS_MAX];
+    settings_need needs[SETTINGS_NEEDS_MAX + 1]; /* and vertex_values, without which it is drawn, too */
     int n_needs;
 } counts;
 
@@ -56,6 +56,9 @@ static void count(const scene *s, counts *c)
     for (size_t i = 0; i < s->n_meshes; i++) c->vertices += s->meshes[i].n_vertices;
     c->shadow_lights = settings_shadow_lights(s);
     c->n_needs = settings_needs(s, c->shadow_lights > 0, c->needs);
+    c->needs[c->n_needs].knob = "vertex_values";
+    c->needs[c->n_needs].value = c->smooth + 2 * c->coloured;
+    c->n_needs += c->smooth || c->coloured;
 }
 
 /* Tiles of an atlas of another size. */
@@ -172,11 +175,11 @@ static void json_clips(const scene *s)
 
 static void json_needs(const counts *c)
 {
-    printf(", \"features\": {\"vertex_normals\": %d, \"vertex_colours\": %d, \"two_sided\": %d, \"unlit\": %d}",
-           c->smooth, c->coloured, c->two_sided > 0, c->unlit > 0);
+    printf(", \"features\": {\"vertex_values\": %d, \"two_sided\": %d, \"unlit\": %d}", c->smooth + 2 * c->coloured,
+           c->two_sided > 0, c->unlit > 0);
     printf(", \"needs\": {");
-    for (int i = 0; i < c->n_needs; i++) printf("\"%s\": %d, ", c->needs[i].knob, c->needs[i].value);
-    printf("\"vertex_normals\": %d, \"vertex_colours\": %d}", c->smooth, c->coloured);
+    for (int i = 0; i < c->n_needs; i++) printf("%s\"%s\": %d", i ? ", " : "", c->needs[i].knob, c->needs[i].value);
+    printf("}");
 }
 
 static void json_objects(const counts *c)
@@ -293,7 +296,9 @@ static void text_light(const report *r, size_t i)
 {
     const scene_light *l = &r->scene->lights[i];
     int n = r->picture->n_tiles[i], t = r->picture->atlas_texels[i];
-    printf("    %zu '%s': %s, ", i, l->name, kind_names[l->kind]);
+    printf("    %zu ", i);
+    tool_print_name(l->name);
+    printf(": %s, ", kind_names[l->kind]);
     if (l->mode != SCENE_REALTIME) printf("%s, ", mode_names[l->mode]);
     if (r->picture->shadow_state[i] == GN_SHADOW_REALTIME && differ(r->picture, i)) text_tiles(r->picture, i, l->kind);
     else if (r->picture->shadow_state[i] == GN_SHADOW_REALTIME)
@@ -336,7 +341,7 @@ static void text_needs(const counts *c)
         printf(" %s", c->needs[i].knob);
         if (c->needs[i].value > 1) printf("=%d", c->needs[i].value);
     }
-    printf("%s%s\n", c->smooth ? " vertex_normals" : "", c->coloured ? " vertex_colours" : "");
+    printf("\n");
 }
 
 static void text_clips(const scene *s)
@@ -344,7 +349,8 @@ static void text_clips(const scene *s)
     if (s->n_clips) printf("  %zu clip%s:\n", s->n_clips, s->n_clips == 1 ? "" : "s");
     for (size_t i = 0; i < s->n_clips; i++) {
         const double duration = i == s->clip_idx ? s->duration : s->clips[i].duration;
-        printf("    %zu '%s'", i, s->clips[i].name);
+        printf("    %zu ", i);
+        tool_print_name(s->clips[i].name);
         if (duration > 0) printf(", %.3g s", duration);
         printf("%s\n", i == s->clip_idx && s->n_clips > 1 ? ", plays" : "");
     }

@@ -26,6 +26,7 @@ static void say_remarks(const tool_options *o, const scene *s, const settings *s
     remarks_on_settings(s);
     remarks_on_view(s, o->width, o->height);
     if (o->last_frame < 0) remarks_on_frame(s, o->frame);
+    else if (s->duration > 0) remarks_on_frame(s, o->last_frame);
     if (strcmp(o->engine, "fixed") == 0) remarks_on_picture(s, p);
     remarks_on_brightness(s, set, p);
 }

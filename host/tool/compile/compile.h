@@ -1,7 +1,7 @@
 /* gnomon compile: a scene file as C for flash, and the configuration that it needs. Private to this folder
- * and cmd_compile.c. In order: compile_play.c loads every frame, compile_frames.c draws them, compile_casters.c looks
- * at their shadow tiles, compile_simplify.c and compile_mesh.c take away what no picture shows, compile_config.c
- * chooses the configuration, compile_scene.c writes the scene. */
+ * and cmd_compile.c. In order: compile_play.c loads every frame, compile_frames.c draws them, compile_simplify.c and
+ * compile_mesh.c take away what no picture shows, compile_config.c chooses the configuration, compile_scene.c writes
+ * the scene. */
 #ifndef GNOMON_COMPILE_H
 #define GNOMON_COMPILE_H
 
@@ -9,6 +9,7 @@
 
 #include "../cost/board.h"
 #include "../fixed/quantise.h"
+#include "../library/casters.h"
 #include "../library/library.h"
 #include "../cli/tool.h"
 #include "header.h"
@@ -43,13 +44,10 @@ typedef struct {
     int differs;        /* the first frame that is another picture than wanted; -1: none */
     settings_demand demand;
     int peak_triangles, peak_tile_refs; /* the frames that took most, from 0 */
-    size_t clipped;                     /* visible triangles that were */
     size_t culled;                      /* casters left out by D8 */
     size_t caster_triangles;
-    double instructions, lookups;                      /* by the model of cost; of shadows */
-    size_t casters_unseen;                             /* by boxes: casters that a shadow tile does not see */
-    int64_t caster_extent_q16, caster_extent_seen_q16; /* how far casters lie from the corner of a directional light's
-                                                          tile: all, and those it sees */
+    double instructions, lookups; /* by the model of cost; of shadows */
+    casters casters;
 } compile_run;
 
 /* Something that was taken away, and what that saved. */
@@ -149,14 +147,6 @@ int compile_show(compile_stage *st, const compiled *c, int i, uint8_t *rgb8);
 
 /* One more frame of a run. */
 int compile_run_one(compile_run *run, compile_stage *st, const compiled *c, int i);
-
-/* compile_casters.c: adds what the shadow tiles of the frame drawn last had to do with casters. */
-void compile_casters(compile_run *run, const gn_renderer *r);
-
-/* How far casters lie, of all or of those that boxes let through; and what is refused without clipping. */
-enum { COMPILE_CASTER_TEXELS_MAX = 8192 };
-int compile_caster_texels(const compile_run *run, bool boxes);
-int compile_check_casters(const compiled *c, char *error, size_t error_bytes);
 
 /* Marks the triangles that some frame's picture shows, by mesh. */
 int compile_see(compile_stage *st, const compiled *c, bool **seen);

@@ -151,6 +151,9 @@ static void choose_features(compiled *c)
     for (uint32_t i = 0; i < f->n_meshes; i++) uses_mesh(&to, &f->meshes[i], i);
     uses_camera(&to, &f->scene.camera);
     if (c->set.feature.shadows) uses_shadows(&to, &f->scene);
+    if (!c->set.quality.transparent_layers || c->set.feature.materials & USES_ALPHA) return;
+    c->set.quality.transparent_layers = 0;
+    because(c, "transparent_layers", "nothing has alpha");
 }
 
 /* What changes no picture is built where it has something to do, unless it was switched off. */
@@ -169,22 +172,22 @@ static void choose_speed(compiled *c)
     else because(c, "incremental", "shadow tiles kept from the frame before, all frames: %zu", c->kept_tiles);
 }
 
-/* Casters of directional lights are drawn without ado up to COMPILE_CASTER_TEXELS_MAX texels from their tile: none that
+/* Casters of directional lights are drawn without ado up to CASTERS_TEXELS_MAX texels from their tile: none that
  * comes up to half of that needs the code that cuts them. Without it, what would be too far is refused, not misdrawn.
  */
-enum { CASTER_TEXELS_ENOUGH = COMPILE_CASTER_TEXELS_MAX / 2 };
+enum { CASTER_TEXELS_ENOUGH = CASTERS_TEXELS_MAX / 2 };
 
 static void choose_casters(compiled *c)
 {
     settings *s = &c->set;
     const bool path = compile_simplifies(c) == TOOL_SIMPLIFY_PATH;
-    if (!s->feature.shadows || !c->run.casters_unseen) s->feature.object_boxes = 0;
-    because(c, "object_boxes", "casters that a shadow tile does not see, all frames: %zu", c->run.casters_unseen);
-    const int extent = s->feature.shadows ? compile_caster_texels(&c->run, s->feature.object_boxes) : 0;
-    if (path && extent <= CASTER_TEXELS_ENOUGH) s->feature.clipping = c->run.clipped > 0;
+    if (!s->feature.shadows || !c->run.casters.unseen) s->feature.object_boxes = 0;
+    because(c, "object_boxes", "casters that a shadow tile does not see, all frames: %zu", c->run.casters.unseen);
+    const int extent = s->feature.shadows ? casters_texels(&c->run.casters, s->feature.object_boxes) : 0;
+    if (path && extent <= CASTER_TEXELS_ENOUGH) s->feature.clipping = c->run.casters.clipped > 0;
     if (!path) because(c, "clipping", "scenes of --simplify none and safe may be moved otherwise");
     else if (extent <= CASTER_TEXELS_ENOUGH)
-        because(c, "clipping", "visible triangles that are clipped, all frames: %zu", c->run.clipped);
+        because(c, "clipping", "visible triangles that are clipped, all frames: %zu", c->run.casters.clipped);
     else
         because(c, "clipping", "casters lie up to %d texels from a tile's corner, of %d without", extent,
                 CASTER_TEXELS_ENOUGH);

@@ -143,12 +143,12 @@ static void take_frame(compile_run *run, const compile_stage *st, int i)
     const count_all counts = st->counts;
     st->lib->get_demand(st->renderer, &demand);
     take_demand(run, &demand, i);
-    run->clipped += stats->n_clipped;
+    run->casters.clipped += stats->n_clipped;
     run->culled += stats->n_casters_culled;
     run->caster_triangles += stats->n_caster_triangles;
     run->instructions += cost_instructions(&counts);
     run->lookups += (double)(counts.n[GN_COUNT_lookups] + counts.n[GN_COUNT_lookups_persp]);
-    if (st->lib == &library_general) compile_casters(run, st->renderer);
+    if (st->lib == &library_general) casters_add(&run->casters, st->renderer);
 }
 
 int compile_run_one(compile_run *run, compile_stage *st, const compiled *c, int i)

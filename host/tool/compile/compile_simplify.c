@@ -217,7 +217,7 @@ static int simplify(trial *b, char *error, size_t bytes)
     if (b->now.differs >= 0) return COMPILE_CHANGED;
     if (settings_suffice(&c->requested, &b->now.demand, error, bytes)) return -1;
     c->run = b->now;
-    if (compile_check_casters(c, error, bytes)) return -1;
+    if (casters_check(&c->run.casters, &c->requested, error, bytes)) return -1;
     if (compile_keeps_tiles(b->st, c, &c->kept_tiles)) return say_refused(b, error, bytes);
     if (!b->no_memory) return 0;
     snprintf(error, bytes, "out of memory");

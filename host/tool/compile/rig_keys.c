@@ -6,7 +6,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { SPLINE_STEPS = 8, ARC_DEGREES = 5, SPAN_MAX = 256, TICKS_MAX = 65535 };
+enum { SPLINE_STEPS = 32, ARC_DEGREES = 5, SPAN_MAX = 256, TICKS_MAX = 65535 };
+enum { PARTS_MAX = 1024, SAMPLES_MAX = 1 << 22 };
 
 /* What a key may leave out: of a translation, library units (a scene extends over 4096); of a quaternion and a scale.
  */
@@ -18,8 +19,8 @@ enum { SPLINE_STEPS = 8, ARC_DEGREES = 5, SPAN_MAX = 256, TICKS_MAX = 65535 };
 /* The curve at times close enough to be linear in between. */
 typedef struct {
     size_t n, width;
-    double *time, *value; /* 4 per time */
-    double tolerance[3];  /* by property, in the curve's own unit */
+    double *time, *value;   /* 4 per time */
+    double tolerance, tick; /* in the curve's own unit; seconds */
 } samples;
 
 static double dot4(const double *a, const double *b)
@@ -27,17 +28,31 @@ static double dot4(const double *a, const double *b)
     return a[0] * b[0] + a[1] * b[1] + a[2] * b[2] + a[3] * b[3];
 }
 
-/* How many parts the interval behind a key is cut into. */
-static size_t parts_of(const scene_curve *c, size_t key)
+/* Of a spline as many that lines are off by a quarter of the tolerance, as its second differences have it. */
+static double spline_parts(const samples *s, const scene_curve *c, size_t key)
 {
-    double a[4], b[4];
-    if (c->kind == CURVE_STEP) return 1;
-    if (c->kind == CURVE_CUBIC) return SPLINE_STEPS;
-    if (c->width != 4) return 1;
-    curve_at(c, c->times[key], a);
-    curve_at(c, c->times[key + 1], b);
-    const double degrees = 2 * acos(fmin(1, fabs(dot4(a, b)))) * 180 / 3.14159265358979323846;
-    return 1 + (size_t)(degrees / ARC_DEGREES);
+    double p[3][4], most = 0;
+    for (int i = 0; i <= SPLINE_STEPS; i++) {
+        const double u = (double)i / SPLINE_STEPS, *a = p[(i + 1) % 3], *b = p[(i + 2) % 3];
+        double sum = 0;
+        curve_at(c, (1 - u) * c->times[key] + u * c->times[key + 1], p[i % 3]);
+        for (size_t k = 0; i >= 2 && k < c->width; k++) sum += pow(a[k] - 2 * b[k] + p[i % 3][k], 2);
+        most = fmax(most, sum);
+    }
+    return ceil(SPLINE_STEPS * sqrt(sqrt(most) / (2 * s->tolerance)));
+}
+
+/* How many parts the interval behind a key is cut into: of a tick at least. */
+static size_t parts_of(const samples *s, const scene_curve *c, size_t key)
+{
+    double a[4], b[4], n = 1;
+    if (c->kind == CURVE_CUBIC) n = spline_parts(s, c, key);
+    else if (c->kind == CURVE_LINEAR && c->width == 4) {
+        curve_at(c, c->times[key], a);
+        curve_at(c, c->times[key + 1], b);
+        n = 1 + floor(2 * acos(fmin(1, fabs(dot4(a, b)))) * 180 / 3.14159265358979323846 / ARC_DEGREES);
+    }
+    return (size_t)fmax(1, fmin(fmin(n, PARTS_MAX), (c->times[key + 1] - c->times[key]) / s->tick));
 }
 
 /* Rotations on one side: q and -q are the same. */
@@ -53,11 +68,13 @@ static void add_sample(samples *s, const scene_curve *c, double time)
 static int take_samples(samples *s, const scene_curve *c)
 {
     size_t n = 1;
-    for (size_t i = 0; i + 1 < c->n_keys; i++) n += parts_of(c, i);
-    *s = (samples){.width = c->width, .time = malloc(n * sizeof(double)), .value = calloc(4 * n, sizeof(double))};
+    for (size_t i = 0; i + 1 < c->n_keys; i++) n += parts_of(s, c, i);
+    if (n > SAMPLES_MAX) return -1;
+    s->time = malloc(n * sizeof(double));
+    s->value = calloc(4 * n, sizeof(double));
     if (!s->time || !s->value) return -1;
     for (size_t i = 0; i + 1 < c->n_keys; i++) {
-        const size_t parts = parts_of(c, i);
+        const size_t parts = parts_of(s, c, i);
         for (size_t k = 0; k < parts; k++)
             add_sample(s, c, c->times[i] + (c->times[i + 1] - c->times[i]) * (double)k / (double)parts);
     }
@@ -66,7 +83,7 @@ static int take_samples(samples *s, const scene_curve *c)
 }
 
 /* Whether what is between keys a and b is as far as can be seen on the line between them. */
-static bool is_linear(const samples *s, size_t a, size_t b, double tolerance)
+static bool is_linear(const samples *s, size_t a, size_t b)
 {
     const double *p = s->value + 4 * a, *q = s->value + 4 * b;
     if (s->width == 4 && dot4(p, q) < DOT_MIN) return false;
@@ -76,7 +93,7 @@ static bool is_linear(const samples *s, size_t a, size_t b, double tolerance)
         for (int k = 0; k < 4; k++) v[k] = (1 - u) * p[k] + u * q[k];
         if (s->width == 4) length = sqrt(dot4(v, v));
         for (size_t k = 0; k < s->width; k++)
-            if (fabs(v[k] / length - s->value[4 * i + k]) > tolerance) return false;
+            if (fabs(v[k] / length - s->value[4 * i + k]) > s->tolerance) return false;
     }
     return true;
 }
@@ -89,17 +106,17 @@ static bool is_same(const samples *s, size_t a, size_t b, double tolerance)
 }
 
 /* Keeps some of the samples, in place. */
-static void reduce(samples *s, bool step, double tolerance)
+static void reduce(samples *s, bool step)
 {
     size_t n = 1, a = 0;
     bool still = true;
-    for (size_t i = 1; i < s->n; i++) still = still && is_same(s, 0, i, tolerance);
+    for (size_t i = 1; i < s->n; i++) still = still && is_same(s, 0, i, s->tolerance);
     while (!still && a + 1 < s->n) {
         size_t b = a + 1;
         if (step)
             while (b + 1 < s->n && is_same(s, a, b, 0)) b++;
         else
-            while (b + 1 < s->n && b - a < SPAN_MAX && is_linear(s, a, b + 1, tolerance)) b++;
+            while (b + 1 < s->n && b - a < SPAN_MAX && is_linear(s, a, b + 1)) b++;
         a = b;
         s->time[n] = s->time[b];
         memmove(s->value + 4 * n++, s->value + 4 * b, 4 * sizeof(double));
@@ -159,10 +176,12 @@ static const scene_channel *channel_of(const fixed_rig *r, size_t clip, size_t i
 
 static int add_channel(fixed_rig *r, size_t clip, size_t idx, const scene_channel *from, gn_rig_channel *out)
 {
-    samples s;
+    samples s = {.width = from->curve.width,
+                 .tolerance = tolerance_of(r, idx, from->what),
+                 .tick = ldexp(1, r->clips[clip].tick_log2 - 16)};
     int failed = take_samples(&s, &from->curve);
     if (!failed) {
-        reduce(&s, from->curve.kind == CURVE_STEP, tolerance_of(r, idx, from->what));
+        reduce(&s, from->curve.kind == CURVE_STEP);
         failed = s.n > TICKS_MAX ? -1 : store(r, &s, from, idx, r->clips[clip].tick_log2, out);
         r->error[clip].n_keys += s.n;
         r->error[clip].n_keys_before += from->curve.n_keys;

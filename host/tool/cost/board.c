@@ -68,7 +68,7 @@ static bool same_region(const char *script, const char *a, const char *b)
 void board_set_optimisation(board *b, const char *flag)
 {
     static const int percent_o2[FLASH_CORES] = {144, 132};
-    const bool small = strcmp(flag, "-Os") == 0 || strcmp(flag, "-Oz") == 0;
+    const bool small = strcmp(flag, "-Os") == 0;
     if (b->riscv) b->code_percent = small ? RISCV_OS : RISCV_O2;
     else b->code_percent = small ? 100 : percent_o2[b->core];
 }

@@ -7,6 +7,7 @@
 #include "engine.h"
 #include "../fixed/output.h"
 #include "../fixed/quantise.h"
+#include "../library/casters.h"
 #include "../library/library.h"
 
 typedef struct {
@@ -217,6 +218,17 @@ static int allocate(engine_picture *out, const scene *s, int width, int height)
     return out->rgb8 && out->rgb565 && out->depth && out->normal && out->triangle && out->cascade ? 0 : -1;
 }
 
+/* What was drawn must be what firmware with these settings draws. */
+static int check_demand(const job *j, engine_picture *out)
+{
+    casters c = {.clipped = out->stats.n_clipped};
+    const bool looks = !j->set->build.compact && j->set->feature.clipping < 2;
+    j->lib->get_demand(j->renderer, &out->demand);
+    if (looks) casters_add(&c, j->renderer);
+    if (looks && casters_check(&c, j->set, j->error, j->error_bytes)) return -1;
+    return settings_suffice(j->set, &out->demand, j->error, j->error_bytes);
+}
+
 int engine_fixed(engine_picture *out, const scene *s, const settings *set, int width, int height, int what, char *error,
                  size_t error_bytes)
 {
@@ -236,10 +248,7 @@ int engine_fixed(engine_picture *out, const scene *s, const settings *set, int w
         out->stats = *lib->get_stats(renderer);
         failed = copy_atlas(&j, out, what);
     }
-    if (!failed) {
-        lib->get_demand(renderer, &out->demand);
-        failed = settings_suffice(set, &out->demand, error, error_bytes);
-    }
+    if (!failed) failed = check_demand(&j, out);
     picture.format = GN_FORMAT_RGB565;
     if (!failed && what == ENGINE_ALL) failed = draw(&j, picture, out->rgb565) || draw_views(&j, picture, out, raw);
     free(raw);

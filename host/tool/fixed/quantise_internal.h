@@ -10,6 +10,7 @@
 /* How a mesh is stored. */
 typedef struct {
     int pos_bits;         /* fraction bits of coordinates; what is outside 0..30 goes to the objects' exponents */
+    int raised;           /* said to be so many more, where large scenes' matrices would lose more than seven */
     bool short_positions; /* 16 bits */
     double normal_one;    /* 1 in normals */
     int clamped[2];       /* per axis of texture coordinates: some texture on this mesh does not repeat */

@@ -18,9 +18,11 @@ static int position_bits(const scene_mesh *mesh)
 mesh_plan *quantise_plan_meshes(const scene *s, const gn_knobs *knobs)
 {
     mesh_plan *plan = calloc(s->n_meshes + 1, sizeof *plan);
+    const int lost = -1 - quantise_world_exp(s); /* bits of a rotation */
     for (size_t i = 0; plan && i < s->n_meshes; i++) {
         plan[i].short_positions = knobs->short_vertices % 2;
         plan[i].normal_one = knobs->short_vertices >= 2 ? 127 : 32767;
+        plan[i].raised = lost > 0 ? lost / 8 * 8 : 0;
         plan[i].pos_bits = position_bits(&s->meshes[i]) - (plan[i].short_positions ? 15 : 0);
     }
     for (size_t i = 0; plan && i < s->n_objects; i++) {
@@ -102,7 +104,8 @@ int quantise_mesh(gn_mesh *out, const scene_mesh *mesh, mesh_plan *plan, char *e
         snprintf(error, error_bytes, "mesh '%s': more than 65535 vertices or triangles", mesh->name);
         return -1;
     }
-    int bits = plan->pos_bits, uv_bits = mesh->uv && n ? plan_texture_coordinates(plan, mesh) : 0;
+    int bits = plan->pos_bits, said = bits + plan->raised,
+        uv_bits = mesh->uv && n ? plan_texture_coordinates(plan, mesh) : 0;
     if (uv_bits < 0) {
         snprintf(error, error_bytes,
                  "mesh '%s': its texture coordinates are farther from 0, or from each other, than 32767", mesh->name);
@@ -110,7 +113,7 @@ int quantise_mesh(gn_mesh *out, const scene_mesh *mesh, mesh_plan *plan, char *e
     }
     out->n_vertices = (uint16_t)n;
     out->n_triangles = (uint16_t)mesh->n_triangles;
-    out->pos_frac_bits = (uint8_t)(bits < 0 ? 0 : bits > 30 ? 30 : bits);
+    out->pos_frac_bits = (uint8_t)(said < 0 ? 0 : said > 30 ? 30 : said);
     out->uv_frac_bits = (uint8_t)uv_bits;
     out->pos = fixed_positions(mesh, bits, plan->short_positions);
     out->idx = fixed_indices(mesh);
