@@ -175,6 +175,7 @@ GN_HOT int gn_corner_begin(gn_lattice *l, const gn_frame *frame, const gn_surfac
 {
     gn_corner_forget_forms(l);
     l->anchor.known = 0;
+    l->cascade = -1;
 #if GN_PLANES && GN_SHADOWS
     l->slope_view = NULL;
 #endif

@@ -273,7 +273,7 @@ GN_HOT void gn_corner_begin_cascade(gn_lattice *l, const gn_frame *frame, const 
 {
     const extent all = {s->z_min_q16, s->z_max_q16, 0, (uint64_t)frame->tan2_q24};
     l->views = s->shadowed ? (uint16_t)possible_views(frame, &all) : 0;
-    l->surface_cascade = s->shadowed ? certain_cascade(l->views) : -1;
+    l->surface_cascade = l->cascade = s->shadowed ? certain_cascade(l->views) : -1;
 }
 
 /* Squares of the least and the largest distance from 0 of lo .. hi. */

@@ -340,11 +340,6 @@ static void begin_part(gn_shading *s, const gn_rect *box)
     l->has_face = 0;
 #if GN_SHADOWS
     if (box->x1 - box->x0 > GN_PART_WIDTH || one_in(2)) return;
-    l->x = box->x0;
-    l->y = box->y0;
-    l->x_end = box->x1;
-    l->y_end = box->y1;
-    l->n_rows = box->y1 - box->y0;
     gn_corner_begin_part(l, s->frame, &s->surface);
 #endif
     (void)box;
@@ -358,7 +353,13 @@ static int begin_surface(gn_shading *s, const gn_rect *box)
     gn_surface_begin(s->frame, s->scratch, &s->cache, &s->surface, s->tri);
     const int reached = gn_corner_begin_lights(l, s->frame, &s->surface);
     gn_surface_use_bary(s->frame, &s->surface);
-    if (!reached || !gn_corner_begin(l, s->frame, &s->surface, box, one_in(2) ? 1 : 16)) return 0;
+    const int32_t beyond = one_in(2) ? 0 : 15;
+    const gn_rect wide = {box->x0 - beyond, box->y0 - beyond, box->x1 + beyond, box->y1 + beyond};
+    l->block = *box;
+    if (!reached || !gn_corner_begin(l, s->frame, &s->surface, &wide)) return 0;
+#if GN_SHADOWS
+    gn_corner_begin_cascade(l, s->frame, &s->surface);
+#endif
     begin_part(s, box);
     return 1;
 }

@@ -743,12 +743,13 @@ static void check_part(gn_lattice *l, const gn_surface *s, const gn_rect *r, con
     if (x < r->x0 || x >= r->x1 || y < r->y0 || y >= r->y1) return;
     if (!k->at.inside || k->at.kappa > 100 || k->at.z < fixed.camera.near_q16 * LSB16) return;
     check_cascade(s, l->surface_cascade, x, y);
-    l->n_rows = (int32_t)uniform(2, 17);
-    l->x = r->x0 > x - 30 ? r->x0 : x - 30;
-    l->y = r->y0 > y - l->n_rows + 1 ? r->y0 : y - l->n_rows + 1;
-    l->x_end = r->x1;
-    l->y_end = r->y1;
+    const int32_t rows = (int32_t)uniform(2, 17);
+    l->block.x0 = r->x0 > x - 30 ? r->x0 : x - 30;
+    l->block.y0 = r->y0 > y - rows + 1 ? r->y0 : y - rows + 1;
+    l->block.x1 = r->x1 < l->block.x0 + 64 ? r->x1 : l->block.x0 + 64;
+    l->block.y1 = r->y1 < l->block.y0 + rows ? r->y1 : l->block.y0 + rows;
     gn_corner_begin_part(l, &renderer.frame, s);
+    l->block = *r;
     check_cascade(s, l->cascade, x, y);
     if (l->cascade < 0) check_pixel_views(l, s, x, y);
     l->cascade = l->surface_cascade;
@@ -951,7 +952,12 @@ static void check_scene(const gn_knobs *knobs)
         gn_surface_use_bary(&renderer.frame, &surface);
         const gn_rect r = gn_setup_bounds(&renderer.frame, tri);
         const int reached = gn_corner_begin_lights(&lattice, &renderer.frame, &surface);
-        const int has_plane = reached && gn_corner_begin(&lattice, &renderer.frame, &surface, &r, 16);
+        const gn_rect wide = {r.x0 - 15, r.y0 - 15, r.x1 + 15, r.y1 + 15};
+        lattice.block = r;
+        const int has_plane = reached && gn_corner_begin(&lattice, &renderer.frame, &surface, &wide);
+#if GN_SHADOWS
+        gn_corner_begin_cascade(&lattice, &renderer.frame, &surface);
+#endif
         n_planes += has_plane;
         if (has_plane && !orthographic) check_scale(&lattice.plane, &surface);
         n_no_plane += !has_plane;

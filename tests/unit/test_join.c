@@ -61,10 +61,18 @@ static void begin_pair(void)
     renderer.frame.cam.flat_q16 = 0;
 }
 
-static int32_t joined(void)
+/* Both triangles say the same. */
+static int joined(void)
 {
-    const gn_tri_source one = {0, 0}, other = {0, 1};
-    return gn_join_may(&renderer.frame, &one) ? gn_join_vertex(&renderer.frame, &one, &one, &other) : GN_JOIN_NONE;
+    int said[2];
+    for (uint16_t k = 0; k < 2; k++) {
+        const gn_tri_source tri = {0, k};
+        const gn_join all = gn_join_find(&renderer.frame, &tri);
+        said[k] = all.first == 0 && all.end == 2;
+        if (!said[k]) CHECK(all.first == k && all.end == k + 1U);
+    }
+    CHECK_EQ_INT(said[0], said[1]);
+    return said[0];
 }
 
 /* Twelve bits, so that bits below are those of every vertex. */
@@ -84,12 +92,12 @@ static void test_parallelograms(void)
     for (int k = 0; k < CASES; k++) {
         begin_pair();
         parallelogram((int)rng_range(&random_state, 4, BITS_MOST));
-        if (!CHECK_EQ_INT(joined(), 3)) return;
+        if (!CHECK(joined())) return;
         pos[rng_below(&random_state, 12)] += rng_below(&random_state, 2) ? 1 : -1;
         /* one step beside it, which may still be the plane */
         mesh.rgb_uq16 = rgb;
         for (int i = 0; i < 12; i++) rgb[i] = (uint16_t)rng_below(&random_state, 65536);
-        if (!CHECK_EQ_INT(joined(), GN_JOIN_NONE)) return; /* vertex colours need a parallelogram */
+        if (!CHECK(!joined())) return; /* vertex colours need a parallelogram */
     }
 }
 
@@ -126,7 +134,7 @@ static void test_attributes(void)
         object.baked_uq12 = rgb;
         if (k % 2) object.mask_u8 = mask;
         else object.mask_image = &texture;
-        if (!CHECK_EQ_INT(joined(), 3)) return;
+        if (!CHECK(joined())) return;
         switch (k / 2 % 6) {
         case 0:
             rgb[rng_below(&random_state, 12)]++;
@@ -148,7 +156,7 @@ static void test_attributes(void)
             pos[rng_below(&random_state, 12)] += 2;
             break;
         }
-        if (!CHECK_EQ_INT(joined(), GN_JOIN_NONE)) return;
+        if (!CHECK(!joined())) return;
     }
 }
 
@@ -178,12 +186,12 @@ static void test_planes(void)
             largest = size_of(n[i]) > largest ? size_of(n[i]) : largest;
         }
         /* off the plane by six / |n|: at most 30 of 2^20 of the farthest coordinate */
-        const int32_t said = joined();
+        const int said = joined();
         const int is_parallelogram = s == -1 && t == 1 && !off;
-        n_joined += said == 3;
-        if (said == 3 && !CHECK(is_parallelogram || size_of(six) << 19 <= 30 * most * largest)) return;
-        if (s >= 0 && !CHECK_EQ_INT(said, GN_JOIN_NONE)) return; /* folded back over the first one */
-        if (said == 3 && !is_parallelogram) { /* the faces lean by 2^-10, and what 20 bits of coordinates leave */
+        n_joined += said;
+        if (said && !CHECK(is_parallelogram || size_of(six) << 19 <= 30 * most * largest)) return;
+        if (s >= 0 && !CHECK(!said)) return; /* folded back over the first one */
+        if (said && !is_parallelogram) { /* the faces lean by 2^-10, and what 20 bits of coordinates leave */
             double a[3], b[3], ab = 0, aa = 0, bb = 0;
             for (int i = 0; i < 3; i++) {
                 const int j = (i + 1) % 3, h = (i + 2) % 3;
@@ -198,7 +206,7 @@ static void test_planes(void)
         const int near = t >= -3 && t <= 3 && s + t <= 4 && s + t >= -2;
         if (six || s >= 0 || !near || largest * 64 < most * most) continue; /* sharp ones may be told or not */
         n_on++;
-        if (!CHECK_EQ_INT(said, 3)) return;
+        if (!CHECK(said)) return;
     }
     CHECK(n_on > CASES / 8 && n_joined < CASES);
 }
@@ -323,45 +331,40 @@ static void test_picture(void)
     const unsigned differ = count_apart(0), far = count_apart(8); /* a step of RGB565 */
     printf("%u of %d values differ, %u by more than a step\n", differ, WIDTH * HEIGHT * 3, far);
     CHECK(far * 1000 <= WIDTH * HEIGHT * 3);
-    CHECK(!GN_INTERPOLATES || differ > 0); /* other cells */
 }
 
-/* What is not to be joined, whatever its plane; and pieces of one triangle. */
+/* What is not to be joined, whatever its plane. */
 static void test_others(void)
 {
     static const gn_skin skin = {0};
     static const gn_texture texture = {0};
-    const gn_tri_source one = {0, 0}, other = {0, 1}, foreign = {1, 1};
     begin_pair();
     parallelogram(12);
-    CHECK_EQ_INT(gn_join_vertex(&renderer.frame, &one, &one, &one), GN_JOIN_SAME);
-    CHECK_EQ_INT(gn_join_vertex(&renderer.frame, &one, &one, &foreign), GN_JOIN_NONE);
-    CHECK_EQ_INT(gn_join_vertex(&renderer.frame, &one, &other, &one), GN_JOIN_NONE);
     object.skin = &skin;
-    CHECK_EQ_INT(joined(), GN_JOIN_NONE);
+    CHECK(!joined());
     object.skin = NULL;
     for (int i = 0; i < 8; i++) uv[i] = (int16_t)(i * i);
     mesh.uv = uv;
-    CHECK_EQ_INT(joined(), 3);
+    CHECK(joined());
     object.emissive_texture = &texture;
-    CHECK_EQ_INT(joined(), GN_JOIN_NONE);
+    CHECK(!joined());
     object.emissive_texture = NULL;
     for (int i = 0; i < 3; i++) pos[9 + i] += pos[6 + i] - pos[3 + i]; /* on the plane, no parallelogram */
-    CHECK_EQ_INT(joined(), 3);
+    CHECK(joined());
     renderer.frame.cam.flat_q16 = 65536;
-    CHECK_EQ_INT(joined(), GN_JOIN_NONE);
+    CHECK(!joined());
     renderer.frame.cam.flat_q16 = 0;
-    /* a strip of three: the last two are a parallelogram, but not the first one's, whose colours do not go on */
-    static const gn_position strip[15] = {0, 0, 0, 90, 0, 0, 100, 100, 0, 0, 100, 0, 0, 200, 0};
+    /* a strip of three: the last one is for itself */
+    static const gn_position strip[15] = {0, 0, 0, 100, 0, 0, 100, 100, 0, 0, 100, 0, 0, 200, 0};
     static const uint16_t of_strip[9] = {0, 1, 2, 0, 2, 3, 3, 2, 4};
-    static const uint16_t colours[15] = {0, 0, 0, 9, 9, 9, 5, 5, 5, 7, 7, 7, 12, 12, 12};
     const gn_tri_source third = {0, 2};
     mesh.pos = strip;
     mesh.idx = of_strip;
     mesh.n_vertices = 5;
-    CHECK_EQ_INT(gn_join_vertex(&renderer.frame, &one, &other, &third), 4);
-    mesh.rgb_uq16 = colours;
-    CHECK_EQ_INT(gn_join_vertex(&renderer.frame, &one, &other, &third), GN_JOIN_NONE);
+    mesh.n_triangles = 3;
+    CHECK(joined());
+    const gn_join last = gn_join_find(&renderer.frame, &third);
+    CHECK(last.first == 2 && last.end == 3);
 }
 
 /* A glossy floor of one quad, a corner towards the camera, under a lamp above each corner in turn, whose range ends
