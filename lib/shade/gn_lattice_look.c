@@ -406,8 +406,8 @@ GN_HOT static GN_NOINLINE uint32_t add_lights(gn_lattice_cell *cell, uint32_t sl
 /* Returns 0 if the cell is to be split. */
 GN_HOT static GN_NOINLINE int end_look(const gn_lattice_cell *cell)
 {
-    const int holds = finish_colours(cell);
-    return holds >= (cell->size_log2 > gn_cell_finest_log2(cell->frame)) && is_even(cell);
+    const int holds = finish_colours(cell), strict = gn_cell_light_log2(cell->frame) > 0;
+    return holds >= (strict || cell->size_log2 > gn_cell_finest_log2(cell->frame)) && is_even(cell);
 }
 
 /* Windows are made here, where there is more stack. */

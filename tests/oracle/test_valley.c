@@ -101,6 +101,7 @@ static int compare(metrics *m, const valley *v, int with_truth)
 static const char *const known[] = {
     "preset=fast directional 2x2 stable 80",
     "preset=fast directional 2x2 stable 120",
+    "preset=fast point 2x2 tight 60",
 };
 
 /* Filters that blend: PSNR. The others flip whole pixels, of which a few may be on the border of a texel. */

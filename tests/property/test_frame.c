@@ -456,18 +456,7 @@ static int difference(const canvas *a, const canvas *b)
     return largest;
 }
 
-/* Fraction of the bytes, 0..1, that differ by more than two levels. */
-static double share_apart(const canvas *a, const canvas *b)
-{
-    long n = 0;
-    for (size_t i = 0; i < a->n_bytes; i++) n += abs(a->pixels[i] - b->pixels[i]) > 2;
-    return (double)n / (double)a->n_bytes;
-}
-
-/* Tiles do not matter with a divide at every pixel, nor to what is visible; with longer steps a surface's cells begin
- * where its part of the tile does, and what lies between their corners differs by what the step costs: most where the
- * ball turns away from the light. There it is too bright by a third of the tolerance at most (NUMERICS 4.12), which is
- * the ambient light and 1/32; its least is 0.08 in the brightest channel, level 80, and 0.037 more are level 96. */
+/* Sizes of screen tiles do not matter. */
 static void test_tile_sizes(void)
 {
     static const int32_t sizes[][2] = {{64, 16}, {64, 1},   {64, 7},    {64, 200},  {64, 1024}, {8, 1},    {8, 8},
@@ -492,11 +481,8 @@ static void test_tile_sizes(void)
             SET_KNOB(&one.frame, persp_step, persp_step);
             CHECK(gn_render(&one, &demo.scene, flush, i ? &c : &first) == GN_OK);
             CHECK(each_pixel_once(i ? &c : &first));
-            int same = persp_step == 1 || p.format == GN_FORMAT_RAW32;
             int d = i ? difference(&first, &c) : 0;
-            if (i && p.format == GN_FORMAT_RGB888 && !same) CHECK(share_apart(&first, &c) < 0.01);
-            if (p.format == GN_FORMAT_RGB565 && !same) d = 0; /* its bytes are no levels */
-            if (!CHECK(d <= (same ? 0 : 16)))
+            if (!CHECK(d == 0))
                 printf("tiles of %dx%d, format %d, persp_step %d: %d\n", (int)sizes[i][0], (int)sizes[i][1],
                        (int)p.format, (int)persp_step, d);
             canvas_end(&c);

@@ -70,13 +70,13 @@ static int same_afresh(campaign *r, int32_t tile_size, int culling, int32_t grou
 }
 
 /* What must not change a pixel: forgetting what was kept, culling casters, groups of triangles or their records, other
- * screen tiles where each pixel has its divide. */
+ * screen tiles. */
 static void compare_with_fresh(campaign *r, long frame)
 {
     const gn_shadow_settings *s = &r->scene.scene.shadow;
     int culling = !s->caster_culling;
     const int32_t groups = GN_K(&one.frame, triangle_groups), other = groups ? 0 : 1 + (int32_t)(rnd() % 16);
-    int32_t tile_size = GN_K(&one.frame, persp_step) == 1 ? 8 + 8 * (int32_t)(rnd() % 6) : 0;
+    int32_t tile_size = GN_RUNTIME_KNOBS ? 8 + 8 * (int32_t)(rnd() % 6) : 0;
     for (int i = 0; i < 4; i++)
         if (s->refresh[i] > 1) return; /* tiles are older than the frame */
     r->compared++;
