@@ -211,13 +211,13 @@ GN_HOT static int make_window(gn_lattice *l, const gn_frame *frame, const gn_sur
     return 1;
 }
 
-/* The next smaller box that a window may be made for: lower ones of pixels, then narrower ones. Returns 0 if there is
- * none. */
-GN_HOT static int smaller(gn_rect *r, int cells, int32_t size_log2)
+/* The next smaller box that a window may be made for: lower ones if they may be, then narrower ones. Returns 0 if there
+ * is none. */
+GN_HOT static int smaller(gn_rect *r, int lower, int32_t size_log2)
 {
-    enum { LOW = 4 };
+    enum { LOW = 8 };
     const int32_t size = 1 << size_log2, columns = (r->x1 - r->x0 + size - 1) >> size_log2;
-    if (!cells && r->y1 - r->y0 > LOW) r->y1 = (r->y0 + r->y1 + 1) >> 1;
+    if (lower && r->y1 - r->y0 > LOW) r->y1 = (r->y0 + r->y1 + 1) >> 1;
     else if (columns > 1) r->x1 = r->x0 + (((columns + 1) >> 1) << size_log2);
     else return 0;
     return 1;
@@ -232,7 +232,8 @@ GN_HOT gn_window *gn_lattice_window(gn_lattice *l, const gn_frame *frame, const 
     if (window->view != view) begin_window(l, frame, s, slot, view_idx, window);
     if (window->planar <= 0) return NULL;
     window->w = 0;
-    gn_rect r = {x, l->part_y, l->part_end, l->seen.y1};
+    gn_rect r = {x, l->part_y, l->part_end, l->part_bottom};
+    const int lower = !cells && x == l->seen.x0;
     if (cells) {
         r.y0 = l->seen.y0 - ((l->seen.y0 - l->y) & rest);
         r.x1 = l->seen.x1 + ((x - l->seen.x1) & rest);
@@ -242,7 +243,7 @@ GN_HOT gn_window *gn_lattice_window(gn_lattice *l, const gn_frame *frame, const 
     l->row.seen.view_idx = view_idx;
     /* for one or two cells their own corners tell as much */
     while (!(cells && ((r.x1 - r.x0) >> log2) * ((r.y1 - r.y0) >> log2) <= 2) &&
-           !make_window(l, frame, s, &r, cells, window) && smaller(&r, cells, log2)) {}
+           !make_window(l, frame, s, &r, cells, window) && smaller(&r, lower, log2)) {}
     window->until_x = r.x1;
     window->until_y = r.y1;
     return window;

@@ -110,11 +110,9 @@ GN_HOT static GN_NOINLINE int windows_of_part(gn_shading *s, uint32_t slot, gn_p
         view[i] = (gn_part_view){first + i, NULL, GN_WINDOW_MIXED, {0, 0, 0}};
         if (!(views >> i & 1U)) continue;
         gn_window *w = gn_lattice_window(l, s->frame, &s->surface, slot, i, l->part_x, 0);
-        if (w && l->part_y == l->seen.y0) l->part_end = gn_min32(l->part_end, w->until_x);
+        if (w) l->part_end = gn_min32(l->part_end, w->until_x);
         if (w) l->part_bottom = gn_min32(l->part_bottom, w->until_y);
-        if (w && w->w && w->until_x >= l->part_end) {
-            said = !w->any ? GN_WINDOW_LIT : w->all == UINT32_MAX ? GN_WINDOW_DARK : GN_WINDOW_MIXED;
-        }
+        if (w && w->w) { said = !w->any ? GN_WINDOW_LIT : w->all == UINT32_MAX ? GN_WINDOW_DARK : GN_WINDOW_MIXED; }
         view[i].window = w;
         view[i].said = said;
         all = all >= 0 && all != said ? GN_WINDOW_MIXED : said;
@@ -480,14 +478,14 @@ GN_HOT static void shade_rows(gn_shading *s)
     }
 }
 
-/* Columns as wide as windows of the first rows are, and down these, as low as windows are. */
+/* Row by row of parts, as low as the windows of the first one are. */
 GN_HOT void gn_part_shade(gn_shading *s)
 {
     gn_lattice *l = &s->lattice;
-    for (l->part_x = l->seen.x0; l->part_x < l->seen.x1; l->part_x = l->part_end) {
-        l->part_end = l->seen.x1;
-        for (l->part_y = l->seen.y0; l->part_y < l->seen.y1; l->part_y = l->part_bottom) {
-            l->part_bottom = l->seen.y1;
+    for (l->part_y = l->seen.y0; l->part_y < l->seen.y1; l->part_y = l->part_bottom) {
+        l->part_bottom = l->seen.y1;
+        for (l->part_x = l->seen.x0; l->part_x < l->seen.x1; l->part_x = l->part_end) {
+            l->part_end = l->seen.x1;
             shade_rows(s);
         }
     }
