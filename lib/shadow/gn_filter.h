@@ -323,12 +323,6 @@ GN_HOT static inline int gn_window_covers(const gn_window *window, int32_t u0, i
     return u0 >= window->u0 && v0 >= window->v0 && u0 + w <= window->u0 + window->w && v0 + h <= window->v0 + window->h;
 }
 
-/* Whether some of w x h texels are of the view's tile: what reads none of them is not for windows. */
-GN_HOT static inline int gn_window_meets(const gn_light_view *view, int32_t u0, int32_t v0, int32_t w, int32_t h)
-{
-    return u0 + w > 0 && v0 + h > 0 && u0 < view->tile_texels && v0 < GN_TILE_ROWS(view);
-}
-
 /* Depth of the plane at tile coordinates in the window. */
 GN_HOT static inline int32_t gn_window_depth(const gn_window *window, int32_t u_q16, int32_t v_q16)
 {

@@ -148,7 +148,7 @@ GN_HOT int gn_window_compare(gn_window *window, const gn_window_place *place, in
     int64_t first = place->depth_q30 + ((du * slope[0] + dv * slope[1]) >> 16);
     window->w = 0;
     if (!in_range(window, first, place->apart_q30, w, h)) return 0;
-    if (!gn_window_meets(view, u0, v0, w, h)) return 0;
+    if (u0 + w <= 0 || v0 + h <= 0 || u0 > last || v0 > last_row) return 0;
     GN_NOTE_TEXELS(window->squares, view, u0, v0, w, h);
     int32_t ua = gn_max32(u0, 0), n = gn_min32(u0 + w - 1, last) - ua + 1, left = ua - u0;
     int32_t va = gn_max32(v0, 0), n_rows = gn_min32(v0 + h - 1, last_row) - va + 1, above = va - v0;
@@ -394,8 +394,7 @@ GN_HOT static int find_rows(const gn_frame *frame, const gn_window *window, cons
                     gn_max32(from->u_q16, end[0]) + 1024, &u0, &w);
     gn_window_reads(view, GN_VIEW_EDGE(frame, view), gn_min32(from->v_q16, end[1]),
                     gn_max32(from->v_q16, end[1]) + 1024, &rows->v0, &h);
-    if (!gn_window_covers(window, u0, rows->v0, w, h) || !gn_window_meets(view, u0, rows->v0, w, h))
-        return GN_WINDOW_MISSED;
+    if (!gn_window_covers(window, u0, rows->v0, w, h)) return GN_WINDOW_MISSED;
     if (!window->any) return GN_WINDOW_LIT;
     if (window->all == UINT32_MAX) return GN_WINDOW_DARK;
     /* with edges: read, but not asked, as what is next to receivers tells whether all are alike */
