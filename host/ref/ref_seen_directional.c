@@ -35,7 +35,7 @@ static ref_seen box_bounds(const ref_instance *instance, const ref_light_view *a
     return b;
 }
 
-/* Bounds along the world's axes of the boxes of seen objects, less 1/16 of each. */
+/* Bounds along the world's axes of the boxes of seen objects. */
 typedef struct {
     double below[3], above[3];
 } reach;
@@ -49,8 +49,8 @@ static reach reach_of(const ref_frame *frame, const ref_frustum *f, const ref_li
         vec3_store(centre, frame->instances[o].box_centre);
         vec3_store(half, frame->instances[o].box_half);
         for (int k = 0; k < 3; k++) {
-            r.below[k] = fmin(r.below[k], centre[k] - 7.0 / 8.0 * half[k]);
-            r.above[k] = fmax(r.above[k], centre[k] + 7.0 / 8.0 * half[k]);
+            r.below[k] = fmin(r.below[k], centre[k] - half[k]);
+            r.above[k] = fmax(r.above[k], centre[k] + half[k]);
         }
     }
     return r;
@@ -62,7 +62,7 @@ static bool shadows_nothing(const ref_instance *instance, const reach *seen, con
     double centre[3], half[3];
     vec3_store(centre, instance->box_centre);
     vec3_store(half, instance->box_half);
-    const double longest = fmax(half[0], fmax(half[1], half[2])), slack = longest / 1024.0;
+    const double longest = fmax(half[0], fmax(half[1], half[2])), slack = longest / 256.0;
     for (int k = 0; k < 3; k++)
         if (half[k] <= longest / 4096.0 &&
             (w[k] < 0.0 ? seen->below[k] >= centre[k] - slack : seen->above[k] <= centre[k] + slack))

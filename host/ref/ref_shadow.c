@@ -79,7 +79,8 @@ static double attenuation_in(const ref_frame *frame, const ref_surface *at, size
         if (!(along.z > view->near)) return 1.0;
         p = ref_project(view, along);
     }
-    return ref_filtered(view, &how, p.x, p.y, p.z - less);
+    const double depth = p.z - less;
+    return depth > 0.0 ? ref_filtered(view, &how, p.x, p.y, depth) : 1.0;
 }
 
 /* Of two cascades, softly or by the pixel's noise. [D7] */

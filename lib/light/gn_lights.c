@@ -342,9 +342,9 @@ static void setup_spheres(gn_frame *frame)
         if (beyond) continue;
         gn_cascade_sphere(frame, near_q16, far_q16, &centre_q24, &radius_q24);
         cascade->centre_q16 = (int32_t)gn_shr64(centre_q24 * far_q16, 24);
-        /* radius < 2^30 in Q16: a sphere that wide contains all view coordinates */
+        /* squares below 2^62 */
         uint64_t radius_q16 = (uint64_t)gn_clamp64(
-            gn_bf_apply(radius_q24, gn_bf_from_u64((uint64_t)(uint32_t)far_q16), -24), 1, (1 << 30) - 1);
+            gn_bf_apply(radius_q24, gn_bf_from_u64((uint64_t)(uint32_t)far_q16), -24), 1, INT32_MAX);
         cascade->radius2_q32 = radius_q16 * radius_q16;
         /* r^2 (1 - (1 - fade)^2) */
         gn_bfloat width =

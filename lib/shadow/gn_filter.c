@@ -129,6 +129,7 @@ GN_HOT uint32_t gn_filter_attenuation(const gn_frame *frame, const gn_light_view
 {
     gn_lookup l;
     int32_t dropped = gn_dropped_bits(view);
+    if (GN_PLANES && !receiver->depth_q32) return 65536; /* no slope brings it back into the range [B5] */
     l.view = view;
     l.u_q16 = near_tile(receiver->u_q16);
     l.v_q16 = near_tile(receiver->v_q16);

@@ -187,18 +187,17 @@ static int32_t blend_begins_q16(const gn_frame *frame, const gn_cascade_state *c
 {
     uint64_t k2_q24 = (uint64_t)frame->tan2_q24, fade_uq16 = frame->scene->shadow.cascade_fade_uq16;
     if (fade_uq16 > 57344) return 0; /* 7/8: the slice's nearest points may be outside, too */
-    int64_t c = cascade->centre_q16, flat = GN_FLAT_Q16(frame), limit = (int64_t)1 << 62,
-            inner = (int64_t)((uint64_t)gn_isqrt64(cascade->radius2_q32) * (65536 - fade_uq16) >> 16);
+    /* halves, Q15: squares are below 2^60 */
+    int64_t c = cascade->centre_q16 >> 1, flat = GN_FLAT_Q16(frame) >> 1, under,
+            inner = (int64_t)((uint64_t)gn_isqrt64(cascade->radius2_q32) * (65536 - fade_uq16) >> 17);
     gn_bfloat k2 = gn_bf_from_u64(k2_q24 | 1U);
-    if (flat) { /* (d - c)^2 = ((1 - fade) r)^2 - k^2 flat^2 */
-        int64_t under = inner * inner - gn_clamp64(gn_bf_apply(flat * flat, k2, -24), 0, limit);
-        return under > 0 ? (int32_t)gn_clamp64(c + gn_isqrt64((uint64_t)under), 0, INT32_MAX) : 0;
+    if (flat) under = inner * inner - gn_bf_apply(flat * flat, k2, -24); /* (d - c)^2 = ((1 - fade) r)^2 - k^2 flat^2 */
+    else { /* d = c / (1 + k^2) + root((((1 - fade) r)^2 - c^2 k^2 / (1 + k^2)) / (1 + k^2)) */
+        gn_bfloat per = gn_bf_recip(gn_bf_from_u64(((uint64_t)1 << 24) + k2_q24));
+        under = gn_bf_apply(inner * inner - gn_bf_apply(c * c, gn_bf_mul(k2, per), 0), per, 24);
+        c = gn_bf_apply(c, per, 24);
     }
-    /* (1 + k^2) d^2 - 2 c d + c^2 - ((1 - fade) r)^2 = 0; all below 2^30 */
-    int64_t rest = c * c - inner * inner, under = c * c - rest - gn_clamp64(gn_bf_apply(rest, k2, -24), -limit, limit);
-    if (under <= 0) return 0;
-    gn_bfloat per = gn_bf_recip(gn_bf_from_u64(((uint64_t)1 << 24) + k2_q24));
-    return (int32_t)gn_clamp64(gn_bf_apply(c + gn_isqrt64((uint64_t)under), per, 24), 0, INT32_MAX);
+    return under > 0 ? (int32_t)gn_clamp64(2 * (c + gn_isqrt64((uint64_t)under)), 0, INT32_MAX) : 0;
 }
 
 /* View depths that a cascade is looked up for. [D4] [D7] */
@@ -384,7 +383,7 @@ static void see_cascade(gn_frame *frame, gn_seen_job *job, gn_view_seen *seen, i
     }
     if (first_q16 >= last_q16) return;
     job->sphere_q16[0] = gn_cascade_fit_sphere(frame, near_q16, far_q16, &radius);
-    job->sphere_q16[1] = (int32_t)gn_clamp64(gn_bf_apply(1, radius, 16), 1, (int64_t)1 << 30);
+    job->sphere_q16[1] = (int32_t)gn_clamp64(gn_bf_apply(1, radius, 14), 1, (int64_t)1 << 30);
     begin_frustum(job, first_q16, last_q16);
     see_directional(job, seen);
 }

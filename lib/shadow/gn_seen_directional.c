@@ -7,11 +7,16 @@
 
 #if GN_TIGHT_FIT
 
+/* A coordinate moved by a length, |.| < 2^31. */
+static GN_NOINLINE int32_t moved_by(int32_t at, int32_t by)
+{
+    return gn_sat32((int64_t)at + by);
+}
+
 GN_COLD void gn_seen_from(gn_seen_job *job, uint32_t object_idx)
 {
     job->object = &job->frame->object[object_idx];
-    for (int k = 0; k < 3; k++)
-        job->from[k] = gn_sat32((int64_t)job->object->centre_q16[k] - job->frame->cam.eye_q16[k]);
+    for (int k = 0; k < 3; k++) job->from[k] = moved_by(job->object->centre_q16[k], -job->frame->cam.eye_q16[k]);
 }
 
 /* Along an axis: the middle of the box, per axis of the world half of it, and its bounds. */
@@ -31,21 +36,23 @@ GN_COLD void gn_seen_project_box(gn_seen_job *job, const int32_t axis_q30[3], ui
 GN_COLD void gn_seen_take(const gn_seen_job *job, gn_view_seen *seen)
 {
     const gn_cam *cam = &job->frame->cam;
-    const int32_t r_q16 = job->sphere_q16[1];
+    const int32_t quarter_q16 = job->sphere_q16[1];
+    const int64_t r_q16 = 4 * (int64_t)quarter_q16;
     int32_t centre[3];
     for (int k = 0; k < 3; k++) centre[k] = (int32_t)gn_shr64((int64_t)job->sphere_q16[0] * cam->axis_q30[2][k], 30);
     for (int k = 0; k < 3; k++) { /* below 2^30, as positions are within 2^29 */
         const int32_t middle = (int32_t)gn_dot_q30(job->axis_q30[k], centre),
                       eye = (int32_t)gn_dot_q30(job->axis_q30[k], cam->eye_q16);
-        int64_t least = (int64_t)middle - r_q16, most = (int64_t)middle + r_q16;
+        int64_t least = middle - r_q16, most = middle + r_q16;
         int32_t lo = (int32_t)gn_clamp64(job->along_lo[k], least, most),
                 hi = (int32_t)gn_clamp64(job->along_hi[k], least, most);
-        int32_t lacks = k < 2 ? gn_max32(r_q16 / 4 - (hi - lo), 0) : 0, before = eye - lacks / 2;
-        seen->lo_q16[k] = lo + before;
-        seen->hi_q16[k] = hi + before + lacks;
+        int32_t lacks = k < 2 ? gn_max32(quarter_q16 - (hi - lo), 0) : 0, before = eye - lacks / 2,
+                after = before + lacks;
+        seen->lo_q16[k] = moved_by(lo, before);
+        seen->hi_q16[k] = moved_by(hi, after);
         if (k == 2) break;
-        seen->cast_lo_q16[k] = job->cast_lo[k] + before;
-        seen->cast_hi_q16[k] = job->cast_hi[k] + before + lacks;
+        seen->cast_lo_q16[k] = moved_by(job->cast_lo[k], before);
+        seen->cast_hi_q16[k] = moved_by(job->cast_hi[k], after);
     }
 }
 
@@ -67,20 +74,20 @@ GN_COLD int gn_seen_take_fixed(gn_view_seen *seen, const gn_fixed_fit *fit)
 GN_COLD void gn_seen_note(gn_seen_job *job)
 {
     for (int k = 0; k < 3; k++) {
-        int32_t half = job->object->half_q16[k] - (job->object->half_q16[k] >> 3);
-        job->below[k] = gn_min32(job->below[k], gn_sat32((int64_t)job->from[k] - half));
-        job->above[k] = gn_max32(job->above[k], gn_sat32((int64_t)job->from[k] + half));
+        const int32_t from = job->from[k], half = job->object->half_q16[k];
+        job->below[k] = gn_min32(job->below[k], moved_by(from, -half));
+        job->above[k] = gn_max32(job->above[k], moved_by(from, half));
     }
 }
 
-/* Whether the box is as flat as a sheet, with all that is seen on the side of it that faces the light: a ground that
- * casts shadows nothing. */
+/* Whether the box is as flat as a sheet, and what is seen reaches no farther than next to nothing behind it: a ground
+ * that casts shadows nothing. */
 static int shadows_nothing(const gn_seen_job *job)
 {
     const int32_t *half = job->object->half_q16, *away = job->axis_q30[2];
     int32_t longest = gn_max32(half[0], gn_max32(half[1], half[2]));
     for (int k = 0; k < 3; k++) {
-        int64_t slack = longest >> 10;
+        int64_t slack = longest >> 8;
         if (half[k] > longest >> 12) continue;
         if (away[k] < 0 ? job->below[k] >= job->from[k] - slack : job->above[k] <= job->from[k] + slack)
             return gn_abs32(away[k]) > 1 << 20;

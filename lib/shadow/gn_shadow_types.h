@@ -37,7 +37,7 @@ typedef struct {
     const gn_object_state *object;
     int32_t axis_q30[3][3];        /* of the light */
     int32_t depth_q16[2];          /* of the part */
-    int32_t sphere_q16[2];         /* of a directional view: depth of the centre, radius */
+    int32_t sphere_q16[2];         /* of a directional view: depth of the centre, a quarter of the radius */
     int32_t part[8][6];            /* its corners */
     int32_t part_world[8][3];      /* along the world's axes */
     int32_t from[3];               /* middle of the box, along the world's axes */
@@ -47,7 +47,7 @@ typedef struct {
     int directional;
     int32_t along_lo[3], along_hi[3]; /* of what a directional view sees, along the light's axes */
     int32_t cast_lo[2], cast_hi[2];   /* of casters, along u and v */
-    int32_t below[3], above[3];       /* along the world's axes, bounds of seen objects less 1/16 of each */
+    int32_t below[3], above[3];       /* along the world's axes, bounds of seen objects */
 #if GN_PUNCTUAL_LIGHTS
     int32_t light_q16[3]; /* its position, along its axes */
     gn_bfloat tangent;    /* of half its view */

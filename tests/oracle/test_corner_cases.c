@@ -306,15 +306,20 @@ static void test_mirrored(void)
 
 /* ---- Light on cells ---------------------------------------------------------------------------------------------- */
 
-static metrics compare_engines(int preset)
+static metrics compare(void)
 {
-    settings_preset(&f.set, preset);
     engine_picture fixed = draw_fixed(), reference = draw_reference();
     metrics m;
     metrics_compute(&m, &fixed, &reference);
     engine_free(&fixed);
     engine_free(&reference);
     return m;
+}
+
+static metrics compare_engines(int preset)
+{
+    settings_preset(&f.set, preset);
+    return compare();
 }
 
 /* A floor, and a wall at its far end. */
@@ -345,6 +350,37 @@ static void test_sun_along_a_wall(void)
             const metrics m = compare_engines(preset);
             CHECK(m.shadow_mismatch < 0.01);
         }
+}
+
+/* Automatic bias takes the steep wall's depth below 0, and slopes do not bring it back: it is lit. [B5] [B6] */
+static void test_depth_below_the_range(void)
+{
+    for (int steep = 1; steep <= 4; steep++) {
+        begin();
+        f.s.shadow.filter = SCENE_FILTER_7X7;
+        f.light.direction[0] = 0.6;
+        f.light.direction[1] = -0.8;
+        f.light.direction[2] = -0.01 * steep;
+        f.light.auto_bias = SCENE_AUTO_BIAS_DEPTH;
+        f.light.receiver_plane = true;
+        add_floor_and_wall();
+        const metrics m = compare();
+        CHECK(m.shadow_mismatch < 0.001);
+    }
+}
+
+/* A sphere of 27000 of the library's units, and a floor in the dark: shadows fade as far as it reaches. [D6] */
+static void test_fade_in_a_large_sphere(void)
+{
+    static const double quad[12] = {-12, 0, -1, 12, 0, -1, 12, 0, -15, -12, 0, -15};
+    begin();
+    f.s.camera.focal = 0.25;
+    f.s.shadow.max_distance = 15.9;
+    f.s.shadow.cascade_fade = 0.875;
+    add(4, quad)->to_world.m[1][3] = -2;
+    add(4, quad)->to_world.m[1][3] = 2;
+    const metrics m = compare();
+    CHECK(m.atten_rms < 2e-4);
 }
 
 /* A lamp `away` before a point, without a shadow. */
@@ -464,6 +500,8 @@ int main(void)
     test_edge_on();
     test_mirrored();
     test_sun_along_a_wall();
+    test_depth_below_the_range();
+    test_fade_in_a_large_sphere();
     test_nearer_than_the_least_distance();
     test_cone_between_corners();
     test_terminator_of_a_lamp();

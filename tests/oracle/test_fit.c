@@ -403,6 +403,71 @@ static void check_scene(fixture *f, long i)
     ref_free(&fine);
 }
 
+/* A sheet low over the lower end of a slope, whose box is 18 times as high as that, beside a caster. */
+static void check_sheet(fixture *f)
+{
+    static const double slope[12] = {-16, 0, 16, 16, 0, 16, 16, 16, -16, -16, 16, -16};
+    static const double sheet[12] = {-1, 0.9, 16, 1, 0.9, 16, 1, 0.9, 14.8, -1, 0.9, 14.8};
+    static const double lo[3] = {-5, 3, 9}, hi[3] = {-4, 4, 10}, from[3] = {4, 3, 19}, at[3] = {-1, 1, 13},
+                        up[3] = {0, 1, 0};
+    const long dark_before = n_dark;
+    settings set;
+    begin(f);
+    add_quad(f, slope);
+    add_quad(f, sheet);
+    add_box(f, lo, hi);
+    f->objects[0].caster = SCENE_CASTER_OFF;
+    add_light(f, 1, -1, 0);
+    look(f, from, at, up);
+    f->s.camera.focal = 1.5;
+    f->s.shadow.max_distance = 30;
+    f->s.shadow.fit = SCENE_FIT_TIGHT;
+    settings_init(&set);
+    settings_preset(&set, SETTINGS_BALANCED);
+    const ref_options options = engine_ref_options(&f->s, &set, WIDTH, HEIGHT);
+    ref_picture tight = render_with(f, &options);
+    check_choices(f, &set, &tight);
+    check_coverage(f, &options);
+    CHECK(n_dark > dark_before + 40);
+    ref_free(&tight);
+    end(f);
+}
+
+/* Large spheres, in the library's units: of more than 16384 where tiles are r/4 wide, of less where cascades of a wide
+ * angle blend. */
+static void check_wide(fixture *f, bool blends)
+{
+    const double half = blends ? 12 : 0.5, lo[3] = {-half, 0, -half}, hi[3] = {half, 1, half};
+    static const double from[3] = {3, 4, 5}, at[3] = {0, 0, 0}, up[3] = {0, 1, 0};
+    const long other_before = n_other_choice;
+    settings set;
+    begin(f);
+    add_floor(f, blends ? 15 : 4, 0);
+    add_box(f, lo, hi);
+    add_light(f, 1, -2, -1);
+    look(f, from, at, up);
+    f->s.shadow.fit = SCENE_FIT_TIGHT;
+    f->s.shadow.max_distance = 9;
+    if (blends) {
+        f->s.shadow.n_cascades = 2;
+        f->s.shadow.cascade_ratio[0] = 0.8;
+        f->s.shadow.blend = SCENE_BLEND_SOFT;
+    }
+    settings_init(&set);
+    settings_preset(&set, SETTINGS_ACCURATE);
+    for (int i = 0; i < 8; i++) {
+        f->s.camera.half_height = blends ? 0 : 2 + i;
+        f->s.camera.focal = 0.4 + 0.02 * i;
+        f->s.shadow.cascade_fade = blends ? 0.1 : 0.8 + 0.01 * i;
+        const ref_options options = engine_ref_options(&f->s, &set, WIDTH, HEIGHT);
+        ref_picture p = render_with(f, &options);
+        check_choices(f, &set, &p);
+        ref_free(&p);
+    }
+    CHECK_EQ_INT(n_other_choice, other_before);
+    end(f);
+}
+
 int main(void)
 {
     static fixture f;
@@ -412,6 +477,9 @@ int main(void)
         check_scene(&f, i);
         end(&f);
     }
+    check_sheet(&f);
+    check_wide(&f, false);
+    check_wide(&f, true);
     printf("%ld views, %ld unseen, %ld otherwise chosen; %ld near planes are raised; of %ld shadowed points "
            "%ld are lost, %ld lie beyond their tile; %ld texels are flattened; off: tight %ld, stable %ld\n",
            n_views, n_unseen, n_other_choice, n_raised, n_dark, n_lost, n_beyond, n_flat, n_off[0], n_off[1]);

@@ -132,10 +132,10 @@ static void store(size_t at, uint32_t depth)
 }
 
 /* Whether the texel (i, j) lets the receiver be lit: its depth at the texel that is read, rounded to nearest in steps
- * of 2^-(bits + frac), limited to the far value. */
+ * of 2^-(bits + frac), limited to the far value. Depth 0 lies before all texels. */
 static int exact_lit(const gn_receiver *r, int64_t i, int64_t j)
 {
-    if (view.border_lit && (outside(i) || outside(j))) return 1;
+    if (!r->depth_q32 || (view.border_lit && (outside(i) || outside(j)))) return 1;
     int frac = view.depth_bits == 32 ? 0 : GN_DEPTH_FRAC_BITS, bits = view.depth_bits;
     i128 x_q44 = (i128)r->depth_q32 << 12, two = 2 << 28;
     i128 u = i128_clamp(i, 0, view.tile_texels - 1), v = i128_clamp(j, 0, view.tile_texels - 1);
