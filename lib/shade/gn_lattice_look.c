@@ -260,6 +260,11 @@ GN_HOT static GN_NOINLINE void add_error(gn_lattice_cell *cell, uint32_t slot, i
 /* Cells of this size may hide the light of a cone, or of the end of a range, that no corner sees. */
 enum { UNSEEN_LOG2 = 2 };
 
+GN_HOT static inline int any_of(const int32_t at[4])
+{
+    return (at[0] | at[1] | at[2] | at[3]) != 0;
+}
+
 /* Adds a light. Returns 0 if the cell is to be split. */
 GN_HOT static int add_light(gn_lattice_cell *cell, uint32_t slot)
 {
@@ -281,6 +286,8 @@ GN_HOT static int add_light(gn_lattice_cell *cell, uint32_t slot)
     if (GN_RAW_VIEWS && least != most && cell->frame->picture.format == GN_FORMAT_RAW32) return 0;
     if (gn_cell_is_limited(cell->s, colour, most)) return 0;
     if (!find_highlight(cell, slot, light)) return 0;
+    if (GN_SPECULAR && !least && any_of(light->highlight_q24))
+        return 0; /* it ends at once where the surface turns away */
     int faint = is_faint(cell, slot, least, most);
     int realtime = find_shares(cell, slot, light),
         shadow = realtime > 0 && !faint ? gn_cell_shadow(cell, slot, light) : GN_CELL_LIT;

@@ -205,9 +205,11 @@ GN_HOT void gn_patch_draw(gn_shading *s, gn_run_taker *taker)
             gn_pixel_fill(s->frame, &s->rows, x, y, left, packed);
             continue;
         }
-        gn_record_span(&p->record, s->frame, x, y, left, &span);
-        for (; left > 0; left -= GN_PATCH_ROW_PX, x += GN_PATCH_ROW_PX, span.at += GN_PATCH_ROW_PX)
-            draw_patch_row(s, &span, x, y, gn_min32(left, GN_PATCH_ROW_PX));
+        for (int32_t n = 0; left > 0; left -= n, x += n, span.at += n) {
+            if (!n || span.at >= span.n) gn_record_span(&p->record, s->frame, x, y, left, &span);
+            n = gn_min32(gn_min32(left, GN_PATCH_ROW_PX), span.n - span.at);
+            draw_patch_row(s, &span, x, y, n);
+        }
     } while (gn_runs_take(taker, stride));
 }
 

@@ -54,6 +54,11 @@ GN_HOT static int find_nearness(gn_patch_record *r, const gn_frame *frame)
     const uint32_t bend = ((most - least) >> 6) * (uint32_t)r->px, fine = GN_K(frame, persp_step) < 16;
     r->deep = bend > least >> (7 + fine);
     if (!r->deep) return 1;
+    /* pieces of rows are straight between their ends: where it changes by q they are off by up to q / 8 of their length
+     */
+    const int32_t w_px = (gn_max32(gn_max32(r->a[0], r->b[0]), 0) - gn_min32(gn_min32(r->a[0], r->b[0]), 0)) >> bits,
+                  n = gn_min32(w_px, GN_PATCH_ROW_PX);
+    if ((uint64_t)gn_abs32(tri->iz_dx) * (uint32_t)(n * n) > least >> fine) return 0;
     const int32_t clz = gn_clz32(r->iz_q32[0]);
     const uint32_t recip = recip_16(r->iz_q32[0] << clz);
     for (int k = 0; k < 2; k++) {
@@ -224,6 +229,10 @@ GN_HOT void gn_record_span(const gn_patch_record *r, const gn_frame *frame, int3
     int32_t k1 = e1 + (n - 1) * d1, k2 = e2 + (n - 1) * d2, k0 = e0 + (n - 1) * d0, first = x, last = x + n - 1;
     while ((e0 -= d0, e1 -= d1, e2 -= d2, e0 | e1 | e2) >= 0) first--;
     while ((k0 += d0, k1 += d1, k2 += d2, k0 | k1 | k2) >= 0) last++;
+    if (r->deep) { /* a piece of the row */
+        first += (x - first) & -GN_PATCH_ROW_PX;
+        last = gn_min32(last, first + GN_PATCH_ROW_PX - 1);
+    }
     out->n = last - first + 1;
     out->at = x - first;
     out->ends[0] = gn_record_weights(r, frame, first, y);

@@ -15,10 +15,11 @@ static void list_light(const gn_frame *frame, gn_surface *s, uint32_t light_idx)
 }
 
 #if GN_PUNCTUAL_LIGHTS
-/* Whether a light can affect the triangle: not from behind a flat one, and not from beyond the light's range. */
+/* Whether a light can affect the triangle: not from behind one that has no normals of its own, and not from beyond the
+ * light's range. */
 static int reaches(const gn_surface *s, const gn_light_state *light)
 {
-    if (!GN_SMOOTH(s)) {
+    if (!(GN_VERTEX_NORMALS && s->object->mesh->nrm_q15)) {
         int64_t side = 0; /* n points away from the viewer: negative is in front */
         GN_UNROLL
         for (int k = 0; k < 3; k++)

@@ -28,6 +28,9 @@ static void begin_frustum(gn_seen_job *job, int32_t first_q16, int32_t last_q16)
     for (uint32_t i = 0; i < 8; i++) {
         int32_t *at = job->part[i], p[3];
         at[2] = gn_seen_limited(job->depth_q16[i >> 2]);
+        while (!GN_FLAT_Q16(job->frame) &&
+               ((half_width_q32(job->frame, 0, at[2]) | half_width_q32(job->frame, 1, at[2])) >> 45 || at[2] >> 29))
+            at[2] >>= 1; /* on the edge through the eye, and within 2^30 of it */
         for (uint32_t k = 0; k < 2; k++) {
             int32_t wide = gn_seen_limited(gn_shr64(half_width_q32(job->frame, k, at[2]), 16));
             at[k] = i >> k & 1 ? wide : -wide;

@@ -91,6 +91,13 @@ static void fit_directional(gn_frame *frame, gn_light_view *view, const gn_light
     gn_ortho_fit_view(frame, view, light, near_q16, far_q16);
 }
 
+/* What the receiver's bias is to be in the view. */
+static void set_offset(gn_light_view *view, const gn_light *light)
+{
+    view->offset_q16 = gn_mul_shr(light->bias_normal_q16, 92682 * (view->filter_idx + 1), 16); /* sqrt(2) in Q16 */
+    if (GN_RECEIVER_BIAS) view->offset_q16 += (view->filter_idx + 1) * light->bias_receiver_q16[2];
+}
+
 static void fit(gn_frame *frame, gn_light_view *view, const gn_light *light, int cascaded)
 {
     view->bias_constant_q16 = light->bias_constant_q16;
@@ -104,8 +111,7 @@ static void fit(gn_frame *frame, gn_light_view *view, const gn_light *light, int
         gn_light_view_axes(view->axis_q30, w);
         gn_persp_fit_view(frame, view, light);
     }
-    view->offset_q16 = gn_mul_shr(light->bias_normal_q16, 92682 * (view->filter_idx + 1), 16); /* sqrt(2) in Q16 */
-    if (GN_RECEIVER_BIAS) view->offset_q16 += (view->filter_idx + 1) * light->bias_receiver_q16[2];
+    set_offset(view, light);
     if (GN_PUNCTUAL_LIGHTS && view->perspective)
         view->fit.persp.lift_q31 =
             (int32_t)gn_clamp64(gn_bf_apply(view->offset_q16, view->fit.persp.texel_per_z, 15), 0, INT32_MAX);
@@ -123,6 +129,8 @@ static inline int stays(gn_frame *frame, uint32_t idx, uint32_t light_idx, uint3
     if (!view->tile_done) return 0;       /* the frame was abandoned: the fit is newer than the texels */
     if (view->filter != filter) return 0; /* the kept view's filter was not validated in this scene */
     if (view->perspective || view->empty || view->light_idx != light_idx || view->cascade_idx != cascade_idx) return 0;
+    for (int k = 0; k < 3; k++) /* another light, or one that turned by 2 degrees */
+        if (gn_abs32(frame->light[light_idx].to_light_q30[k] + view->axis_q30[2][k]) >> 25) return 0;
 #if GN_TIGHT_FIT
     if (frame->scene->shadow.fit == GN_FIT_TIGHT)
         return !view->unseen && gn_ortho_covers(frame, view, &frame->scene->lights[light_idx], &frame->seen[idx]);
@@ -181,7 +189,10 @@ static void add_view(gn_frame *frame, uint32_t light_idx, const gn_tile_plan *pl
     view->border_lit = !view->perspective && !plan->cascaded;
     view->empty = plan->cascaded && frame->cascade[cascade_idx].radius2_q32 == 0;
     if (view->empty) return;
-    if (view->stale) gn_ortho_rays(frame, view);
+    if (view->stale) {
+        gn_ortho_rays(frame, view);
+        set_offset(view, &frame->scene->lights[light_idx]);
+    }
     if (GN_AUTO_BIAS && view->stale && frame->light[light_idx].auto_bias) gn_bias_auto_view(frame, view);
     /* a kept fit from a far narrower picture can leave a ray no fraction bits */
     if (view->stale && view->fit.ortho.ray_shift < 0) {
