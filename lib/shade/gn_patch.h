@@ -76,7 +76,7 @@ int gn_record_places(const gn_patch_record *r, const gn_frame *frame, const gn_r
 /* The weights at the centre of pixel (x, y), which the triangle covers. */
 gn_patch_weights gn_record_weights(const gn_patch_record *r, const gn_frame *frame, int32_t x, int32_t y);
 
-/* The row of n pixels from (x, y) on, all of which it covers. */
+/* The row of n pixels from (x, y) on, all of which it covers, or a piece of it that begins there or before. */
 void gn_record_span(const gn_patch_record *r, const gn_frame *frame, int32_t x, int32_t y, int32_t n,
                     gn_patch_span *out);
 

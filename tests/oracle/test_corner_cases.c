@@ -457,6 +457,44 @@ static void test_terminator_of_a_lamp(void)
         }
 }
 
+/* All vertices of a card have one normal, which is not its face's: a lamp behind the card lights it by that. [M3] */
+static void test_leaning_normals(void)
+{
+    static const double quad[12] = {-2, -1.5, -4, 2, -1.5, -4, 2, 1.5, -4, -2, 1.5, -4}, to[3] = {0.3, 2, -5};
+    for (int preset = SETTINGS_ACCURATE; preset >= SETTINGS_BALANCED; preset--)
+        for (int small = 0; small < 2; small++) {
+            begin();
+            add_lamp(SCENE_LIGHT_POINT, 0.1, to, 20);
+            scene_object *card = add(4, quad);
+            card->two_sided = true;
+            for (int k = 0; small && k < 3; k++) card->to_world.m[k][k] = 0.2; /* a patch */
+            for (int v = 0; v < 4; v++) f.nrm[0][3 * v + 1] = 1;
+            f.mesh[0].nrm = f.nrm[0];
+            const metrics m = compare_engines(preset);
+            CHECK(m.psnr_db > 41 && m.shadow_mismatch == 0);
+        }
+}
+
+/* A smooth and very glossy surface turns away from the sun: the highlight ends there. [M3] */
+static void test_highlight_at_a_terminator(void)
+{
+    static const double quad[12] = {-2, -1.5, -4, 2, -1.5, -4, 2, 1.5, -4, -2, 1.5, -4};
+    for (int i = 0; i < 8; i++) {
+        begin();
+        f.light.direction[0] = -0.9, f.light.direction[1] = 0.03 * i, f.light.direction[2] = 0.1;
+        scene_object *o = add(4, quad);
+        for (int c = 0; c < 3; c++) o->albedo[c] = 0.05, o->specular[c] = 1;
+        for (int v = 0; v < 4; v++) {
+            const double turn = (v % 3 ? 0.7 : -0.7) + 0.1 * v;
+            f.nrm[0][3 * v] = sin(turn);
+            f.nrm[0][3 * v + 2] = cos(turn);
+        }
+        f.mesh[0].nrm = f.nrm[0];
+        const metrics m = compare_engines(SETTINGS_BALANCED);
+        CHECK(m.psnr_db > 41 && m.max_error < 40);
+    }
+}
+
 /* A ceiling seen almost from its side, a lamp close to it: from one row of pixels to the next light is another. */
 static void test_lamp_at_an_edge_on_ceiling(void)
 {
@@ -505,6 +543,8 @@ int main(void)
     test_nearer_than_the_least_distance();
     test_cone_between_corners();
     test_terminator_of_a_lamp();
+    test_leaning_normals();
+    test_highlight_at_a_terminator();
     test_lamp_at_an_edge_on_ceiling();
     test_bright_lamp_on_dark_colours();
     return check_report();

@@ -667,6 +667,28 @@ static void test_schedule_left(void)
     }
 }
 
+/* Two suns that change places in the list, and bias of the receiver alone: nothing moves, so the schedule's pictures
+ * are those of a fresh renderer. [A5] */
+static void test_schedule_of_others(void)
+{
+    schedule_scene();
+    ls_add_light(&ls, GN_LIGHT_DIRECTIONAL);
+    gn_light *a = &ls.light[0], *b = &ls.light[ls.scene.n_lights - 1];
+    const int32_t other[3] = {GN_Q16(-1), GN_Q16(-1.5), GN_Q16(0.4)};
+    for (int k = 0; k < 3; k++) b->direction[k] = other[k];
+    for (uint32_t i = 0; i < 4; i++) ls.scene.shadow.refresh[i] = 4;
+    ls.scene.shadow.tile_sizes = GN_TILES_EQUAL;
+    init(&kept, 128);
+    render(&kept, &ls.scene, kept_pixels);
+    const gn_light swap = *a;
+    *a = *b, *b = swap;
+    for (int i = 0; i < 2; i++) {
+        render(&kept, &ls.scene, kept_pixels);
+        render_fresh(&ls.scene);
+        CHECK(!pixels_apart());
+    }
+}
+
 static void test_forget(void)
 {
     for (int scheduled = 0; scheduled < 2; scheduled++) {
@@ -761,6 +783,7 @@ int main(void)
     check_schedule_moving(0);
     check_schedule_moving(1);
     test_schedule_left();
+    test_schedule_of_others();
     test_forget();
     test_million_frames();
     test_thousands_of_frames();

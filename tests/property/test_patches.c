@@ -128,7 +128,7 @@ static int is_built(const look *l)
 static void begin_balls(const look *l)
 {
     static const int32_t target_q16[3] = {0, 0, 0};
-    const int32_t eye_q16[3] = {0, 0, l->what & NEAR ? GN_Q16(2.4) : GN_Q16(6)};
+    const int32_t eye_q16[3] = {0, 0, l->what & NEAR ? GN_Q16(3) : GN_Q16(6)};
     static const double at[BALLS + 1][4] = {
         {-0.2, 0, 0, 1}, {0.35, 0.75, 1.3, 0.3}, {1.7, -0.3, 0.2, 0.5}, {-0.2, 0, -3, 0.4}};
     static const gn_skin skin = {joint, joint_idx, weight_u8, 2, 2};
