@@ -149,7 +149,7 @@ void gn_surface_shadows(const gn_frame *frame, gn_surface *s)
 }
 #endif
 
-/* ---- Whether triangles are of one plane, by the positions of a mesh ---------------------------------------------- */
+/* ---- Whether two triangles are a parallelogram ------------------------------------------------------------------- */
 
 /* NUMERICS 4.18. */
 
@@ -198,71 +198,7 @@ static int is_parallelogram(const gn_object *object, const corners *v)
     return holds;
 }
 
-/* ---- Planes ------------------------------------------------------------------------------------------------------ */
-
-/* By the first 20 bits of the farthest coordinate: at most so far beside the plane, and so many times as far from the
- * triangle as it is large; faces lean by 2^-BEND_LOG2 at most. */
-enum { COORD_BITS = 20, BESIDE = 16, FAR = 4, BEND_LOG2 = 10 };
-
-/* From one vertex to another, 2^up times as long. */
-static void way(const gn_mesh *mesh, uint32_t from, uint32_t to, int32_t up, int32_t out[3])
-{
-    for (size_t i = 0; i < 3; i++)
-        out[i] = (int32_t)gn_scale64((int64_t)mesh->pos[3 * (size_t)to + i] - mesh->pos[3 * (size_t)from + i], -up);
-}
-
-/* Whether two normals lean by less than the limit; the first one's component i is its largest. */
-static int lean_alike(const int64_t n[3], const int64_t m[3], int i)
-{
-    int32_t a[3], b[3];
-    gn_norm_vec(a, n);
-    gn_norm_vec(b, m);
-    const int64_t both = (int64_t)a[i] * b[i];
-    for (int j = 0; j < 3; j++)
-        if ((int64_t)gn_abs64((int64_t)a[i] * b[j] - (int64_t)b[i] * a[j]) > both >> BEND_LOG2) return 0;
-    return both > 0;
-}
-
-/* Whether a triangle with the vertex d is on the plane of another one and faces the same way. */
-static int is_on_plane(const gn_mesh *mesh, const uint16_t *p, const uint16_t *q, uint32_t d)
-{
-    /* v: 2^20; w: 2^24, as triangles before are within 4 times of the first; six: 3 * 2^61 */
-    int32_t v[3][3], w[2][3];
-    int64_t n[3], m[3], beside[2][3], most = 1;
-    for (size_t i = 0; i < 3; i++) {
-        const int64_t from = mesh->pos[3 * (size_t)p[0] + i];
-        most |=
-            (int64_t)(gn_abs64(mesh->pos[3 * (size_t)p[1] + i] - from) |
-                      gn_abs64(mesh->pos[3 * (size_t)p[2] + i] - from) | gn_abs64(mesh->pos[3 * (size_t)d + i] - from));
-    }
-    const int32_t up = COORD_BITS + gn_clz64((uint64_t)most) - 64;
-    way(mesh, p[0], p[1], up, v[0]);
-    way(mesh, p[0], p[2], up, v[1]);
-    way(mesh, p[0], d, up, v[2]);
-    for (int k = 0; k < 2; k++) way(mesh, q[0], q[k + 1], up, w[k]);
-    gn_cross64(n, v[0], v[1]);
-    gn_cross64(m, w[0], w[1]);
-    gn_cross64(beside[0], v[2], v[1]);
-    gn_cross64(beside[1], v[0], v[2]);
-    int i = gn_abs64(n[1]) > gn_abs64(n[0]);
-    if (gn_abs64(n[2]) > gn_abs64(n[i])) i = 2;
-    const uint64_t whole = gn_abs64(n[i]);
-    const int64_t six = v[2][0] * n[0] + v[2][1] * n[1] + v[2][2] * n[2]; /* times the tetrahedron */
-    return whole >> COORD_BITS && lean_alike(n, m, i) && gn_abs64(six) <= BESIDE * whole &&
-           gn_abs64(beside[0][i]) <= FAR * whole && gn_abs64(beside[1][i]) <= FAR * whole &&
-           gn_abs64(n[i] - beside[0][i] - beside[1][i]) <= FAR * whole;
-}
-
-/* Whether all vertices have the same colour, and nothing else that may differ. */
-static int looks_even(const gn_object *object, const uint16_t *p, uint32_t vertex)
-{
-    const uint16_t *rgb = GN_VERTEX_COLOURS ? object->mesh->rgb_uq16 : NULL;
-    for (size_t i = 0; rgb && i < 3; i++)
-        for (int k = 0; k < 3; k++)
-            if (rgb[3 * (size_t)p[k] + i] != rgb[3 * (size_t)vertex + i]) return 0;
-    return !(GN_TEXTURES && (object->texture || object->emissive_texture)) &&
-           !(GN_MASKS && (object->mask_u8 || object->mask_image)) && !(GN_BAKED_LIGHT && object->baked_uq12);
-}
+/* ---- Pairs ------------------------------------------------------------------------------------------------------- */
 
 static int same_normal(const gn_mesh *mesh, uint32_t a, uint32_t b)
 {
@@ -305,10 +241,7 @@ gn_join gn_join_find(const gn_frame *frame, const gn_tri_source *tri)
     if (first + 1 >= mesh->n_triangles || !may_join(object, p) || !find_shared_edge(p, q, &v) ||
         !same_normal(mesh, p[0], (uint32_t)v.d))
         return alone;
-    if (is_parallelogram(object, &v)) return both;
-    return looks_even(object, p, (uint32_t)v.d) && !GN_FLAT_Q16(frame) && is_on_plane(mesh, p, q, (uint32_t)v.d)
-               ? both
-               : alone;
+    return is_parallelogram(object, &v) ? both : alone;
 }
 
 #endif

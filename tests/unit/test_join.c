@@ -94,10 +94,7 @@ static void test_parallelograms(void)
         parallelogram((int)rng_range(&random_state, 4, BITS_MOST));
         if (!CHECK(joined())) return;
         pos[rng_below(&random_state, 12)] += rng_below(&random_state, 2) ? 1 : -1;
-        /* one step beside it, which may still be the plane */
-        mesh.rgb_uq16 = rgb;
-        for (int i = 0; i < 12; i++) rgb[i] = (uint16_t)rng_below(&random_state, 65536);
-        if (!CHECK(!joined())) return; /* vertex colours need a parallelogram */
+        if (!CHECK(!joined())) return;
     }
 }
 
@@ -158,57 +155,6 @@ static void test_attributes(void)
         }
         if (!CHECK(!joined())) return;
     }
-}
-
-/* The fourth vertex anywhere near the plane: never far from it, and always if it is on it. */
-static void test_planes(void)
-{
-    unsigned n_joined = 0, n_on = 0;
-    for (int k = 0; k < CASES; k++) {
-        const int bits = (int)rng_range(&random_state, 6, BITS_MOST - 5);
-        wide e[3][3], n[3], six = 0, most = 1, largest = 0;
-        begin_pair();
-        for (int i = 0; i < 9; i++) pos[i] = coordinate(bits);
-        for (int i = 0; i < 12; i++) rgb[i] = (uint16_t)(1000 * (i % 3)); /* of one colour */
-        mesh.rgb_uq16 = k % 2 ? rgb : NULL;
-        const int32_t s = rng_range(&random_state, -3, 3), t = rng_range(&random_state, -3, 3),
-                      off = k % 3 ? 0 : coordinate(bits / 2);
-        for (int i = 0; i < 3; i++) {
-            e[0][i] = pos[3 + i] - pos[i];
-            e[1][i] = pos[6 + i] - pos[i];
-            e[2][i] = s * e[0][i] + t * e[1][i] + (i == 1 ? off : 0);
-            pos[9 + i] = (gn_position)(pos[i] + e[2][i]);
-            for (int j = 0; j < 3; j++) most = size_of(e[j][i]) > most ? size_of(e[j][i]) : most;
-        }
-        for (int i = 0; i < 3; i++) {
-            n[i] = e[0][(i + 1) % 3] * e[1][(i + 2) % 3] - e[0][(i + 2) % 3] * e[1][(i + 1) % 3];
-            six += n[i] * e[2][i];
-            largest = size_of(n[i]) > largest ? size_of(n[i]) : largest;
-        }
-        /* off the plane by six / |n|: at most 30 of 2^20 of the farthest coordinate */
-        const int said = joined();
-        const int is_parallelogram = s == -1 && t == 1 && !off;
-        n_joined += said;
-        if (said && !CHECK(is_parallelogram || size_of(six) << 19 <= 30 * most * largest)) return;
-        if (s >= 0 && !CHECK(!said)) return; /* folded back over the first one */
-        if (said && !is_parallelogram) { /* the faces lean by 2^-10, and what 20 bits of coordinates leave */
-            double a[3], b[3], ab = 0, aa = 0, bb = 0;
-            for (int i = 0; i < 3; i++) {
-                const int j = (i + 1) % 3, h = (i + 2) % 3;
-                a[i] = (double)n[i];
-                b[i] = (double)(e[1][j] * e[2][h] - e[1][h] * e[2][j]);
-                ab += a[i] * b[i];
-                aa += a[i] * a[i];
-                bb += b[i] * b[i];
-            }
-            if (!CHECK(ab > 0 && aa * bb - ab * ab <= aa * bb * 1e-5)) return;
-        }
-        const int near = t >= -3 && t <= 3 && s + t <= 4 && s + t >= -2;
-        if (six || s >= 0 || !near || largest * 64 < most * most) continue; /* sharp ones may be told or not */
-        n_on++;
-        if (!CHECK(said)) return;
-    }
-    CHECK(n_on > CASES / 8 && n_joined < CASES);
 }
 
 /* ---- What is drawn
@@ -349,11 +295,8 @@ static void test_others(void)
     object.emissive_texture = &texture;
     CHECK(!joined());
     object.emissive_texture = NULL;
-    for (int i = 0; i < 3; i++) pos[9 + i] += pos[6 + i] - pos[3 + i]; /* on the plane, no parallelogram */
-    CHECK(joined());
-    renderer.frame.cam.flat_q16 = 65536;
+    for (int i = 0; i < 3; i++) pos[9 + i] += pos[6 + i] - pos[3 + i]; /* on the plane */
     CHECK(!joined());
-    renderer.frame.cam.flat_q16 = 0;
     /* a strip of three: the last one is for itself */
     static const gn_position strip[15] = {0, 0, 0, 100, 0, 0, 100, 100, 0, 0, 100, 0, 0, 200, 0};
     static const uint16_t of_strip[9] = {0, 1, 2, 0, 2, 3, 3, 2, 4};
@@ -476,7 +419,6 @@ int main(void)
     test_floor();
     test_parallelograms();
     test_attributes();
-    test_planes();
     test_picture();
     test_runs();
     return check_report();
