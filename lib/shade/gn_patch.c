@@ -88,7 +88,7 @@ GN_HOT int gn_patch_begin(gn_shading *s, uint32_t id)
     if (!gn_patch_find_lights(s)) return 0;
 #if GN_TEXTURES
     if (object->texture && !(GN_RAW_VIEWS && s->frame->picture.format == GN_FORMAT_RAW32)) {
-        if (!gn_patch_find_texture(s)) return 0;
+        if (p->record.bent || !gn_patch_find_texture(s)) return 0;
         p->textured = 1;
     }
 #endif

@@ -229,6 +229,7 @@ GN_HOT static int set_places(gn_shading *s, const gn_light_view *view, const pat
     const int said = ask_texels(s, view, at, &light->texels);
     if (said == TEXELS_LIT) return GN_PATCH_LIT;
     if (said == TEXELS_DARK && !light->fades) return GN_PATCH_DARK;
+    if (s->lattice.from.patch.record.bent) return GN_PATCH_UNEVEN;
     light->view = view;
     light->has_words = said == TEXELS_EDGE;
     gn_patch_set(&light->u_q16, at->u[0], at->u[1], at->u[2]);

@@ -53,12 +53,13 @@ GN_HOT static int find_nearness(gn_patch_record *r, const gn_frame *frame)
     /* linear weights are off by a quarter of the change over the box: up to an eighth of a pixel, or a sixteenth */
     const uint32_t bend = ((most - least) >> 6) * (uint32_t)r->px, fine = GN_K(frame, persp_step) < 16;
     r->deep = bend > least >> (7 + fine);
+    r->bent = 0;
     if (!r->deep) return 1;
-    /* pieces of rows are straight between their ends: where it changes by q they are off by up to q / 8 of their length
-     */
+    /* pieces of rows are straight between their ends: where it changes by q they are off by up to q / 8 of their
+     * length, of a pixel by an eighth, or a sixteenth */
     const int32_t w_px = (gn_max32(gn_max32(r->a[0], r->b[0]), 0) - gn_min32(gn_min32(r->a[0], r->b[0]), 0)) >> bits,
                   n = gn_min32(w_px, GN_PATCH_ROW_PX);
-    if ((uint64_t)gn_abs32(tri->iz_dx) * (uint32_t)(n * n) > least >> fine) return 0;
+    r->bent = (uint64_t)gn_abs32(tri->iz_dx) * (uint32_t)(n * n) > least >> fine;
     const int32_t clz = gn_clz32(r->iz_q32[0]);
     const uint32_t recip = recip_16(r->iz_q32[0] << clz);
     for (int k = 0; k < 2; k++) {

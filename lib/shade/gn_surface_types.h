@@ -214,7 +214,8 @@ typedef struct {
     const gn_tri *tri;
     uint16_t vertex[3];   /* of the mesh, by corner */
     uint8_t back;         /* seen from behind */
-    uint8_t deep;         /* weights need the corners' depths */
+    uint8_t deep;         /* weights need the corners' depths, */
+    uint8_t bent;         /* and rows are too far from straight for texels */
     int32_t x0, y0;       /* the pixel that corner 0 lies in */
     int32_t off[2];       /* from corner 0 to its centre, right and down, subpixel_bits fraction bits */
     int32_t a[2], b[2];   /* from corner 0 to corners 1 and 2, likewise */
