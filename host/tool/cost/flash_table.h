@@ -1,16 +1,14 @@
-/* Made by host/generate/gen_flash.sh with 12.2.1. Bytes of flash: on Cortex-M0,
- * on Cortex-M4. */
-FLASH(typical, 63456, 56780) /* shadows 3, vertex_values 1, preset balanced */
-FLASH(no_shadows, -27312, -25556) /* without shadows, and what is of shadows */
-FLASH(vertex_values_0, -3776, -3376) /* with 0 */
-FLASH(vertex_values_3, 1788, 1648)   /* with 3 */
-FLASH(shadows_1, -2744, -2696)       /* other shadows */
-FLASH(shadows_2, -2556, -2512)       /* other shadows */
-FLASH(shadows_4, 0, 0)               /* other shadows */
-FLASH(shadows_5, 0, 8)               /* other shadows */
-FLASH(shadows_6, 2420, 2236)         /* other shadows */
-FLASH(punctual_unshadowed, -17288,
-      -16252) /* spot and point lights, no shadows: above no_shadows too */
+/* Made by host/generate/gen_flash.sh with 12.2.1. Bytes of flash: on Cortex-M0, on Cortex-M4. */
+FLASH(typical, 63456, 56780)               /* shadows 3, vertex_values 1, preset balanced */
+FLASH(no_shadows, -27312, -25556)          /* without shadows, and what is of shadows */
+FLASH(vertex_values_0, -3776, -3376)       /* with 0 */
+FLASH(vertex_values_3, 1788, 1648)         /* with 3 */
+FLASH(shadows_1, -2744, -2696)             /* other shadows */
+FLASH(shadows_2, -2556, -2512)             /* other shadows */
+FLASH(shadows_4, 0, 0)                     /* other shadows */
+FLASH(shadows_5, 0, 8)                     /* other shadows */
+FLASH(shadows_6, 2420, 2236)               /* other shadows */
+FLASH(punctual_unshadowed, -17288, -16252) /* spot and point lights, no shadows: above no_shadows too */
 FLASH(other_lights, 20808, 19716)          /* with */
 FLASH(other_lights_2, 300, 300)            /* with 2 */
 FLASH(texture_formats, 6064, 5516)         /* with */
