@@ -134,11 +134,12 @@ static void test_begin(void)
         const int fine = GN_K(&frame, persp_step) < 16, across = (int)(hi[0] - lo[0]) >> bits;
         const double piece = across < 16 ? across : 16, off = fabs((double)tri.iz_dx) * piece * piece / least,
                      bend = (most - least) * px / least;
-        const int straight = bend < (fine ? 0.24 : 0.49), deep = bend > (fine ? 0.26 : 0.51);
+        const int straight = bend<(fine ? 0.24 : 0.49), deep = bend>(fine ? 0.26 : 0.51);
         if (fabs(ratio - 1.5) > 16 / least && fabs(units - 1) > 16 / least && (straight || deep) &&
             fabs(off * (1 + fine) - 1) > 0.001)
             HOLDS(&refused,
-                  small == (wide && px <= GN_PATCH_PX && ratio < 1.5 && units > 1 && (straight || off * (1 + fine) < 1)),
+                  small ==
+                      (wide && px <= GN_PATCH_PX && ratio < 1.5 && units > 1 && (straight || off * (1 + fine) < 1)),
                   "%d pixels, near / Z changes by %g, from %g units on", px, ratio, units);
         if (!small) continue;
         HOLDS(&t, r.px == px && r.back == (order > 3), "%d pixels, not %d", (int)r.px, px);
