@@ -134,7 +134,9 @@ static void test_begin(void)
         const int fine = GN_K(&frame, persp_step) < 16, across = (int)(hi[0] - lo[0]) >> bits;
         const double piece = across < 16 ? across : 16, off = fabs((double)tri.iz_dx) * piece * piece / least,
                      bend = (most - least) * px / least;
-        const int straight = bend<(fine ? 0.24 : 0.49), deep = bend>(fine ? 0.26 : 0.51);
+        const double limit = fine ? 0.25 : 0.5, cut = 64.0 * px / least; /* six bits of the change */
+        const int straight = bend < 0.99 * limit;
+        const int deep = bend - cut > 1.01 * limit;
         if (fabs(ratio - 1.5) > 16 / least && fabs(units - 1) > 16 / least && (straight || deep) &&
             fabs(off * (1 + fine) - 1) > 0.001)
             HOLDS(&refused,
