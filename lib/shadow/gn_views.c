@@ -130,7 +130,9 @@ static inline int stays(gn_frame *frame, uint32_t idx, uint32_t light_idx, uint3
     if (view->filter != filter) return 0; /* the kept view's filter was not validated in this scene */
     if (view->perspective || view->empty || view->light_idx != light_idx || view->cascade_idx != cascade_idx) return 0;
     for (int k = 0; k < 3; k++) /* another light, or one that turned by 2 degrees */
-        if (gn_abs32(frame->light[light_idx].to_light_q30[k] + view->axis_q30[2][k]) >> 25) return 0;
+        if (gn_abs32((int32_t)((uint32_t)frame->light[light_idx].to_light_q30[k] + (uint32_t)view->axis_q30[2][k])) >>
+            25)
+            return 0;
 #if GN_TIGHT_FIT
     if (frame->scene->shadow.fit == GN_FIT_TIGHT)
         return !view->unseen && gn_ortho_covers(frame, view, &frame->scene->lights[light_idx], &frame->seen[idx]);

@@ -667,8 +667,9 @@ static void test_schedule_left(void)
     }
 }
 
-/* Two suns that change places in the list, and bias of the receiver alone: nothing moves, so the schedule's pictures
- * are those of a fresh renderer. [A5] */
+/* Two suns that change places in the list: nothing moves, so the schedule's pictures are those of a fresh renderer.
+ * [A5]
+ */
 static void test_schedule_of_others(void)
 {
     schedule_scene();
@@ -685,7 +686,7 @@ static void test_schedule_of_others(void)
     for (int i = 0; i < 2; i++) {
         render(&kept, &ls.scene, kept_pixels);
         render_fresh(&ls.scene);
-        CHECK(!pixels_apart());
+        CHECK(!memcmp(kept_pixels, fresh_pixels, W * H * BYTES));
     }
 }
 

@@ -282,6 +282,10 @@ for spot in "rim 32 hard" "wide 16 5x5"; do
     good compare "tests/data/$1.gltf" --with truth --set "other_atlas_size=$2" --set "other_filter=$3" --json
     grep -qE '"atten_max": (1|0\.[0-9]+)[,}]' "$tmp/out" && fail "a plane shadows itself: $1: $(tr , '\n' <"$tmp/out" | grep atten_max | head -n 1)" || pass
 done
+# a frustum whose far corners lie beyond the library's coordinates: tight fits hold the picture's edges
+good compare tests/data/frustum.gltf --size 128x32 --set preset=balanced --set atlas_size=256 --json
+sed -n 's/.*"shadow_mismatch": *\([0-9.e-]*\).*/\1/p' "$tmp/out" | awk '{ n = 1; exit $1 > 0.004 } END { if (!n) exit 1 }' &&
+    pass || fail "shadows at the edges of a wide picture: $(cut -c 1-200 "$tmp/out")"
 # narrow cones, whose edge turns the last bits of a cosine into much light
 for cone in 0.0087 0.0175 0.05 0.1; do
     sed "s/0.0174532925/$cone/" tests/data/narrow.gltf >"$tmp/narrow.gltf"
