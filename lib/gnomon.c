@@ -100,6 +100,7 @@
 #include "shade/gn_patch_light.c"
 #include "shade/gn_patch_shadow.c"
 #include "shade/gn_record.c"
+#include "shade/gn_screen_plane.c"
 #endif
 #include "shade/gn_sample.c"
 #include "shade/gn_shadow.c"

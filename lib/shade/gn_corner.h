@@ -23,6 +23,19 @@ int gn_corner_find_anchor(gn_lattice *lattice, const gn_frame *frame, const gn_s
 void gn_corner_find(const gn_lattice *lattice, const gn_frame *frame, const gn_surface *surface, int32_t x, int32_t y,
                     gn_sample *sample, gn_corner *corner);
 
+/* ---- The plane on the screen: gn_screen_plane.c -------------------------------------------------------------------
+ */
+
+GN_HOT static inline int32_t gn_slope_at(const gn_slope *s, int32_t dx, int32_t dy)
+{
+    return s->at + s->dx * dx + s->dy * dy;
+}
+
+/* Finds forms of the surface at a common scale, for pixels of `rect` and `beyond` more each way. Returns 0 if they do
+ * not fit. */
+int gn_screen_plane_find(gn_screen_plane *plane, const gn_frame *frame, const gn_surface *surface, const gn_rect *rect,
+                         int32_t beyond);
+
 /* View depth of the plane at a pixel, and barycentrics there, both linear on the screen: of an orthographic camera
  * alone. Returns 0 far off the triangle. */
 int32_t gn_corner_flat_depth(const gn_screen_plane *plane, const gn_surface *surface, int32_t x, int32_t y,
@@ -37,7 +50,7 @@ GN_HOT static inline int32_t gn_corner_seen_depth(const gn_lattice *l, const gn_
     int32_t b_q28[2];
     if (GN_FLAT_Q16(frame)) return gn_corner_flat_depth(p, s, x, y, b_q28);
 #endif
-    int32_t w = p->w.at + p->w.dx * (x - p->x) + p->w.dy * (y - p->y);
+    int32_t w = gn_slope_at(&p->w, x - p->x, y - p->y);
     if (w < p->w_least || w >= 1 << 30) return 0;
     int32_t clz = gn_clz32((uint32_t)w), shift = p->z_shift - clz;
     if (shift < 1 || shift > 31) return 0;

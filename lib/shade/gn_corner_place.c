@@ -52,7 +52,7 @@ GN_HOT static inline int32_t plane_depth(const gn_lattice *l, const gn_frame *fr
     int32_t b_q28[2];
     if (GN_FLAT_Q16(frame)) return gn_max32(1, gn_min32(gn_corner_flat_depth(p, s, x, y, b_q28), s->z_max_q16));
 #endif
-    int32_t w = gn_max32(p->w.at + p->w.dx * (x - p->x) + p->w.dy * (y - p->y), 1 << 10), clz = gn_clz32((uint32_t)w);
+    int32_t w = gn_max32(gn_slope_at(&p->w, x - p->x, y - p->y), 1 << 10), clz = gn_clz32((uint32_t)w);
     uint32_t z = gn_umul_high(s->depth_scale.mant, gn_recip_norm((uint32_t)w << clz, GN_RECIP_STEPS(frame)));
     int32_t shift = p->z_shift - clz;
     if (shift < 1) return s->z_max_q16;

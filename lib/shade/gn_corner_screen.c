@@ -196,21 +196,16 @@ GN_HOT static inline const gn_view_forms *forms_of(gn_lattice *l, const gn_frame
     return forms;
 }
 
-GN_HOT static inline int32_t value_at(const gn_slope *s, int32_t dx, int32_t dy)
-{
-    return s->at + s->dx * dx + s->dy * dy;
-}
-
 GN_HOT int gn_corner_place_flat(gn_lattice *l, const gn_frame *frame, const gn_surface *s, uint32_t slot,
                                 const gn_light_view *view, int32_t x, int32_t y, gn_corner_light *at)
 {
     const gn_view_forms *forms = forms_of(l, frame, s, slot, view);
     int32_t dx = x - l->plane.x, dy = y - l->plane.y;
     if (forms->near_up == INT32_MAX) return 0;
-    int32_t u = value_at(&forms->u, dx, dy), v = value_at(&forms->v, dx, dy), z = value_at(&forms->z, dx, dy);
+    int32_t u = gn_slope_at(&forms->u, dx, dy), v = gn_slope_at(&forms->v, dx, dy), z = gn_slope_at(&forms->z, dx, dy);
     /* what roundings of slopes do not matter to, nor carry to 2^30 */
     if ((uint32_t)(z - forms->z_least) >= (uint32_t)((1 << 30) - forms->z_least)) return 0;
-    int32_t clz = gn_clz32((uint32_t)z), down = 12 - view->tile_log2, near = value_at(&forms->near, dx, dy);
+    int32_t clz = gn_clz32((uint32_t)z), down = 12 - view->tile_log2, near = gn_slope_at(&forms->near, dx, dy);
     uint32_t recip = gn_recip_norm((uint32_t)z << clz, GN_RECIP_STEPS(frame)); /* 2^63 / (z 2^clz) */
     uint32_t share = near < 0 ? 0 : gn_umul_high((uint32_t)near, recip);
     int32_t half = (int32_t)(recip >> 1);

@@ -203,10 +203,11 @@ GN_HOT static GN_NOINLINE void find_screen_bounds(const gn_frame *frame, const g
     out->y1 = gn_min32((h + 2 - lo[1]) >> 1, h);
 }
 
-/* Cells as large as the knob says, but not much larger than the surface; if its normals turn, than its shorter side. */
+/* Cells as large as the knob says, half of that under several lamps, which large ones seldom hold for; not much larger
+ * than the surface, or than its shorter side if its normals turn. */
 GN_HOT static int32_t cell_log2(const gn_frame *frame, const gn_surface *s, const gn_rect *box)
 {
-    int32_t most = GN_K(frame, persp_step) >= 8 ? 4 : 3, log2 = GN_SMALLEST_CELL_LOG2;
+    int32_t most = GN_K(frame, persp_step) >= 8 && s->n_punctual < 2 ? 4 : 3, log2 = GN_SMALLEST_CELL_LOG2;
     int32_t w = box->x1 - box->x0, h = box->y1 - box->y0, across = GN_SMOOTH(s) ? gn_min32(w, h) : gn_max32(w, h);
     (void)frame, (void)s;
     while (log2 < most && 1 << log2 < across) log2++;

@@ -113,10 +113,17 @@ gn_window *gn_lattice_window(gn_lattice *lattice, const gn_frame *frame, const g
                              uint32_t view_idx, int32_t x, int cells);
 
 #if GN_SHADOWS
-/* Attenuations of a row of n receivers that the window does not cover: it is made for them, and for `more` texels along
- * each axis as far as it goes; or for a half, a quarter... of the row at a time. Returns what gn_window_row() does. */
-int gn_lattice_follow(const gn_frame *frame, gn_window *window, const gn_receiver_step *row,
-                      const gn_receiver_step *step, int32_t n, int32_t behind, const int32_t more[2], uint32_t *out);
+/* Attenuations of n pixels that are alike; none if they are not. */
+GN_HOT static inline void gn_attenuations_set(uint32_t *out, int32_t n, int said)
+{
+    for (const uint32_t *end = out + n; said != GN_WINDOW_MIXED && out < end;)
+        *out++ = said == GN_WINDOW_LIT ? 65536 : 0;
+}
+
+/* What gn_window_row() says of a row of n receivers. Where the window does not cover them, one of a plane is made anew
+ * for them, or for a half, a quarter... of them at a time; `at` is moved on then. */
+int gn_lattice_row(const gn_frame *frame, gn_window *window, gn_receiver_step *at, const gn_receiver_step *step,
+                   int32_t n, int32_t behind, uint32_t *out);
 #endif
 
 #if GN_SHADOWS

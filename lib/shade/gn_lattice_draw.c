@@ -172,37 +172,29 @@ GN_HOT static void find_row(const gn_drawing *d, const gn_lattice_edge *edge, in
     at->depth_q31 = gn_flat_patch_at(&edge->depth_q30, d->first, below);
 }
 
-/* Attenuations where all are alike. */
-GN_HOT static void set_alike(uint32_t *out, const uint32_t *end, int said)
+/* A lookup for each of n pixels in a row. */
+GN_HOT static GN_NOINLINE void look_up_each(const gn_drawing *d, const gn_lattice_edge *edge,
+                                            const gn_receiver_step *row, const gn_receiver_step *step, int32_t x,
+                                            int32_t y, int32_t n, uint32_t *out)
 {
-    while (out < end) *out++ = said == GN_WINDOW_LIT ? 65536 : 0;
+    gn_receiver_step at = *row;
+    for (const int32_t end = x + n; x < end; x++) {
+        *out++ = lookup(d, edge->view, edge->slope_q28, &at, x, y);
+        gn_receiver_advance(&at, step, 1);
+    }
 }
 
-/* Attenuations of nodes from .. end - 1 of such a row. Returns GN_WINDOW_LIT or _DARK if all of them are, and sets
- * none; else _MIXED. */
-GN_HOT static int look_up_row(const gn_drawing *d, const gn_lattice_edge *edge, int32_t below,
-                              const gn_receiver_step *row, const gn_receiver_step *step, int32_t from, int32_t end,
-                              uint32_t *out)
+/* Attenuations of n nodes of a row, the first of which is node `first` of the cell's row `below`. Returns GN_WINDOW_LIT
+ * or _DARK if all of them are, and sets none; else _MIXED. */
+GN_HOT static int look_up_row(const gn_drawing *d, const gn_lattice_edge *edge, int32_t below, int32_t first,
+                              gn_receiver_step *at, const gn_receiver_step *step, int32_t n, uint32_t *out)
 {
-    gn_receiver_step at = {row->u_q16 + from * step->u_q16, row->v_q16 + from * step->v_q16,
-                           row->depth_q31 + from * step->depth_q31};
-    GN_COUNT(edge_lookups, end - from);
+    GN_COUNT(edge_lookups, n);
     if (edge->window && edge->window->view == edge->view) {
-        int said = gn_window_row(d->s->frame, edge->window, &at, step, end - from, -1, out + from);
+        int said = gn_lattice_row(d->s->frame, edge->window, at, step, n, -1, out);
         if (said != GN_WINDOW_MISSED) return said;
-        if (edge->follows) {
-            const int32_t rows = (1 << d->size_log2) - below,
-                          more[2] = {rows * (edge->u_q16.dy >> 8) >> 8, rows * (edge->v_q16.dy >> 8) >> 8};
-            said = gn_lattice_follow(d->s->frame, edge->window, &at, step, end - from, -1, more, out + from);
-            if (said != GN_WINDOW_MISSED) return said;
-        }
     }
-    for (int32_t i = from; i < end; i++) {
-        out[i] = lookup(d, edge->view, edge->slope_q28, &at, d->x + d->first + i, d->y + below);
-        at.u_q16 += step->u_q16;
-        at.v_q16 += step->v_q16;
-        at.depth_q31 = (int32_t)((uint32_t)at.depth_q31 + (uint32_t)step->depth_q31); /* not used beyond the cell */
-    }
+    look_up_each(d, edge, at, step, d->x + d->first + first, d->y + below, n, out);
     return GN_WINDOW_MIXED;
 }
 
@@ -211,18 +203,17 @@ GN_HOT static int look_up_row(const gn_drawing *d, const gn_lattice_edge *edge, 
 GN_HOT static GN_NOINLINE void look_up_two(const gn_drawing *d, const gn_lattice_edge *edge, int32_t below,
                                            uint32_t *out)
 {
-    gn_receiver_step at[2], step[2];
-    for (int k = 0; k < 2; k++) {
-        find_row(d, edge + k, below, &at[k], &step[k]);
-        if (edge[k].bent & GN_PLACES_BY_ROW) place_flat_row(d, edge + k, below, &at[k], &step[k]);
-    }
+    gn_receiver_step at, step;
     const gn_flat_patch *border = &edge[1].more_q24[0];
     const int32_t first = gn_flat_patch_at(border, d->first, below), across = border->dx + below * border->dxy;
     for (int32_t from = 0, end; from < d->n; from = end) { /* |first + i across| < 2^29: a corner's is below 2^28 */
         int k = first + from * across < 0;
         for (end = from + 1; end < d->n && (first + end * across < 0) == k;) end++;
-        int said = look_up_row(d, edge + k, below, &at[k], &step[k], from, end, out);
-        if (said != GN_WINDOW_MIXED) set_alike(out + from, out + end, said);
+        find_row(d, edge + k, below, &at, &step);
+        if (edge[k].bent & GN_PLACES_BY_ROW) place_flat_row(d, edge + k, below, &at, &step);
+        gn_receiver_advance(&at, &step, from);
+        int said = look_up_row(d, edge + k, below, from, &at, &step, end - from, out + from);
+        gn_attenuations_set(out + from, end - from, said);
     }
 }
 #endif
@@ -234,7 +225,7 @@ GN_HOT static GN_NOINLINE int look_up_one(const gn_drawing *d, const gn_lattice_
     gn_receiver_step at, step;
     find_row(d, edge, below, &at, &step);
     if (edge->bent && !place_flat_row(d, edge, below, &at, &step)) place_row(d, edge, below, &at, &step);
-    return look_up_row(d, edge, below, &at, &step, 0, d->n, out);
+    return look_up_row(d, edge, below, 0, &at, &step, d->n, out);
 }
 
 /* The same of any row of pixels, `below` pixels under the cell's first row. */
@@ -286,7 +277,7 @@ GN_HOT static void find_nodes(const gn_drawing *d, int32_t below, int32_t (*node
             gn_row_add(d, edge->more_q24, below, &row);
             continue;
         }
-        if (said == GN_WINDOW_LIT) set_alike(share, share + d->n, said);
+        gn_attenuations_set(share, d->n, said);
         if (!is_put) gn_row_put(&row, node, node + d->n);
         add_edge_light(d, edge, below, node);
         is_put = 1;

@@ -21,7 +21,6 @@ GN_HOT static int find_places(const gn_lattice_cell *cell, uint32_t slot, uint32
     uint32_t seen = 0; /* 0: not; else how bias moves the point */
     p->view = &cell->frame->view[cell->s->light[slot].state->view_idx + (int32_t)view_idx];
     p->window = NULL;
-    p->follows = 0;
     p->view_idx = view_idx;
     p->bent = GN_PLACES_BILINEAR;
     GN_UNROLL
@@ -115,8 +114,7 @@ GN_HOT static int ask_new_window(const gn_lattice_cell *cell, gn_window *window,
     if (window->planar < 0) window->w = 0;
     if (alone && p->view->perspective) return GN_CELL_EDGE;
     const int said = verdict_of_window(cell->frame, window, p, lo, hi, 1);
-    p->follows = window->planar > 0;
-    if (!alone && (said != GN_CELL_SPLIT || p->follows)) p->window = window;
+    if (!alone && (said != GN_CELL_SPLIT || window->planar > 0)) p->window = window;
     return said == GN_CELL_SPLIT ? GN_CELL_EDGE : said;
 }
 
@@ -127,7 +125,6 @@ GN_HOT static int verdict(const gn_lattice_cell *cell, uint32_t slot, gn_cell_pl
     int32_t depth_lo, depth_hi;
     gn_window *window;
     p->window = NULL;
-    p->follows = 0;
     range_of(p->u, &lo.u_q16, &hi.u_q16);
     range_of(p->v, &lo.v_q16, &hi.v_q16);
     range_of(p->depth, &depth_lo, &depth_hi);
@@ -139,7 +136,6 @@ GN_HOT static int verdict(const gn_lattice_cell *cell, uint32_t slot, gn_cell_pl
     int said = window && window->planar > 0 ? verdict_of_window(cell->frame, window, p, &lo, &hi, 0) : GN_CELL_SPLIT;
     if (said != GN_CELL_SPLIT) {
         p->window = window;
-        p->follows = 1;
         return said;
     }
     return window ? ask_new_window(cell, window, p, &lo, &hi) : GN_CELL_EDGE;
@@ -185,7 +181,6 @@ GN_HOT static int add_edge(const gn_lattice_cell *cell, uint32_t slot, gn_cell_p
     gn_lattice_edge *edge = &out->edge[out->n_edges++];
     edge->view = p->view;
     edge->window = p->window;
-    edge->follows = (uint8_t)p->follows;
     edge->slot = (uint8_t)slot;
     edge->view_idx = (uint8_t)p->view_idx;
     edge->bent = (uint8_t)p->bent;

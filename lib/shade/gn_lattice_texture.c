@@ -187,7 +187,7 @@ GN_HOT static void find_pulls(const gn_screen_plane *plane, int32_t x, int32_t y
     if (!bends) return; /* an orthographic camera's plane has no w */
     const gn_slope *w = &plane->w;
     int32_t right = w->dx * (1 << size_log2), down = w->dy * (1 << size_log2),
-            first = w->at + w->dx * (x - plane->x) + w->dy * (y - plane->y), middle = first + (right >> 1);
+            first = gn_slope_at(w, x - plane->x, y - plane->y), middle = first + (right >> 1);
     for (int i = 0; i < 2; i++) {
         int32_t row = first + i * down, column = first + i * right;
         if (bends & 1) out->row_q30[i] = pull_q30(row, row + right);

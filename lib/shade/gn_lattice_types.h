@@ -79,8 +79,7 @@ typedef struct {
     const gn_light_view *view;
     gn_window *window; /* NULL: none */
     uint8_t slot, view_idx;
-    uint8_t bent;    /* rows are placed each for itself */
-    uint8_t follows; /* the window is made anew for rows that it does not cover */
+    uint8_t bent; /* rows are placed each for itself */
     gn_flat_patch u_q16, v_q16, depth_q30;
     gn_flat_patch more_q24[3]; /* what it adds where it is not in shadow; of the second of two faces, which adds the
                              same, the first one tells the border between them */
@@ -174,7 +173,6 @@ typedef struct {
 typedef struct {
     const gn_light_view *view;
     gn_window *window;
-    int follows; /* the window, where it does not cover rows, may be made anew */
     uint32_t view_idx;
     int bent;    /* GN_PLACES_... */
     int outside; /* of the tile, so that bias goes along rays: forms on the screen do not say where */
@@ -245,10 +243,9 @@ typedef struct {
 } gn_view_matrix;
 
 #if GN_SHADOWS
-/* Tile coordinates of places of a part, and one of them. */
+/* Tile coordinates of places of a part. */
 typedef struct {
     int32_t lo[2], hi[2];
-    gn_window_place place;
 } gn_seen_box;
 
 /* What a window is made of: places in a view of a light of the list. */

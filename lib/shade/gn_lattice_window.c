@@ -80,8 +80,8 @@ GN_HOT static inline int see_flat(gn_lattice *l, const gn_frame *frame, const gn
 }
 
 /* Where the view sees the anchor of a flat surface. Returns 0 if it does not. */
-GN_HOT static int place_anchor(gn_lattice *l, const gn_frame *frame, const gn_surface *s, uint32_t slot,
-                               uint32_t view_idx, const gn_light_view *view, gn_window_place *out)
+GN_HOT static GN_NOINLINE int place_anchor(gn_lattice *l, const gn_frame *frame, const gn_surface *s, uint32_t slot,
+                                           uint32_t view_idx, const gn_light_view *view, gn_window_place *out)
 {
     gn_corner *c = &l->corner;
     gn_corner_light *at = &c->light[slot];
@@ -105,11 +105,10 @@ GN_HOT static int place_anchor(gn_lattice *l, const gn_frame *frame, const gn_su
     return !((gn_abs32(at->u_q16) | gn_abs32(at->v_q16)) >> 30);
 }
 
-/* The surface's plane in a view, by the block's anchor. */
+/* Slopes of the surface's plane in a view, by the block's anchor. */
 GN_HOT static GN_NOINLINE void begin_window(gn_lattice *l, const gn_frame *frame, const gn_surface *s, uint32_t slot,
-                                            uint32_t view_idx, gn_window *window)
+                                            const gn_light_view *view, gn_window *window)
 {
-    const gn_light_view *view = &frame->view[s->light[slot].state->view_idx + (int32_t)view_idx];
     int32_t slope[2], from[3] = {0, 0, 0};
     int on_plane = GN_PLANES && gn_shadow_has_plane(frame, view);
 #if GN_CHANGES
@@ -127,46 +126,27 @@ GN_HOT static GN_NOINLINE void begin_window(gn_lattice *l, const gn_frame *frame
 #endif
     gn_shadow_plane_slopes(view, l->face_q30, from, slope);
     gn_window_begin(window, frame, view, slope, own_distance_q30(l, frame, s, slot, view, from, slope), on_plane);
-    if (!window->planar) return;
-    if (!stays_planar(l, s, slot)) window->planar = -1;
-    else window->planar = place_anchor(l, frame, s, slot, view_idx, view, &window->place);
+    if (window->planar && !stays_planar(l, s, slot)) window->planar = -1;
 }
 
-/* Widens the box to a pixel, as the view sees it that a window is made of. The place in it is that of the last one that
- * was seen without `uv`. Returns 0 if the surface is not seen there, or beyond what windows hold. */
-GN_HOT static int see(gn_lattice *l, const gn_frame *frame, const gn_surface *s, int32_t x, int32_t y, int uv,
-                      gn_seen_box *box)
+/* Widens the box to a pixel, as the view sees it that a window is made of. Returns 0 if the surface is not seen there,
+ * or beyond what windows hold. */
+GN_HOT static int see(gn_lattice *l, const gn_frame *frame, const gn_surface *s, int32_t x, int32_t y, gn_seen_box *box)
 {
     const uint32_t slot = l->row.seen.slot, view_idx = l->row.seen.view_idx;
     const gn_light_view *view = &frame->view[s->light[slot].state->view_idx + (int32_t)view_idx];
-    gn_window_place *place = &box->place;
-    if (view->perspective || !see_flat(l, frame, s, slot, view, x, y, uv, place)) {
+    gn_window_place place;
+    if (view->perspective || !see_flat(l, frame, s, slot, view, x, y, 1, &place)) {
         gn_corner *c = &l->corner;
         if (!gn_corner_locate(l, frame, s, slot, x, y, c) || !gn_corner_place(l, frame, s, c, slot, view_idx)) return 0;
-        place->u_q16 = c->light[slot].u_q16;
-        place->v_q16 = c->light[slot].v_q16;
-        place->depth_q30 = c->light[slot].depth_q30;
+        place.u_q16 = c->light[slot].u_q16;
+        place.v_q16 = c->light[slot].v_q16;
     }
-    box->lo[0] = gn_min32(box->lo[0], place->u_q16);
-    box->hi[0] = gn_max32(box->hi[0], place->u_q16);
-    box->lo[1] = gn_min32(box->lo[1], place->v_q16);
-    box->hi[1] = gn_max32(box->hi[1], place->v_q16);
+    box->lo[0] = gn_min32(box->lo[0], place.u_q16);
+    box->hi[0] = gn_max32(box->hi[0], place.u_q16);
+    box->lo[1] = gn_min32(box->lo[1], place.v_q16);
+    box->hi[1] = gn_max32(box->hi[1], place.v_q16);
     return 1;
-}
-
-/* The ends of all rows of pixels, where corners of the part lie off the surface. */
-GN_HOT static GN_NOINLINE int see_rows(gn_lattice *l, const gn_frame *frame, const gn_surface *s, int32_t x,
-                                       int32_t x_end, int32_t y, int32_t y_end, gn_seen_box *box)
-{
-    int any = 0;
-    for (int32_t i = 0; i < l->n_spans; i++) {
-        const gn_run_span *span = &l->span[i];
-        int32_t from = gn_max32(span->x, x), to = gn_min32(span->x + span->n_px, x_end);
-        if (span->y < y || span->y >= y_end || from >= to) continue;
-        if (!see(l, frame, s, from, span->y, 1, box) || !see(l, frame, s, to - 1, span->y, 0, box)) return 0;
-        any = 1;
-    }
-    return any;
 }
 
 /* A window of texels none of which casts. */
@@ -177,11 +157,6 @@ GN_HOT static void light_up(gn_window *window)
     window->any = window->all = window->doubts = 0;
 }
 
-GN_HOT static void empty(gn_seen_box *box)
-{
-    *box = (gn_seen_box){{INT32_MAX, INT32_MAX}, {INT32_MIN, INT32_MIN}, {0, 0, 0, 0}};
-}
-
 /* Makes it for pixels x .. x_end - 1, y .. y_end - 1, or for cells, up to their corners at x_end and y_end. Returns 0
  * if that is too much. */
 GN_HOT static int make_window(gn_lattice *l, const gn_frame *frame, const gn_surface *s, const gn_rect *r, int cells,
@@ -190,12 +165,10 @@ GN_HOT static int make_window(gn_lattice *l, const gn_frame *frame, const gn_sur
     gn_seen_box *box = &l->row.seen.all;
     const int32_t right = r->x1 - !cells, bottom = r->y1 - !cells;
     int32_t first[2], n[2];
-    empty(box);
-    if (!see(l, frame, s, r->x0, r->y0, 1, box) || !see(l, frame, s, r->x0, bottom, 1, box) ||
-        !see(l, frame, s, right, r->y0, 1, box) || !see(l, frame, s, right, bottom, 1, box)) {
-        empty(box);
-        if (cells || !see_rows(l, frame, s, r->x0, r->x1, r->y0, r->y1, box)) return 0;
-    }
+    *box = (gn_seen_box){{INT32_MAX, INT32_MAX}, {INT32_MIN, INT32_MIN}};
+    if (!see(l, frame, s, r->x0, r->y0, box) || !see(l, frame, s, r->x0, bottom, box) ||
+        !see(l, frame, s, right, r->y0, box) || !see(l, frame, s, right, bottom, box))
+        return 0;
     if (gn_beyond_tile(window->view, box->lo[0], box->hi[0], box->lo[1], box->hi[1])) {
         light_up(window);
         return 1;
@@ -229,7 +202,10 @@ GN_HOT gn_window *gn_lattice_window(gn_lattice *l, const gn_frame *frame, const 
     const gn_light_view *view = &frame->view[s->light[slot].state->view_idx + (int32_t)view_idx];
     gn_window *window = gn_lattice_window_of(l, frame, view, x);
     const int32_t log2 = cells ? l->size_log2 : GN_CHUNK_LOG2, rest = (1 << log2) - 1;
-    if (window->view != view) begin_window(l, frame, s, slot, view_idx, window);
+    if (window->view != view) {
+        begin_window(l, frame, s, slot, view, window);
+        if (window->planar > 0) window->planar = place_anchor(l, frame, s, slot, view_idx, view, &window->place);
+    }
     if (window->planar <= 0) return NULL;
     window->w = 0;
     gn_rect r = {x, l->part_y, l->part_end, l->part_bottom};
@@ -265,32 +241,31 @@ GN_HOT static int texels_of_row(const gn_frame *frame, const gn_light_view *view
     return 1;
 }
 
-GN_HOT GN_NOINLINE int gn_lattice_follow(const gn_frame *frame, gn_window *window, const gn_receiver_step *row,
-                                         const gn_receiver_step *step, int32_t n, int32_t behind, const int32_t more[2],
-                                         uint32_t *out)
+/* Makes the window for as many of n nodes of a row as it holds: all, or half of them, a quarter... Returns how many. */
+GN_HOT static GN_NOINLINE int32_t move_window(const gn_frame *frame, gn_window *window, const gn_receiver_step *at,
+                                              const gn_receiver_step *step, int32_t n)
 {
-    gn_receiver_step at = *row;
-    for (int32_t left = n, most = n, first[2], size[2]; left; left -= most) {
-        most = gn_min32(most, left);
-        while (!texels_of_row(frame, window->view, &at, step, most, first, size)) {
-            if (most == 1) return GN_WINDOW_MISSED;
-            most = (most + 1) >> 1;
-        }
-        for (int i = 0; i < 2 && most == n; i++) {
-            const int32_t beyond = gn_min32((int32_t)gn_abs32(more[i]), GN_WINDOW_TEXELS - size[i]);
-            if (more[i] < 0) first[i] -= beyond;
-            size[i] += beyond;
-        }
-        GN_COUNT(windows, 1);
-        if (!gn_window_compare(window, &window->place, first[0], first[1], size[0], size[1])) return GN_WINDOW_MISSED;
-        const int said = gn_window_row(frame, window, &at, step, most, behind, out);
-        if (said == GN_WINDOW_MISSED || most == n) return said;
-        for (int32_t i = 0; said != GN_WINDOW_MIXED && i < most; i++) out[i] = said == GN_WINDOW_LIT ? 65536 : 0;
-        out += most;
-        if (behind >= 0) behind += most;
-        at.u_q16 += most * step->u_q16;
-        at.v_q16 += most * step->v_q16;
-        at.depth_q31 += most * step->depth_q31;
+    int32_t first[2], size[2];
+    for (; !texels_of_row(frame, window->view, at, step, n, first, size); n = (n + 1) >> 1)
+        if (n == 1) return 0;
+    GN_COUNT(windows, 1);
+    return gn_window_compare(window, &window->place, first[0], first[1], size[0], size[1]) ? n : 0;
+}
+
+GN_HOT int gn_lattice_row(const gn_frame *frame, gn_window *window, gn_receiver_step *at, const gn_receiver_step *step,
+                          int32_t n, int32_t behind, uint32_t *out)
+{
+    int said = gn_window_row(frame, window, at, step, n, behind, out);
+    if (said != GN_WINDOW_MISSED || window->planar <= 0) return said;
+    for (int32_t left = n, some; left; left -= some) {
+        some = move_window(frame, window, at, step, left);
+        said = some ? gn_window_row(frame, window, at, step, some, behind, out) : GN_WINDOW_MISSED;
+        if (said == GN_WINDOW_MISSED) gn_receiver_advance(at, step, left - n);
+        if (said == GN_WINDOW_MISSED || some == n) return said;
+        gn_attenuations_set(out, some, said);
+        out += some;
+        if (behind >= 0) behind += some;
+        gn_receiver_advance(at, step, some);
     }
     return GN_WINDOW_MIXED;
 }

@@ -185,24 +185,10 @@ GN_HOT static void store_row(gn_shading *s, int32_t x, int32_t y, int32_t n, con
     for (int32_t i = 0; i < n; i++) gn_pixel_store(s->frame, &s->rows, x + i, y, gn_levels_pixel(s, attenuation[i]));
 }
 
-/* In a window that does not cover them: it is made for them, and for as many rows below as it holds. */
-GN_HOT static GN_NOINLINE int follow(const gn_shading *s, const gn_part_view *view, const gn_receiver_step *from,
-                                     const gn_receiver_step *step, int32_t n, int32_t behind, int32_t x, int32_t y,
-                                     uint32_t *out)
-{
-    const int32_t rows = s->lattice.part_bottom - 1 - y;
-    int32_t more[2] = {0, 0}, below[2];
-    if (rows && gn_corner_uv(&s->lattice, s->frame, &s->surface, view->view, x, y + 1, view->offset_q16, below)) {
-        more[0] = rows * ((below[0] - from->u_q16) >> 8) >> 8;
-        more[1] = rows * ((below[1] - from->v_q16) >> 8) >> 8;
-    }
-    return gn_lattice_follow(s->frame, view->window, from, step, n, behind, more, out);
-}
-
-/* Attenuations of n of a row's pixels from (x, y) on, `skip` behind its place, which has n_all to the place behind
- * them: sets them where what is known of all of them is GN_WINDOW_MIXED. */
+/* Attenuations of n of a row's pixels, `skip` behind its place, which has n_all to the place behind them: sets them
+ * where what is known of all of them is GN_WINDOW_MIXED. */
 GN_HOT static inline int attenuations(const gn_shading *s, const gn_part_view *view, const row_ends *row, int32_t n_all,
-                                      int32_t skip, int32_t n, int32_t x, int32_t y, uint32_t *out)
+                                      int32_t skip, int32_t n, uint32_t *out)
 {
     if (view->said != GN_WINDOW_MIXED) return view->said;
     if (!view->window || !row->z_q16) return GN_WINDOW_MISSED;
@@ -210,11 +196,9 @@ GN_HOT static inline int attenuations(const gn_shading *s, const gn_part_view *v
     if (n_all > 1) {
         step.u_q16 = gn_step_of(row->at[0], row->last[0], n_all);
         step.v_q16 = gn_step_of(row->at[1], row->last[1], n_all);
-        from.u_q16 += skip * step.u_q16;
-        from.v_q16 += skip * step.v_q16;
+        gn_receiver_advance(&from, &step, skip);
     }
-    int said = gn_window_row(s->frame, view->window, &from, &step, n, skip, out);
-    if (said == GN_WINDOW_MISSED) said = follow(s, view, &from, &step, n, skip, x, y, out);
+    const int said = gn_lattice_row(s->frame, view->window, &from, &step, n, skip, out);
     if (said == GN_WINDOW_MIXED) GN_COUNT(edge_lookups, n);
     return said;
 }
@@ -224,32 +208,45 @@ GN_HOT static void shade_row_by_pixels(gn_shading *s, int32_t x, int32_t y, int3
     for (; n > 0; n--, x++) gn_corner_pixel(s, x, y);
 }
 
-/* Pixels x .. end - 1 of one row in a view, of those from chunk `at` of the block on: in and out of the shadow, or
- * between places. */
-GN_HOT static GN_NOINLINE void mixed_chunk(gn_shading *s, const gn_part *part, const gn_part_view *view, row_ends *row,
-                                           int32_t at, int32_t x, int32_t y, int32_t end)
+/* Attenuations of a row in one view, n from x on, of those before `end` from `first` on; `row` begins at x. Returns
+ * what is known of all of them; -1: nothing can be told. */
+GN_HOT static GN_NOINLINE int attenuations_of_row(const gn_shading *s, const gn_part_view *view, int32_t x, int32_t y,
+                                                  int32_t n, int32_t first, int32_t end, row_ends *row, uint32_t *out)
 {
-    uint32_t *attenuation = s->lattice.from.part.attenuation[0];
-    for (int32_t n_all, chunk_end = at + GN_CHUNK; x < end; at += n_all) {
-        n_all = next_places(s, view, at, y, chunk_end, row);
-        if (x >= at + n_all) continue;
-        const int32_t n = gn_min32(end, at + n_all) - x;
-        const int said = attenuations(s, view, row, n_all, x - at, n, x, y, attenuation);
-        if (said == GN_WINDOW_MIXED) store_row(s, x, y, n, attenuation);
-        else if (said == GN_WINDOW_MISSED) shade_row_by_pixels(s, x, y, n);
-        else gn_pixel_fill(s->frame, &s->rows, x, y, n, said == GN_WINDOW_LIT ? part->lit : part->dark);
-        x += n;
+    const int32_t to = x + n;
+    int all = -1;
+    for (; first < end; x += n) {
+        n = view->said == GN_WINDOW_MIXED ? next_places(s, view, x, y, to, row) : to - x;
+        if (first >= x + n) continue;
+        const int32_t n_seen = gn_min32(end, x + n) - first;
+        int said = attenuations(s, view, row, n, first - x, n_seen, out);
+        if (said == GN_WINDOW_MISSED) return -1;
+        gn_attenuations_set(out, n_seen, said);
+        all = all >= 0 && all != said ? GN_WINDOW_MIXED : said;
+        first += n_seen;
+        out += n_seen;
     }
+    return all;
+}
+
+/* Pixels x .. end - 1 of one row in a view, of those of a chunk from `at` on. */
+GN_HOT static inline void mixed_chunk(gn_shading *s, const gn_part_view *view, row_ends *row, int32_t at, int32_t x,
+                                      int32_t y, int32_t end)
+{
+    gn_part *part = &s->lattice.from.part;
+    const int said = attenuations_of_row(s, view, at, y, GN_CHUNK, x, end, row, part->attenuation[0]);
+    if (said == GN_WINDOW_MIXED) store_row(s, x, y, end - x, part->attenuation[0]);
+    else if (said < 0) shade_row_by_pixels(s, x, y, end - x);
+    else gn_pixel_fill(s->frame, &s->rows, x, y, end - x, said == GN_WINDOW_LIT ? part->lit : part->dark);
 }
 
 /* Chunk by chunk. */
-GN_HOT static void mixed_span(gn_shading *s, const gn_part *part, const gn_part_view *view, int32_t x, int32_t y,
-                              int32_t end)
+GN_HOT static GN_NOINLINE void mixed_span(gn_shading *s, const gn_part_view *view, int32_t x, int32_t y, int32_t end)
 {
     row_ends row;
     int32_t at = x & -GN_CHUNK;
     begin_row(s, view, at, y, &row);
-    for (; x < end; at += GN_CHUNK, x = at) mixed_chunk(s, part, view, &row, at, x, y, gn_min32(end, at + GN_CHUNK));
+    for (; x < end; at += GN_CHUNK, x = at) mixed_chunk(s, view, &row, at, x, y, gn_min32(end, at + GN_CHUNK));
 }
 
 /* The cascade of a pixel, its share in a blend, and how far shadows fade there. */
@@ -258,7 +255,7 @@ typedef struct {
     uint32_t fade_uq16, g_uq16;
 } row_end;
 
-GN_HOT static row_end cascade_at(gn_shading *s, int32_t x, int32_t y)
+GN_HOT static GN_NOINLINE row_end cascade_at(gn_shading *s, int32_t x, int32_t y)
 {
     gn_corner_cascade(&s->lattice, s->frame, &s->surface, x, y, &s->sample);
     row_end out = {s->sample.cascade, (uint32_t)s->sample.value[GN_VALUE_FADE],
@@ -266,119 +263,31 @@ GN_HOT static row_end cascade_at(gn_shading *s, int32_t x, int32_t y)
     return out;
 }
 
-/* Where a view sees a pixel. Returns 0 if it does not, or depth is limited there. */
-GN_HOT static int place_pixel(gn_shading *s, uint32_t slot, uint32_t view_idx, int32_t x, int32_t y,
-                              gn_receiver_step *out)
+/* attenuations_of_row() with a row of its own. */
+GN_HOT static inline int attenuations_in(const gn_shading *s, const gn_part_view *view, int32_t x, int32_t y, int32_t n,
+                                         int32_t first, int32_t end, uint32_t *out)
 {
-    gn_lattice *l = &s->lattice;
-    gn_corner *c = &l->corner;
-    const gn_corner_light *at = &c->light[slot];
-    if (!gn_corner_locate(l, s->frame, &s->surface, slot, x, y, c) ||
-        !gn_corner_place(l, s->frame, &s->surface, c, slot, view_idx))
-        return 0;
-    out->u_q16 = at->u_q16;
-    out->v_q16 = at->v_q16;
-    out->depth_q31 = at->depth_q30;
-    return at->depth_q30 > -(1 << 29) && at->depth_q30 < (1 << 30) - 16384 &&
-           !((gn_abs32(at->u_q16) | gn_abs32(at->v_q16)) >> 27);
-}
-
-/* One lookup per pixel of a row, from a place on by steps. */
-GN_HOT static GN_NOINLINE void look_up_steps(gn_shading *s, const gn_light_view *view, gn_receiver_step at,
-                                             const gn_receiver_step *step, int32_t x, int32_t y, int32_t n,
-                                             uint32_t *out)
-{
-    gn_receiver r;
-    GN_COUNT(edge_lookups, n);
-    gn_corner_slopes(&s->lattice, s->frame, &s->surface, view, r.slope_q28);
-    r.pixel_y = y;
-    for (const uint32_t *end = out + n; out < end; x++) {
-        r.u_q16 = at.u_q16;
-        r.v_q16 = at.v_q16;
-        r.depth_q32 = (uint32_t)gn_max32(at.depth_q31, 0) << 2;
-        r.pixel_x = x;
-        GN_NOTE_LOOKUP(&s->scratch->squares, s->frame, view, &r);
-        *out++ = gn_filter_attenuation(s->frame, view, &r);
-        at.u_q16 += step->u_q16;
-        at.v_q16 += step->v_q16;
-        at.depth_q31 += step->depth_q31;
-    }
-}
-
-/* The same of those from `first` to `end` of n pixels, between places at the ends of these. Returns 0 if they cannot be
- * told. */
-GN_HOT static GN_NOINLINE int look_up_pixels(gn_shading *s, const gn_part *part, uint32_t view_idx, int32_t x,
-                                             int32_t y, int32_t n, int32_t first, int32_t end, uint32_t *out)
-{
-    gn_receiver_step at, last, step = {0, 0, 0};
-    if (!place_pixel(s, part->slot, view_idx, x + n - 1, y, &last) || !place_pixel(s, part->slot, view_idx, x, y, &at))
-        return 0;
-    if ((gn_abs32(last.u_q16 - at.u_q16) | gn_abs32(last.v_q16 - at.v_q16)) >> 20) return 0; /* half a window */
-    if (n > 1) {
-        step.u_q16 = gn_step_of(at.u_q16, last.u_q16, n - 1);
-        step.v_q16 = gn_step_of(at.v_q16, last.v_q16, n - 1);
-        step.depth_q31 = gn_step_of(at.depth_q31, last.depth_q31, n - 1);
-    }
-    at.u_q16 += (first - x) * step.u_q16;
-    at.v_q16 += (first - x) * step.v_q16;
-    at.depth_q31 += (first - x) * step.depth_q31;
-    look_up_steps(s, part->view[view_idx].view, at, &step, first, y, end - first, out);
-    return 1;
-}
-
-/* Attenuations of a row by a window, n from x on, of those before `end` from `first` on. Returns what is known of all
- * of them; -1: nothing can be told. */
-GN_HOT static GN_NOINLINE int attenuations_by_window(const gn_shading *s, const gn_part_view *view, int32_t x,
-                                                     int32_t y, int32_t n, int32_t first, int32_t end, uint32_t *out)
-{
-    const int32_t to = x + n;
-    int all = -1;
     row_ends row;
     begin_row(s, view, x, y, &row);
-    for (; first < end; x += n) {
-        n = next_places(s, view, x, y, to, &row);
-        if (first >= x + n) continue;
-        const int32_t n_seen = gn_min32(end, x + n) - first;
-        int said = attenuations(s, view, &row, n, first - x, n_seen, first, y, out);
-        if (said == GN_WINDOW_MISSED) return -1;
-        for (int32_t i = 0; said != GN_WINDOW_MIXED && i < n_seen; i++) out[i] = said == GN_WINDOW_LIT ? 65536 : 0;
-        all = all >= 0 && all != said ? GN_WINDOW_MIXED : said;
-        first += n_seen;
-        out += n_seen;
-    }
-    return all;
-}
-
-/* Attenuations of a row in one view, n from x on, of those before `end` from `first` on, with what is known of all of
- * them. Returns what that is; -1: nothing can be told. */
-GN_HOT static int attenuations_in(gn_shading *s, const gn_part *part, uint32_t view_idx, int32_t x, int32_t y,
-                                  int32_t n, int32_t first, int32_t end, uint32_t *out)
-{
-    const gn_part_view *view = &part->view[view_idx];
-    int said = view->said;
-    if (said == GN_WINDOW_MIXED && !view->window)
-        return look_up_pixels(s, part, view_idx, x, y, n, first, end, out) ? GN_WINDOW_MIXED : -1;
-    if (said == GN_WINDOW_MIXED) return attenuations_by_window(s, view, x, y, n, first, end, out);
-    for (int32_t i = 0; i < end - first; i++) out[i] = said == GN_WINDOW_LIT ? 65536 : 0;
-    return said;
+    return attenuations_of_row(s, view, x, y, n, first, end, &row, out);
 }
 
 /* A row's pixels where shadows fade, or cascades blend, n from x on, of which the visible ones are those from `first`
  * to `end`: shares are linear along them. Returns 0 if they are to be shaded each for itself. */
-GN_HOT static GN_NOINLINE int fading_pixels(gn_shading *s, const gn_part *part, int32_t x, int32_t y, int32_t n,
-                                            int32_t first, int32_t end, const row_end *a, const row_end *b)
+GN_HOT static GN_NOINLINE int fading_pixels(gn_shading *s, int32_t x, int32_t y, int32_t n, int32_t first, int32_t end,
+                                            const row_end *a, const row_end *b)
 {
-    uint32_t *here = s->lattice.from.part.attenuation[0], *next = s->lattice.from.part.attenuation[1];
+    gn_part *part = &s->lattice.from.part;
+    uint32_t *here = part->attenuation[0], *next = part->attenuation[1];
     int blends = part->cascaded && (a->fade_uq16 & b->fade_uq16) != 65536 && GN_BLENDED_CASCADES &&
                  s->frame->scene->shadow.blend != GN_BLEND_HARD && a->cascade != GN_LAST_CASCADE(s->frame);
-    if (!(a->g_uq16 | b->g_uq16)) {
+    if (!a->g_uq16 && (n == 1 || !b->g_uq16)) { /* of no cascade, too */
         gn_pixel_fill(s->frame, &s->rows, first, y, end - first, part->lit);
         return 1;
     }
-    int said = attenuations_in(s, part, part->cascaded ? (uint32_t)a->cascade : 0, x, y, n, first, end, here),
+    int said = attenuations_in(s, &part->view[part->cascaded ? a->cascade : 0], x, y, n, first, end, here),
         there = said;
-    if (blends)
-        there = attenuations_in(s, part, (uint32_t)s->frame->cascade[a->cascade].next, x, y, n, first, end, next);
+    if (blends) there = attenuations_in(s, &part->view[s->frame->cascade[a->cascade].next], x, y, n, first, end, next);
     if (said < 0 || there < 0) return 0;
     if (said == there && said == GN_WINDOW_LIT) {
         gn_pixel_fill(s->frame, &s->rows, first, y, end - first, part->lit);
@@ -398,7 +307,7 @@ GN_HOT static GN_NOINLINE int fading_pixels(gn_shading *s, const gn_part *part, 
     return 1;
 }
 
-GN_HOT static GN_NOINLINE void fading_span(gn_shading *s, const gn_part *part, int32_t x, int32_t y, int32_t end)
+GN_HOT static GN_NOINLINE void fading_span(gn_shading *s, int32_t x, int32_t y, int32_t end)
 {
     int32_t at = x & -GN_CHUNK;
     row_end a = cascade_at(s, at, y), b;
@@ -406,25 +315,26 @@ GN_HOT static GN_NOINLINE void fading_span(gn_shading *s, const gn_part *part, i
         n = GN_CHUNK - (at & (GN_CHUNK - 1));
         for (;; n >>= 1) { /* up to the border of two cascades, or where a ramp begins or ends */
             b = cascade_at(s, at + n, y);
-            if (n == 1 || !((part->cascaded && a.cascade != b.cascade) || kinks(a.fade_uq16, b.fade_uq16) ||
-                            kinks(a.g_uq16, b.g_uq16)))
+            if (n == 1 || !((s->lattice.from.part.cascaded && a.cascade != b.cascade) ||
+                            kinks(a.fade_uq16, b.fade_uq16) || kinks(a.g_uq16, b.g_uq16)))
                 break;
         }
         const int32_t to = gn_min32(end, at + n);
-        if (x < to && !fading_pixels(s, part, at, y, n, x, to, &a, &b)) shade_row_by_pixels(s, x, y, to - x);
+        if (x < to && !fading_pixels(s, at, y, n, x, to, &a, &b)) shade_row_by_pixels(s, x, y, to - x);
         x = gn_max32(x, to);
     }
 }
 
-GN_HOT static void shade_span(gn_shading *s, const gn_part *part, int32_t x, int32_t y, int32_t end)
+GN_HOT static void shade_span(gn_shading *s, int32_t x, int32_t y, int32_t end)
 {
-    if (s->lattice.cascade < 0) fading_span(s, part, x, y, end);
-    else mixed_span(s, part, &part->view[part->cascaded ? s->lattice.cascade : 0], x, y, end);
+    const gn_part *part = &s->lattice.from.part;
+    if (s->lattice.cascade < 0) fading_span(s, x, y, end);
+    else mixed_span(s, &part->view[part->cascaded ? s->lattice.cascade : 0], x, y, end);
 }
 #else
-GN_HOT static void shade_span(gn_shading *s, const gn_part *part, int32_t x, int32_t y, int32_t end)
+GN_HOT static void shade_span(gn_shading *s, int32_t x, int32_t y, int32_t end)
 {
-    (void)s, (void)part, (void)x, (void)y, (void)end;
+    (void)s, (void)x, (void)y, (void)end;
 }
 #endif
 
@@ -473,7 +383,7 @@ GN_HOT static void shade_rows(gn_shading *s)
         const gn_run_span *span = &l->span[i];
         int32_t x = gn_max32(span->x, l->part_x), end = gn_min32(span->x + span->n_px, l->part_end);
         if (span->y < l->part_y || span->y >= l->part_bottom || x >= end) continue;
-        if (part->mixed) shade_span(s, part, x, span->y, end);
+        if (part->mixed) shade_span(s, x, span->y, end);
         else gn_pixel_fill(s->frame, &s->rows, x, span->y, end - x, part->lit);
     }
 }

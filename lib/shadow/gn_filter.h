@@ -43,6 +43,14 @@ typedef struct {
     int32_t u_q16, v_q16, depth_q31;
 } gn_receiver_step;
 
+/* n pixels on. Depth wraps around where it is not read. */
+GN_HOT static inline void gn_receiver_advance(gn_receiver_step *at, const gn_receiver_step *step, int32_t n)
+{
+    at->u_q16 += n * step->u_q16;
+    at->v_q16 += n * step->v_q16;
+    at->depth_q31 = (int32_t)((uint32_t)at->depth_q31 + (uint32_t)n * (uint32_t)step->depth_q31);
+}
+
 /* ---- Lookups in a shadow tile ------------------------------------------------------------------------------------ */
 
 /* Which texels are nearer to the light than the receiver. All filters are built from them. */
@@ -171,26 +179,14 @@ GN_HOT static inline uint32_t gn_filter_fraction(int32_t c_q16, int32_t bits)
     return (((uint32_t)c_q16 & 0xFFFFU) + (0x8000U >> bits)) >> (16 - bits);
 }
 
-/* Sums of the weights in all subsets of four: bit i for weight i. */
-GN_HOT static inline void gn_subset_sums(uint32_t sums[16], const uint32_t w[4])
-{
-    uint32_t a = w[0], b = w[1], c = w[2], d = w[3], ab = a + b, cd = c + d;
-    sums[0] = 0, sums[1] = a, sums[2] = b, sums[3] = ab;
-    sums[4] = c, sums[5] = a + c, sums[6] = b + c, sums[7] = ab + c;
-    sums[8] = d, sums[9] = a + d, sums[10] = b + d, sums[11] = ab + d;
-    sums[12] = cd, sums[13] = a + cd, sums[14] = b + cd, sums[15] = ab + cd;
-}
-
-/* Sum of the products of weights of the dark texels of n x n, by subsets of the weights. */
+/* Sum of the products of weights of the dark texels of n x n. */
 GN_HOT static inline uint64_t gn_weighted(const uint8_t *dark, int32_t n, const uint32_t *wu, const uint32_t *wv)
 {
     uint64_t sum = 0;
-    uint32_t left[16], right[16];
-    gn_subset_sums(left, wu);
-    if (n > 4) gn_subset_sums(right, wu + 4);
     for (int32_t j = 0; j < n; j++) {
-        uint32_t across = left[dark[j] & 15U];
-        if (n > 4) across += right[dark[j] >> 4];
+        const uint32_t *w = wu;
+        uint32_t across = 0;
+        for (uint32_t bits = dark[j]; bits; bits >>= 1, w++) across += bits & 1U ? *w : 0;
         sum += (uint64_t)across * wv[j];
     }
     return sum;
@@ -339,8 +335,8 @@ GN_HOT static inline int32_t gn_window_depth_step(const gn_window *window, int32
 int gn_window_says(const gn_window *window, int32_t u0, int32_t v0, int32_t w, int32_t h);
 
 /* Attenuations of n receivers on the plane; texels in doubt are compared with their depths, which are in Q30 here, and
- * the plane's, from that at so many receivers `behind` on, if that is not negative. Returns GN_WINDOW_LIT or _DARK if all of them are, and sets none; else _MIXED, or
- * GN_WINDOW_MISSED if the window does not cover all. */
+ * the plane's, from that at so many receivers `behind` on, if that is not negative. Returns GN_WINDOW_LIT or _DARK if
+ * all of them are, and sets none; else _MIXED, or GN_WINDOW_MISSED if the window does not cover all. */
 int gn_window_row(const gn_frame *frame, const gn_window *window, const gn_receiver_step *from,
                   const gn_receiver_step *step, int32_t n, int32_t behind, uint32_t *attenuation);
 
