@@ -21,9 +21,9 @@
  * cell is too uneven to be interpolated: it is to be split. */
 int gn_lattice_look_at(gn_lattice *lattice, const gn_frame *frame, const gn_surface *surface, int32_t size_log2);
 
-/* Where the pixels of an edge are seen: between the cell's corners; between the ends of each row; each for itself, in
- * its own face of a point light. And a flag: pixels that are not in this face are in that of the next edge. */
-enum { GN_PLACES_BILINEAR, GN_PLACES_BY_ROW, GN_PLACES_LONE, GN_PLACES_OF_TWO = 4 };
+/* Where the pixels of an edge are seen: between the cell's corners, or between the ends of each row. And a flag: pixels
+ * that are not in this face or cascade are in that of the next edge. */
+enum { GN_PLACES_BILINEAR, GN_PLACES_BY_ROW, GN_PLACES_OF_TWO };
 
 /* Through values at the corners of a cell. */
 GN_HOT static inline void gn_flat_patch_make(gn_flat_patch *p, const int32_t at[4], int32_t size_log2)

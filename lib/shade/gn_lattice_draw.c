@@ -119,47 +119,6 @@ GN_HOT static GN_NOINLINE void place_row(const gn_drawing *d, const gn_lattice_e
     step_row(d, at, &end, from, step);
 }
 
-#if GN_PUNCTUAL_LIGHTS
-/* The face of a cube that sees a pixel, which is found for it; GN_FACE_NONE: none does. */
-GN_HOT static GN_NOINLINE uint32_t locate_alone(gn_shading *s, uint32_t slot, int32_t x, int32_t y)
-{
-    gn_corner *c = &s->lattice.corner;
-    int32_t from[3];
-    if (!gn_corner_locate(&s->lattice, s->frame, &s->surface, slot, x, y, c)) return GN_FACE_NONE;
-    gn_corner_from(c, s->surface.light[slot].state, from);
-    return (uint32_t)gn_persp_face(from);
-}
-
-/* A lookup where that face sees it. */
-GN_HOT static GN_NOINLINE uint32_t look_up_corner(const gn_drawing *d, uint32_t slot, const gn_light_view *view)
-{
-    gn_lattice *l = &d->s->lattice;
-    const gn_corner *c = &l->corner;
-    const gn_corner_light *at = &c->light[slot];
-    const gn_receiver_step place = {at->u_q16, at->v_q16, at->depth_q30};
-    int32_t slope[2];
-    GN_COUNT(edge_lookups, 1);
-    gn_corner_slopes(l, d->s->frame, &d->s->surface, view, slope);
-    return lookup(d, view, slope, &place, c->x, c->y);
-}
-
-/* Lookups of a row's pixels, of those that the part has. */
-GN_HOT static GN_NOINLINE void look_up_alone(const gn_drawing *d, const gn_lattice_edge *edge, int32_t below,
-                                             uint32_t *out)
-{
-    gn_shading *s = d->s;
-    gn_lattice *l = &s->lattice;
-    const uint32_t bits = gn_lattice_bits(l, d->x, d->y + below, d->size_log2) >> d->first;
-    for (int32_t i = 0; i < d->n; i++) {
-        out[i] = 65536;
-        if (!(bits >> i & 1U)) continue;
-        const uint32_t face = locate_alone(s, edge->slot, d->x + d->first + i, d->y + below);
-        if (face == GN_FACE_NONE || !gn_corner_place(l, s->frame, &s->surface, &l->corner, edge->slot, face)) continue;
-        out[i] = look_up_corner(d, edge->slot, edge->view + (int32_t)face - edge->view_idx);
-    }
-}
-#endif
-
 /* A row of pixels in a view, `below` pixels under the cell's first row, and its steps. Depths are in Q30. */
 GN_HOT static void find_row(const gn_drawing *d, const gn_lattice_edge *edge, int32_t below, gn_receiver_step *at,
                             gn_receiver_step *step)
@@ -231,12 +190,6 @@ GN_HOT static GN_NOINLINE int look_up_one(const gn_drawing *d, const gn_lattice_
 /* The same of any row of pixels, `below` pixels under the cell's first row. */
 GN_HOT static int find_attenuations(const gn_drawing *d, const gn_lattice_edge *edge, int32_t below, uint32_t *out)
 {
-#if GN_PUNCTUAL_LIGHTS
-    if (edge->bent == GN_PLACES_LONE) {
-        look_up_alone(d, edge, below, out);
-        return GN_WINDOW_MIXED;
-    }
-#endif
 #if GN_PUNCTUAL_LIGHTS || GN_MANY_CASCADES
     if (edge->bent & GN_PLACES_OF_TWO) {
         look_up_two(d, edge, below, out);
@@ -271,7 +224,7 @@ GN_HOT static void find_nodes(const gn_drawing *d, int32_t below, int32_t (*node
     for (int32_t k = 0; k < look->n_edges; k++) {
         const gn_lattice_edge *edge = &look->edge[k];
         int said = find_attenuations(d, edge, below, share);
-        k += edge->bent >> 2; /* which is the next one, too */
+        k += edge->bent >> 1; /* which is the next one, too */
         if (said == GN_WINDOW_DARK) continue;
         if (said == GN_WINDOW_LIT && !is_put) {
             gn_row_add(d, edge->more_q24, below, &row);

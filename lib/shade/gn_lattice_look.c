@@ -188,26 +188,6 @@ GN_HOT static int products_hold(const gn_lattice_cell *cell)
 }
 #endif
 
-/* Whether all that a light adds is less than half a step of the picture: what shadows it, and how uneven it is, cannot
- * be seen. Of a channel of 6 bits half a step is 1/32 or more of what is there, up to 1/4, and of black 2^-11. Between
- * the corners a cone's rim, and what is near a lamp, may be brighter. */
-GN_HOT static GN_NOINLINE int is_faint(gn_lattice_cell *cell, uint32_t slot, int32_t least_q24, int32_t most_q24)
-{
-    const gn_lattice_look *look = cell->out;
-    const int32_t(*c)[3] = look->colour_q24;
-    const gn_surface_light *light = &cell->s->light[slot];
-    uint32_t strongest = gn_cell_strongest(light->radiance_uq16), kink;
-    int32_t least = 1 << 22;
-    if (cell->s->specular || (GN_RAW_VIEWS && cell->frame->picture.format == GN_FORMAT_RAW32)) return 0;
-    GN_UNROLL
-    for (int i = 0; i < 4; i++) least = gn_min32(least, gn_min32(c[i][0], gn_min32(c[i][1], c[i][2])));
-    least = gn_max32(1 << 13, least >> 5);
-    if (gn_corner_times(strongest, most_q24) >= least) return 0;
-    if (!GN_PUNCTUAL_LIGHTS || light->state->kind == GN_LIGHT_DIRECTIONAL) return 1;
-    gn_cell_unevenness_q24(cell, slot, least_q24, most_q24, &kink);
-    return gn_corner_times(strongest, kink >> 27 ? 1 << 27 : (int32_t)kink) < least;
-}
-
 /* Whether a shadow that begins or ends to fade is seen: in the shadow, or by masks that it fades to. */
 GN_HOT static int fades(const gn_contribution *light, int shadow)
 {
@@ -288,13 +268,12 @@ GN_HOT static int add_light(gn_lattice_cell *cell, uint32_t slot)
     if (!find_highlight(cell, slot, light)) return 0;
     if (GN_SPECULAR && !least && any_of(light->highlight_q24))
         return 0; /* it ends at once where the surface turns away */
-    int faint = is_faint(cell, slot, least, most);
     int realtime = find_shares(cell, slot, light),
-        shadow = realtime > 0 && !faint ? gn_cell_shadow(cell, slot, light) : GN_CELL_LIT;
+        shadow = realtime > 0 ? gn_cell_shadow(cell, slot, light) : GN_CELL_LIT;
     if (realtime < 0 || shadow == GN_CELL_SPLIT || (cell->near < 0 && fades(light, shadow))) return 0;
     if (shadow == GN_CELL_EDGE && !edge_product_holds(cell, slot, light)) return 0;
     if (most >= 1 << 27 && limit_is_seen(colour, light, shadow)) return 0;
-    if (shadow != GN_CELL_DARK && !faint) add_error(cell, slot, least, most);
+    if (shadow != GN_CELL_DARK) add_error(cell, slot, least, most);
     add_colour(cell, slot, light, shadow == GN_CELL_LIT);
     return 1;
 }

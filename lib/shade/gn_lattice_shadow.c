@@ -185,11 +185,9 @@ GN_HOT static int add_edge(const gn_lattice_cell *cell, uint32_t slot, gn_cell_p
     edge->view_idx = (uint8_t)p->view_idx;
     edge->bent = (uint8_t)p->bent;
     find_slopes(cell, p, edge->slope_q28);
-    if (p->bent != GN_PLACES_LONE) {
-        gn_flat_patch_make(&edge->u_q16, p->u, cell->size_log2);
-        gn_flat_patch_make(&edge->v_q16, p->v, cell->size_log2);
-        gn_flat_patch_make(&edge->depth_q30, p->depth, cell->size_log2);
-    }
+    gn_flat_patch_make(&edge->u_q16, p->u, cell->size_log2);
+    gn_flat_patch_make(&edge->v_q16, p->v, cell->size_log2);
+    gn_flat_patch_make(&edge->depth_q30, p->depth, cell->size_log2);
     for (int j = 0; j < 3; j++) {
         int32_t at[4];
         GN_UNROLL
@@ -337,10 +335,7 @@ GN_HOT static int add_of_several(const gn_lattice_cell *cell, uint32_t slot, con
     if (blend == GN_BLEND_SOFT) return add_blend(cell, slot, light, views, p);
     if (blend != GN_BLEND_HARD) return 0; /* each pixel has its own */
 #if GN_PUNCTUAL_LIGHTS || GN_MANY_CASCADES
-    if (add_two(cell, slot, light, views, p)) return 1;
-    if (cascaded || cell->size_log2 > 2 || cell->lattice->by.look.ask.slot >= 0) return 0;
-    p->bent = GN_PLACES_LONE;
-    return add_edge(cell, slot, p, light, light->more_uq16);
+    return add_two(cell, slot, light, views, p);
 #else
     return 0;
 #endif

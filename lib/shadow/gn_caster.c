@@ -18,56 +18,6 @@ GN_HOT static inline uint32_t stored_depth(int64_t z, int32_t bits)
     return (uint32_t)gn_clamp64((z + (1U << drop >> 1)) >> drop, 0, UINT32_MAX >> drop);
 }
 
-/* Depth of a caster in 16-bit texels, if it is nowhere limited, nor so steep that it could leave its range by half of
- * all depths. Then it fits 32 bits, and steps may be taken modulo 2^32. */
-typedef struct {
-    uint32_t z_corner; /* in texel (0, 0), above the smallest */
-    uint32_t dz_du, dz_dv;
-    uint32_t range;
-    uint32_t add; /* the smallest depth, with bias and half a step */
-    int usable;
-} caster_depth16;
-
-#define GN_TEXEL_(i)                                                                                                   \
-    do {                                                                                                               \
-        uint32_t depth = z >> 16;                                                                                      \
-        if (depth < texel[i]) {                                                                                        \
-            GN_KEEP(depth);                                                                                            \
-            texel[i] = (uint16_t)depth;                                                                                \
-        }                                                                                                              \
-        z += dz;                                                                                                       \
-        GN_KEEP(z);                                                                                                    \
-    } while (0)
-
-GN_HOT static inline void span16(uint16_t *texel, int32_t n, uint32_t z, uint32_t dz)
-{
-    GN_COUNT(texels, n);
-    for (; n >= 4; n -= 4, texel += 4) {
-        GN_TEXEL_(0);
-        GN_TEXEL_(1);
-        GN_TEXEL_(2);
-        GN_TEXEL_(3);
-        GN_KEEP(texel);
-    }
-    for (; n > 0; n--, texel++) GN_TEXEL_(0);
-}
-#undef GN_TEXEL_
-
-GN_HOT static caster_depth16 depth16_begin(const gn_light_view *view, const gn_caster *caster)
-{
-    const int64_t steep = 1 << 30;
-    caster_depth16 d;
-    d.usable = GN_VIEW_BITS(view) == 16 && caster->lo > 0 &&
-               caster->hi + caster->bias + 0x8000 <= (int64_t)UINT32_MAX && caster->dz_du < steep &&
-               -caster->dz_du < steep && caster->dz_dv < steep && -caster->dz_dv < steep;
-    d.dz_du = (uint32_t)caster->dz_du;
-    d.dz_dv = (uint32_t)caster->dz_dv;
-    d.z_corner = (uint32_t)caster->z_corner - (uint32_t)caster->lo;
-    d.range = (uint32_t)(caster->hi - caster->lo);
-    d.add = (uint32_t)(caster->lo + caster->bias + 0x8000);
-    return d;
-}
-
 /* Depth of a texel, limited to that of the caster, as it is stored. */
 GN_HOT static inline uint32_t texel_depth(const gn_caster *caster, int64_t z, int32_t bits)
 {
@@ -138,8 +88,6 @@ GN_HOT int32_t gn_caster_rows(const gn_light_view *view, const gn_caster *caster
                               gn_alpha_cut *alpha)
 {
     int32_t size = view->tile_texels, n_texels = 0, v = walk->first;
-    caster_depth16 depth = depth16_begin(view, caster);
-    uint32_t range = depth.usable && !alpha ? depth.range : 0; /* the fast path gives the same results */
     for (; n_rows > 0; n_rows = gn_walk_on(walk)) {
         for (const gn_span *at = walk->span; n_rows > 0; n_rows--, at++, v++) {
             int32_t u = gn_max32(at->x_begin, 0), n = gn_min32(at->x_end, size) - u;
@@ -149,11 +97,6 @@ GN_HOT int32_t gn_caster_rows(const gn_light_view *view, const gn_caster *caster
             if (GN_HAS_BLOCKS(view)) gn_blocks_touch(view, u, v, n);
 #endif
             GN_COUNT(caster_rows, 1);
-            uint32_t z = depth.z_corner + (uint32_t)v * depth.dz_dv + (uint32_t)u * depth.dz_du;
-            if (z < range && z + (uint32_t)(n - 1) * depth.dz_du < range) {
-                span16(view->depth.d16 + v * size + u, n, z + depth.add, depth.dz_du);
-                continue;
-            }
             if (GN_CASTER_ALPHA && alpha)
                 gn_alpha_row(alpha, v, 2 * v + 1 - GN_TILE_ROWS(view), at->x_begin, at->x_end);
             span(view, caster, alpha, v, u, u + n);

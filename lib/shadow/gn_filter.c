@@ -72,19 +72,13 @@ enum { EDGE_ROWS = 17 }; /* 2 * 8 + 1 */
 /* Rows of texels, a bit each that keeps the receiver dark, from bit `at` on. */
 GN_HOT static void read_rows(const gn_lookup *l, int32_t u, int32_t v, int32_t w, int32_t h, int32_t at, uint32_t *rows)
 {
-#if GN_PLANES
-    if (gn_lookup_rows_on_plane(l, u, v, w, h, at, rows)) return;
-#endif
     for (int32_t j = 0; j < h; j++) rows[j] = gn_lookup_dark(l, u, v + j, w) << at;
 }
 
-/* The texel and its neighbours: gn_lookup_cross_on_plane(). */
+/* The texel and its neighbours that keep the receiver dark: bit 0, above, below, left, right. */
 GN_HOT static uint32_t read_cross(const gn_lookup *l, int32_t u, int32_t v)
 {
     uint32_t dark, rows[3];
-#if GN_PLANES
-    if (gn_lookup_cross_on_plane(l, u, v, &dark)) return dark;
-#endif
     for (int32_t i = 0; i < 3; i++) rows[i] = gn_lookup_dark(l, u - 1, v - 1 + i, 3);
     dark = (rows[1] >> 1 & 1U) | (rows[0] & 2U) | (rows[2] & 2U) << 1 | (rows[1] & 1U) << 3 | (rows[1] & 4U) << 2;
     return dark;
@@ -276,86 +270,3 @@ GN_HOT uint32_t gn_lookup_dark(const gn_lookup *l, int32_t u, int32_t v, int32_t
     for (int32_t i = 0; i < n; i++) dark |= (uint32_t)is_dark(view, row, u + i, l->least) << i;
     return dark;
 }
-
-#if GN_PLANES
-/* Whether w x h texels from (u, v) on lie in the tile, and the plane in what texels hold: its least and most there. */
-GN_HOT static inline int is_plain_plane(const gn_lookup *l, int32_t u, int32_t v, int32_t w, int32_t h, int64_t *lo,
-                                        int64_t *hi)
-{
-    const gn_light_view *view = l->view;
-    if (u < 0 || v < 0 || u > view->tile_texels - w || v > GN_TILE_ROWS(view) - h) return 0;
-    gn_plane_range(l, u, v, w - 1, h - 1, lo, hi);
-    return *lo >= 0 && *hi <= (int64_t)gn_texel_far(GN_VIEW_BITS(view));
-}
-
-/* Those of n texels of a row that are before depths that grow by 4 `across`, from `least` on. */
-GN_HOT static inline uint32_t before_plane(gn_texels row, int32_t bits, int32_t n, uint32_t least, uint32_t across)
-{
-    if (bits == 16) /* steps are whole quarters */
-        return gn_texels_before(row.d16, n, (int32_t)((least >> 2) + ((least & 3U) != 0)), (int32_t)across);
-    uint32_t near = 0;
-    for (int32_t i = n - 1; i >= 0; i--)
-        near = near << 1 | (gn_texel_load(row, bits, (uint32_t)i) < least + (uint32_t)i * (4 * across));
-    return near;
-}
-
-GN_HOT int gn_lookup_on_plane(const gn_lookup *l, int32_t u, int32_t v, int32_t n, uint8_t *dark, uint32_t *found)
-{
-    const gn_light_view *view = l->view;
-    const int32_t bits = GN_VIEW_BITS(view);
-    const uint32_t across = (uint32_t)l->slope_q28[0] * 4, down = (uint32_t)l->slope_q28[1] * 16;
-    int64_t lo, hi;
-    if (!is_plain_plane(l, u, v, n, n, &lo, &hi)) return 0;
-    GN_COUNT(undecided, 1);
-    GN_COUNT(taps_tent, n * n);
-    uint32_t least = (uint32_t)gn_least_on_plane(l, u, v), any = 0, all = 255;
-    gn_texels row = gn_view_texels(view, u, v);
-    for (uint8_t *end = dark + n; dark < end; dark++, least += down) {
-        uint32_t near = before_plane(row, bits, n, least, across);
-        *dark = (uint8_t)near;
-        any |= near;
-        all &= near;
-        row = gn_texels_at(row, bits, (size_t)view->tile_texels);
-    }
-    *found = any | all << 16;
-    return 1;
-}
-
-#if GN_EDGE_BUILT
-GN_HOT int gn_lookup_cross_on_plane(const gn_lookup *l, int32_t u, int32_t v, uint32_t *dark)
-{
-    const gn_light_view *view = l->view;
-    const int32_t bits = GN_VIEW_BITS(view), pitch = view->tile_texels;
-    if (u < 1 || v < 1 || u > pitch - 2 || v > GN_TILE_ROWS(view) - 2) return 0;
-    const uint32_t steep = gn_abs32(l->slope_q28[0]) | gn_abs32(l->slope_q28[1]), most = 32 * steep;
-    if (steep >> 25 || l->least_q32 >> 32) return 0;
-    const uint32_t least = (uint32_t)l->least_q32;
-    if (least < most || least > gn_texel_far(bits) - most) return 0;
-    const uint32_t across = (uint32_t)l->slope_q28[0] * 16, down = (uint32_t)l->slope_q28[1] * 16;
-    const gn_texels above = gn_view_texels(view, u, v - 1), row = gn_texels_at(above, bits, (size_t)pitch - 1),
-                    below = gn_texels_at(row, bits, (size_t)pitch + 1);
-    GN_COUNT(taps_lone, 1);
-    *dark = (uint32_t)(gn_texel_load(row, bits, 1) < least) |
-            (uint32_t)(gn_texel_load(above, bits, 0) < least - down) << 1 |
-            (uint32_t)(gn_texel_load(below, bits, 0) < least + down) << 2 |
-            (uint32_t)(gn_texel_load(row, bits, 0) < least - across) << 3 |
-            (uint32_t)(gn_texel_load(row, bits, 2) < least + across) << 4;
-    return 1;
-}
-
-GN_HOT int gn_lookup_rows_on_plane(const gn_lookup *l, int32_t u, int32_t v, int32_t w, int32_t h, int32_t at,
-                                   uint32_t *rows)
-{
-    const int32_t bits = GN_VIEW_BITS(l->view);
-    int64_t lo, hi;
-    if (!is_plain_plane(l, u, v, w, h, &lo, &hi)) return 0;
-    uint32_t least = (uint32_t)gn_least_on_plane(l, u, v);
-    gn_texels row = gn_view_texels(l->view, u, v);
-    for (uint32_t *end = rows + h; rows < end; rows++, least += (uint32_t)l->slope_q28[1] * 16) {
-        *rows = before_plane(row, bits, w, least, (uint32_t)l->slope_q28[0] * 4) << at;
-        row = gn_texels_at(row, bits, (size_t)l->view->tile_texels);
-    }
-    return 1;
-}
-#endif
-#endif

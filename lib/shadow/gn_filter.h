@@ -117,18 +117,6 @@ GN_HOT static inline int gn_lookup_is_plain(const gn_lookup *l, int32_t u, int32
 /* Texels of row v, n from u on, wherever they lie: bit i is set where texel i keeps the receiver dark. */
 uint32_t gn_lookup_dark(const gn_lookup *l, int32_t u, int32_t v, int32_t n);
 
-#if GN_PLANES
-/* The same of n x n texels on the receiver's plane: a byte per row; *found: the OR of all rows, and in the upper half
- * their AND. Returns 0 if a texel lies outside the tile, or the plane outside what texels hold. */
-int gn_lookup_on_plane(const gn_lookup *l, int32_t u, int32_t v, int32_t n, uint8_t *dark, uint32_t *found);
-
-/* The same of the texel that the lookup lies in, bit 0, and those before and after it: in its column, in its row. */
-int gn_lookup_cross_on_plane(const gn_lookup *l, int32_t u, int32_t v, uint32_t *dark);
-
-/* The same of w x h texels, bits of a row from bit `at` on. */
-int gn_lookup_rows_on_plane(const gn_lookup *l, int32_t u, int32_t v, int32_t w, int32_t h, int32_t at, uint32_t *rows);
-#endif
-
 /* A tap of the hard filter, the disk or 2x2 at the border: 1 if it is lit. */
 GN_HOT static inline uint32_t gn_lookup_tap(const gn_lookup *l, int32_t u, int32_t v)
 {
@@ -259,29 +247,15 @@ GN_HOT static inline uint32_t gn_tent_of_2x2(uint32_t upper, uint32_t lower, int
     return bits <= 8 ? lit << (16 - 2 * bits) : (lit + ((1U << (2 * bits - 16)) >> 1)) >> (2 * bits - 16);
 }
 
-/* gn_tent_dark() on the receiver's plane. Returns 0 if gn_lookup_on_plane() does not tell. */
-GN_HOT static inline int gn_tent_on_plane(const gn_lookup *l, int32_t u, int32_t v, int32_t n, uint8_t *dark,
-                                          uint32_t *found)
-{
-#if GN_PLANES
-    if (l->sloped) return gn_lookup_on_plane(l, u, v, n, dark, found);
-#endif
-    (void)l, (void)u, (void)v, (void)n, (void)dark, (void)found;
-    return 0;
-}
-
 /* Attenuation by the tent of index k. [F3] */
 GN_HOT static inline uint32_t gn_tent_attenuation(const gn_lookup *l, int32_t k, int32_t bits)
 {
     int32_t cu = l->u_q16 + 32768, cv = l->v_q16 + 32768, n = 2 * (k + 1);
     int32_t u0 = (cu >> 16) - (k + 1), v0 = (cv >> 16) - (k + 1);
     uint8_t dark[GN_TENT_TAPS_MAX];
-    uint32_t found;
-    if (!gn_tent_on_plane(l, u0, v0, n, dark, &found)) {
-        GN_COUNT(undecided, 1);
-        GN_COUNT(taps_tent, n * n);
-        found = gn_tent_dark(l, u0, v0, n, dark);
-    }
+    GN_COUNT(undecided, 1);
+    GN_COUNT(taps_tent, n * n);
+    const uint32_t found = gn_tent_dark(l, u0, v0, n, dark);
     if (!(found & 0xFFFFU)) return 65536;
     if (found >> 16 == (1U << n) - 1) return 0;
     return gn_tent_of_dark(dark, k, cu, cv, bits);

@@ -23,11 +23,6 @@ static int32_t coordinate(int bits)
     return rng_range(&random_state, -(1 << bits), 1 << bits);
 }
 
-static wide size_of(wide v)
-{
-    return v < 0 ? -v : v;
-}
-
 /* ---- Which triangles they are
  * --------------------------------------------------------------------------------------------- */
 

@@ -126,7 +126,7 @@ static int wide_coordinates(const settings *s);
 static long patch_bytes(const settings *s)
 {
     layout all = {0, 4};
-    put(&all, 1, 100, 4);                                                           /* shared, record */
+    put(&all, 1, 104, 4);                                                           /* shared, record */
     if (s->quality.triangle_groups) put(&all, 1, wide_coordinates(s) ? 44 : 32, 4); /* again */
     put(&all, 1, 168, 4);                                                           /* view_q14 to colour */
     put(&all, 3, 252, 4);                                                           /* light */
@@ -167,22 +167,22 @@ static long lattice_bytes(const settings *s)
     if (s->feature.shadows) put(&all, 22, 4, 4);                                /* matrix */
     if (s->feature.shadows && s->feature.other_lights % 2) put(&all, 8, 68, 4); /* forms */
     put(&all, s->capacity.surface_lights, 12, 4);                               /* light */
-    put(&all, 1, 200, 4);                                                       /* face_q30 to bits */
+    put(&all, 1, 276, 4);                                                       /* anchor to bits */
     if (s->feature.shadows && (s->feature.biases >= 2 || s->quality.edge))
-        put(&all, 4, 4, 4); /* slope_view to slope_h_q14 */
+        put(&all, 3, 4, 4); /* slope_view, slope_q28 */
     const long corners = 12 * corner_bytes(s), patch = patch_bytes(s);
     put(&all, 1, corners > patch ? corners : patch, 4); /* from */
     put(&all, 1, corner_bytes(s), 4);
     put(&all, 1, 196, 4); /* corner_key to cell_corner */
     if (s->feature.shadows)
-        put(&all, n_views(s) >= 4 ? 4 : n_views(s) >= 2 ? 2 : 1, has_changes(s) ? 348 : 344, 4); /* windows */
-    put(&all, 1, 568, 4);                                                                        /* look */
+        put(&all, n_views(s) >= 5 ? 5 : n_views(s) >= 1 ? n_views(s) : 1, has_changes(s) ? 368 : 364, 4); /* windows */
+    put(&all, 1, 568, 4);                                                                                 /* look */
     if (has_levels(s)) put(&all, 1, 4, 4); /* of that: level and level_ends */
     put(&all, 1, drawing_bytes(s), 4);
-    put(&all, 1, s->feature.shadows ? 224 : 192, 8);                                  /* by */
-    if (s->feature.shadows) put(&all, 1, 296, 4);                                     /* levels */
-    put(&all, 1, s->feature.texture_formats ? 128 : s->feature.shadows ? 72 : 64, 4); /* row */
-    if (has_glow(s)) put(&all, 16, 8, 4);                                             /* glow */
+    put(&all, 1, s->feature.shadows ? 224 : 192, 8);        /* by */
+    if (s->feature.shadows) put(&all, 1, 296, 4);           /* levels */
+    put(&all, 1, s->feature.texture_formats ? 128 : 64, 4); /* row */
+    if (has_glow(s)) put(&all, 16, 8, 4);                   /* glow */
     pad(&all, 8);
     return all.size;
 }
@@ -211,7 +211,7 @@ static void put_work(layout *out, const settings *s)
     put(&all, 1, 40, 4);  /* frame to rows */
     put(&all, 1, 120, 4); /* cache */
     put(&all, 1, surface.size, 8);
-    put(&all, 8, 4, 4); /* tri to radiance_q20 */
+    put(&all, s->quality.persp_step > 1 ? 9 : 8, 4, 4); /* tri to radiance_q20 */
     long incident = s->feature.other_lights % 2 ? s->capacity.surface_lights : 0;
     incident *= s->feature.shadows ? 20 : 8;
     put(&all, 1, 28 + 4 * values + incident + (s->feature.materials % 2 ? 24 : 0), 4); /* sample */
