@@ -42,7 +42,7 @@ count() { # count ARGS[,ARGS...] VARIABLE...
     plugin=
     for stage in $STAGES scene_frame; do
         at=$(awk -v f="$stage" 'BEGIN { n = split(f, name, "|") } { for (i = 1; i <= n; i++) if ($3 == name[i]) at[i] = $1 }
-            END { for (i = 1; i <= n && !at[i]; i++) continue; print at[i] }' "$dir/$image.symbols")
+            END { for (i = 1; i <= n && at[i] == ""; i++) continue; print at[i] }' "$dir/$image.symbols")
         plugin=$plugin,stage=${at:-ffffffff}
     done
     while [ -n "$all" ]; do
