@@ -117,13 +117,14 @@ gn_window *gn_lattice_window(gn_lattice *lattice, const gn_frame *frame, const g
 GN_HOT static inline void gn_attenuations_set(uint32_t *out, int32_t n, int said)
 {
     for (const uint32_t *end = out + n; said != GN_WINDOW_MIXED && out < end;)
-        *out++ = said == GN_WINDOW_LIT ? 65536 : 0;
+        *out++ = said == GN_WINDOW_DARK ? 0 : 65536;
 }
 
-/* What gn_window_row() says of a row of n receivers. Where the window does not cover them, one of a plane is made anew
- * for them, or for a half, a quarter... of them at a time; `at` is moved on then. */
+/* What gn_window_row() says of a row of n <= 16 receivers, or GN_WINDOW_MIXED and in *missed a bit for each that no
+ * window tells of. Where the window does not cover them one of a plane is made anew for them, or for a half, a
+ * quarter... of them at a time; `at` is moved on by n then. */
 int gn_lattice_row(const gn_frame *frame, gn_window *window, gn_receiver_step *at, const gn_receiver_step *step,
-                   int32_t n, int32_t behind, uint32_t *out);
+                   int32_t n, int32_t behind, uint32_t *out, uint32_t *missed);
 #endif
 
 #if GN_SHADOWS

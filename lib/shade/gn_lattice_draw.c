@@ -131,14 +131,14 @@ GN_HOT static void find_row(const gn_drawing *d, const gn_lattice_edge *edge, in
     at->depth_q31 = gn_flat_patch_at(&edge->depth_q30, d->first, below);
 }
 
-/* A lookup for each of n pixels in a row. */
+/* A lookup for each of the pixels of `bits` in a row. */
 GN_HOT static GN_NOINLINE void look_up_each(const gn_drawing *d, const gn_lattice_edge *edge,
                                             const gn_receiver_step *row, const gn_receiver_step *step, int32_t x,
-                                            int32_t y, int32_t n, uint32_t *out)
+                                            int32_t y, uint32_t bits, uint32_t *out)
 {
     gn_receiver_step at = *row;
-    for (const int32_t end = x + n; x < end; x++) {
-        *out++ = lookup(d, edge->view, edge->slope_q28, &at, x, y);
+    for (; bits; bits >>= 1, x++, out++) {
+        if (bits & 1U) *out = lookup(d, edge->view, edge->slope_q28, &at, x, y);
         gn_receiver_advance(&at, step, 1);
     }
 }
@@ -148,12 +148,14 @@ GN_HOT static GN_NOINLINE void look_up_each(const gn_drawing *d, const gn_lattic
 GN_HOT static int look_up_row(const gn_drawing *d, const gn_lattice_edge *edge, int32_t below, int32_t first,
                               gn_receiver_step *at, const gn_receiver_step *step, int32_t n, uint32_t *out)
 {
+    uint32_t missed = (1U << n) - 1;
     GN_COUNT(edge_lookups, n);
     if (edge->window && edge->window->view == edge->view) {
-        int said = gn_lattice_row(d->s->frame, edge->window, at, step, n, -1, out);
-        if (said != GN_WINDOW_MISSED) return said;
+        const int said = gn_lattice_row(d->s->frame, edge->window, at, step, n, -1, out, &missed);
+        if (!missed) return said;
+        gn_receiver_advance(at, step, -n);
     }
-    look_up_each(d, edge, at, step, d->x + d->first + first, d->y + below, n, out);
+    look_up_each(d, edge, at, step, d->x + d->first + first, d->y + below, missed, out);
     return GN_WINDOW_MIXED;
 }
 

@@ -281,7 +281,8 @@ typedef struct {
     uint8_t mixed;                     /* whether there is such a light, */
     uint8_t slot, cascaded;            /* which one, and whether it has cascades: */
     gn_part_view view[4];              /* of them those that the part looks into */
-    uint32_t attenuation[2][GN_CHUNK]; /* of pixels of a row, in a view and in the next cascade */
+    uint32_t attenuation[2][GN_CHUNK]; /* of pixels of a row, in a view and in the next cascade, */
+    uint32_t missed;                   /* and a bit for each that these do not tell of */
 } gn_part;
 
 /* Corners that are kept: 9 of a cell that is split, and some that its neighbour asks for. */

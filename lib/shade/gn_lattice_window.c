@@ -246,24 +246,28 @@ GN_HOT static GN_NOINLINE int32_t move_window(const gn_frame *frame, gn_window *
                                               const gn_receiver_step *step, int32_t n)
 {
     int32_t first[2], size[2];
-    for (; !texels_of_row(frame, window->view, at, step, n, first, size); n = (n + 1) >> 1)
+    for (;; n = (n + 1) >> 1) {
+        if (texels_of_row(frame, window->view, at, step, n, first, size)) {
+            GN_COUNT(windows, 1);
+            if (gn_window_compare(window, &window->place, first[0], first[1], size[0], size[1])) return n;
+        }
         if (n == 1) return 0;
-    GN_COUNT(windows, 1);
-    return gn_window_compare(window, &window->place, first[0], first[1], size[0], size[1]) ? n : 0;
+    }
 }
 
 GN_HOT int gn_lattice_row(const gn_frame *frame, gn_window *window, gn_receiver_step *at, const gn_receiver_step *step,
-                          int32_t n, int32_t behind, uint32_t *out)
+                          int32_t n, int32_t behind, uint32_t *out, uint32_t *missed)
 {
     int said = gn_window_row(frame, window, at, step, n, behind, out);
-    if (said != GN_WINDOW_MISSED || window->planar <= 0) return said;
-    for (int32_t left = n, some; left; left -= some) {
-        some = move_window(frame, window, at, step, left);
-        said = some ? gn_window_row(frame, window, at, step, some, behind, out) : GN_WINDOW_MISSED;
-        if (said == GN_WINDOW_MISSED) gn_receiver_advance(at, step, left - n);
-        if (said == GN_WINDOW_MISSED || some == n) return said;
-        gn_attenuations_set(out, some, said);
-        out += some;
+    *missed = 0;
+    if (said != GN_WINDOW_MISSED) return said;
+    for (int32_t done = 0, some; done < n; done += some) {
+        some = window->planar > 0 ? move_window(frame, window, at, step, n - done) : 0;
+        said = some ? gn_window_row(frame, window, at, step, some, behind, out + done) : GN_WINDOW_MISSED;
+        if (some == n && said != GN_WINDOW_MISSED) return said;
+        some = gn_max32(some, 1);
+        if (said == GN_WINDOW_MISSED) *missed |= ((1U << some) - 1) << done;
+        gn_attenuations_set(out + done, some, said);
         if (behind >= 0) behind += some;
         gn_receiver_advance(at, step, some);
     }

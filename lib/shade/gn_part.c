@@ -186,11 +186,13 @@ GN_HOT static void store_row(gn_shading *s, int32_t x, int32_t y, int32_t n, con
 }
 
 /* Attenuations of n of a row's pixels, `skip` behind its place, which has n_all to the place behind them: sets them
- * where what is known of all of them is GN_WINDOW_MIXED. */
+ * where what is known of all of them is GN_WINDOW_MIXED. *missed: a bit for each of which nothing can be told. */
 GN_HOT static inline int attenuations(const gn_shading *s, const gn_part_view *view, const row_ends *row, int32_t n_all,
-                                      int32_t skip, int32_t n, uint32_t *out)
+                                      int32_t skip, int32_t n, uint32_t *out, uint32_t *missed)
 {
+    *missed = 0;
     if (view->said != GN_WINDOW_MIXED) return view->said;
+    *missed = (1U << n) - 1;
     if (!view->window || !row->z_q16) return GN_WINDOW_MISSED;
     gn_receiver_step from = {row->at[0], row->at[1], 0}, step = {0, 0, 0};
     if (n_all > 1) {
@@ -198,30 +200,28 @@ GN_HOT static inline int attenuations(const gn_shading *s, const gn_part_view *v
         step.v_q16 = gn_step_of(row->at[1], row->last[1], n_all);
         gn_receiver_advance(&from, &step, skip);
     }
-    const int said = gn_lattice_row(s->frame, view->window, &from, &step, n, skip, out);
+    const int said = gn_lattice_row(s->frame, view->window, &from, &step, n, skip, out, missed);
     if (said == GN_WINDOW_MIXED) GN_COUNT(edge_lookups, n);
     return said;
 }
 
-GN_HOT static void shade_row_by_pixels(gn_shading *s, int32_t x, int32_t y, int32_t n)
-{
-    for (; n > 0; n--, x++) gn_corner_pixel(s, x, y);
-}
-
 /* Attenuations of a row in one view, n from x on, of those before `end` from `first` on; `row` begins at x. Returns
- * what is known of all of them; -1: nothing can be told. */
-GN_HOT static GN_NOINLINE int attenuations_of_row(const gn_shading *s, const gn_part_view *view, int32_t x, int32_t y,
+ * what is known of all of them. part.missed: more bits of those of which nothing can be told, and that are lit so far.
+ */
+GN_HOT static GN_NOINLINE int attenuations_of_row(gn_shading *s, const gn_part_view *view, int32_t x, int32_t y,
                                                   int32_t n, int32_t first, int32_t end, row_ends *row, uint32_t *out)
 {
-    const int32_t to = x + n;
+    const int32_t to = x + n, from = first;
     int all = -1;
     for (; first < end; x += n) {
         n = view->said == GN_WINDOW_MIXED ? next_places(s, view, x, y, to, row) : to - x;
         if (first >= x + n) continue;
         const int32_t n_seen = gn_min32(end, x + n) - first;
-        int said = attenuations(s, view, row, n, first - x, n_seen, out);
-        if (said == GN_WINDOW_MISSED) return -1;
+        uint32_t missed;
+        int said = attenuations(s, view, row, n, first - x, n_seen, out, &missed);
+        s->lattice.from.part.missed |= missed << (first - from);
         gn_attenuations_set(out, n_seen, said);
+        if (missed) said = GN_WINDOW_MIXED;
         all = all >= 0 && all != said ? GN_WINDOW_MIXED : said;
         first += n_seen;
         out += n_seen;
@@ -229,15 +229,23 @@ GN_HOT static GN_NOINLINE int attenuations_of_row(const gn_shading *s, const gn_
     return all;
 }
 
+/* Shades those of a row from x on of which nothing could be told, each for itself. */
+GN_HOT static void shade_missed(gn_shading *s, int32_t x, int32_t y)
+{
+    for (uint32_t bits = s->lattice.from.part.missed; bits; bits >>= 1, x++)
+        if (bits & 1U) gn_corner_pixel(s, x, y);
+}
+
 /* Pixels x .. end - 1 of one row in a view, of those of a chunk from `at` on. */
 GN_HOT static inline void mixed_chunk(gn_shading *s, const gn_part_view *view, row_ends *row, int32_t at, int32_t x,
                                       int32_t y, int32_t end)
 {
     gn_part *part = &s->lattice.from.part;
+    part->missed = 0;
     const int said = attenuations_of_row(s, view, at, y, GN_CHUNK, x, end, row, part->attenuation[0]);
     if (said == GN_WINDOW_MIXED) store_row(s, x, y, end - x, part->attenuation[0]);
-    else if (said < 0) shade_row_by_pixels(s, x, y, end - x);
     else gn_pixel_fill(s->frame, &s->rows, x, y, end - x, said == GN_WINDOW_LIT ? part->lit : part->dark);
+    shade_missed(s, x, y);
 }
 
 /* Chunk by chunk. */
@@ -264,7 +272,7 @@ GN_HOT static GN_NOINLINE row_end cascade_at(gn_shading *s, int32_t x, int32_t y
 }
 
 /* attenuations_of_row() with a row of its own. */
-GN_HOT static inline int attenuations_in(const gn_shading *s, const gn_part_view *view, int32_t x, int32_t y, int32_t n,
+GN_HOT static inline int attenuations_in(gn_shading *s, const gn_part_view *view, int32_t x, int32_t y, int32_t n,
                                          int32_t first, int32_t end, uint32_t *out)
 {
     row_ends row;
@@ -273,9 +281,9 @@ GN_HOT static inline int attenuations_in(const gn_shading *s, const gn_part_view
 }
 
 /* A row's pixels where shadows fade, or cascades blend, n from x on, of which the visible ones are those from `first`
- * to `end`: shares are linear along them. Returns 0 if they are to be shaded each for itself. */
-GN_HOT static GN_NOINLINE int fading_pixels(gn_shading *s, int32_t x, int32_t y, int32_t n, int32_t first, int32_t end,
-                                            const row_end *a, const row_end *b)
+ * to `end`: shares are linear along them. */
+GN_HOT static GN_NOINLINE void fading_pixels(gn_shading *s, int32_t x, int32_t y, int32_t n, int32_t first, int32_t end,
+                                             const row_end *a, const row_end *b)
 {
     gn_part *part = &s->lattice.from.part;
     uint32_t *here = part->attenuation[0], *next = part->attenuation[1];
@@ -283,15 +291,15 @@ GN_HOT static GN_NOINLINE int fading_pixels(gn_shading *s, int32_t x, int32_t y,
                  s->frame->scene->shadow.blend != GN_BLEND_HARD && a->cascade != GN_LAST_CASCADE(s->frame);
     if (!a->g_uq16 && (n == 1 || !b->g_uq16)) { /* of no cascade, too */
         gn_pixel_fill(s->frame, &s->rows, first, y, end - first, part->lit);
-        return 1;
+        return;
     }
+    part->missed = 0;
     int said = attenuations_in(s, &part->view[part->cascaded ? a->cascade : 0], x, y, n, first, end, here),
         there = said;
     if (blends) there = attenuations_in(s, &part->view[s->frame->cascade[a->cascade].next], x, y, n, first, end, next);
-    if (said < 0 || there < 0) return 0;
     if (said == there && said == GN_WINDOW_LIT) {
         gn_pixel_fill(s->frame, &s->rows, first, y, end - first, part->lit);
-        return 1;
+        return;
     }
     int32_t fade = (int32_t)a->fade_uq16, g = (int32_t)a->g_uq16, fade_step = 0, g_step = 0;
     if (n > 1) {
@@ -304,7 +312,7 @@ GN_HOT static GN_NOINLINE int fading_pixels(gn_shading *s, int32_t x, int32_t y,
     if (blends) blend_row(s->frame, first, y, n, fade, fade_step, next, here);
     for (int32_t i = 0; i < n; i++, g += g_step) here[i] = 65536 - gn_mul_uq16(65536 - here[i], (uint32_t)g);
     store_row(s, first, y, n, here);
-    return 1;
+    shade_missed(s, first, y);
 }
 
 GN_HOT static GN_NOINLINE void fading_span(gn_shading *s, int32_t x, int32_t y, int32_t end)
@@ -320,7 +328,7 @@ GN_HOT static GN_NOINLINE void fading_span(gn_shading *s, int32_t x, int32_t y, 
                 break;
         }
         const int32_t to = gn_min32(end, at + n);
-        if (x < to && !fading_pixels(s, at, y, n, x, to, &a, &b)) shade_row_by_pixels(s, x, y, to - x);
+        if (x < to) fading_pixels(s, at, y, n, x, to, &a, &b);
         x = gn_max32(x, to);
     }
 }
