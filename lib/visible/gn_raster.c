@@ -74,6 +74,37 @@ GN_INLINE void raster_span(uint32_t *cell, int32_t n, uint32_t iz, const raster_
 }
 #undef GN_CELL_
 
+/* The state that is stepped from row to row of a triangle. */
+typedef struct {
+    gn_walk_line left, right;
+    uint32_t iz, iz_dy; /* left of the tile's first column */
+    uint32_t *row;
+} stepped_rows;
+
+/* The rows before `end`, at least one, cut to the tile's width. */
+GN_INLINE void raster_rows(stepped_rows *rows, const uint32_t *end, int32_t stride, int32_t width,
+                           const raster_depth *depth)
+{
+    uint32_t left = rows->left.x, right = rows->right.x, iz = rows->iz;
+    uint32_t *row = rows->row;
+    do {
+        int32_t xa = gn_max32((int32_t)left >> GN_FIXED_BITS, 0), xb = gn_min32((int32_t)right >> GN_FIXED_BITS, width);
+        GN_COUNT(rows, xb > xa);
+        if (xb > xa) raster_span(row + xa, xb - xa, iz - (uint32_t)xb * depth->minus_dx, depth);
+        left += rows->left.step;
+        right += rows->right.step;
+        iz += rows->iz_dy;
+        row += stride;
+        GN_KEEP(left); /* stepped, not computed again after the loop */
+        GN_KEEP(right);
+        GN_KEEP(iz);
+        GN_KEEP(row);
+    } while (row != end);
+    rows->left.x = left, rows->right.x = right;
+    rows->iz = iz;
+    rows->row = row;
+}
+
 GN_HOT static inline void cut_plane(const gn_frame *frame, gn_scratch *scratch, gn_alpha_cut *cut,
                                     const gn_object *object, uint32_t object_idx, const uint16_t idx[3])
 {
@@ -160,6 +191,44 @@ GN_HOT static void raster_span_cut(const raster_tile *tile, const raster_depth *
     (void)tile, (void)depth, (void)cell, (void)n, (void)iz, (void)cut, (void)x;
 }
 #endif
+
+/* A small triangle without alpha whose depth needs no bounds (gn_tri): its edges are stepped in fixed point, row by
+ * row. */
+GN_HOT static GN_NOINLINE void raster_small(const raster_tile *tile, const gn_tri *tri, uint32_t id)
+{
+    /* top, left and right of it, as a ring: left edges lead down from one to the next, right ones from one to the last
+     */
+    const gn_walk_corner ring[4] = {{tri->x[0] + tile->x, tri->y[0] + tile->y},
+                                    {tri->x[1] + tile->x, tri->y[1] + tile->y},
+                                    {tri->x[2] + tile->x, tri->y[2] + tile->y},
+                                    {tri->x[0] + tile->x, tri->y[0] + tile->y}};
+    const int32_t bits = GN_K(tile->frame, subpixel_bits), stride = GN_K(tile->frame, tile_width),
+                  lasts = tri->iz.unbounded.walk;
+    int32_t at = gn_max32(gn_first_px(ring[0].y, bits), 0),
+            bend[2] = {gn_first_px(ring[1].y, bits), gn_first_px(ring[2].y, bits)};
+    int32_t end = gn_min32(gn_max32(bend[0], bend[1]), tile->height), left_end = at, right_end = at;
+    uint32_t minus_dx = 0U - (uint32_t)tri->iz_dx;
+    GN_KEEP(minus_dx); /* one of the two */
+    const raster_depth depth = {minus_dx, 0, 0, tile->id_mask, tile->id_mask - id};
+    stepped_rows rows = {{0, 0}, {0, 0}, 0, (uint32_t)tri->iz_dy, GN_CELLS(tile->scratch) + at * stride};
+    rows.iz = tri->iz_ref + (uint32_t)(at - (ring[0].y >> bits)) * rows.iz_dy +
+              (uint32_t)((ring[0].x >> bits) + 1) * minus_dx;
+    while (at < end) {
+        if (at == left_end) {
+            const gn_walk_corner *from = ring + (at >= bend[0]);
+            left_end = gn_min32(at < bend[0] ? gn_min32(bend[0], end) : end, at + lasts);
+            rows.left = gn_walk_line_at(from[0].x, from[0].y, from[1].x, from[1].y, at, lasts, bits);
+        }
+        if (at == right_end) {
+            const gn_walk_corner *from = ring + 3 - (at >= bend[1]);
+            right_end = gn_min32(at < bend[1] ? gn_min32(bend[1], end) : end, at + lasts);
+            rows.right = gn_walk_line_at(from[0].x, from[0].y, from[-1].x, from[-1].y, at, lasts, bits);
+        }
+        int32_t stop = gn_min32(left_end, right_end);
+        raster_rows(&rows, rows.row + (stop - at) * stride, stride, tile->width, &depth);
+        at = stop;
+    }
+}
 
 /* A triangle whose pixels are known. */
 GN_HOT static GN_NOINLINE void raster_mask(const raster_tile *tile, const gn_tri *tri, uint32_t id)
@@ -258,8 +327,9 @@ GN_HOT static GN_NOINLINE void raster_cut_triangle(const raster_tile *tile, cons
 /* Draws a triangle whose bounds intersect the screen tile. */
 GN_HOT static inline void raster_one(const raster_tile *tile, const gn_tri *tri, uint32_t id)
 {
-    if (!gn_tri_is_bounded(tri) && tri->iz.unbounded.walk & GN_TRI_MASK) {
-        raster_mask(tile, tri, id);
+    if (!gn_tri_is_bounded(tri) && tri->iz.unbounded.walk != GN_TRI_EXACT) {
+        if (tri->iz.unbounded.walk & GN_TRI_MASK) raster_mask(tile, tri, id);
+        else raster_small(tile, tri, id);
         return;
     }
     if (GN_VISIBLE_ALPHA && tile->frame->objects[tri->source.object_idx].visible_alpha != GN_ALPHA_OPAQUE) {

@@ -166,9 +166,10 @@ static inline int32_t walk_of(const gn_screen_job *job, const gn_rect *px, const
             mask = gn_mask_cut(mask, x, y, picture->width, picture->height);
         if (!mask) return 0;
         const int32_t top = (a->x + ((picture->width << bits) >> 1)) >> bits;
-        if (job->has_masks) return GN_TRI_MASK | (1 + top - x) << 12 | (int32_t)mask;
+        if (job->fixed_mask) return GN_TRI_MASK | (1 + top - x) << 12 | (int32_t)mask;
     }
-    return GN_TRI_ROWS;
+    return gn_max32(job->fixed_mask & gn_walk_lasts((uint32_t)(right - left) | (uint32_t)(bottom - a->y)),
+                    GN_TRI_EXACT);
 }
 
 /* Everything of a triangle that begins with its top. */
@@ -268,7 +269,7 @@ int gn_screen_record(const gn_screen_job *job, const gn_projected *p0, const gn_
 {
     grid_triangle t;
     if (!order_corners(&t, job, p0, p1, p2)) return 0;
-    fill_record(job, out, &t, GN_TRI_ROWS, triangle_idx);
+    fill_record(job, out, &t, GN_TRI_EXACT, triangle_idx);
     return 1;
 }
 #endif
@@ -296,5 +297,5 @@ void gn_screen_begin(gn_screen_job *job, const gn_frame *frame)
 void gn_screen_object(gn_screen_job *job)
 {
     job->sides = gn_sides_of(job->frame->flags[job->object_idx], GN_OBJECT_TWO_SIDED);
-    job->has_masks = !GN_VISIBLE_ALPHA || job->object->visible_alpha == GN_ALPHA_OPAQUE;
+    job->fixed_mask = GN_VISIBLE_ALPHA && job->object->visible_alpha != GN_ALPHA_OPAQUE ? 0 : -1;
 }

@@ -153,8 +153,8 @@ typedef struct {
     gn_tri_group *group;      /* of the next triangle; it grows by it */
     gn_screen_tile_job *tile; /* NULL in a frame's setup: triangles are counted */
 #endif
-    int32_t add_px[2]; /* see gn_setup_bounds_of */
-    int32_t has_masks; /* small triangles are drawn by masks: alpha does not cut the object */
+    int32_t add_px[2];  /* see gn_setup_bounds_of */
+    int32_t fixed_mask; /* 0 if alpha cuts the object: the fast paths for small triangles in gn_raster.c are not used */
 } gn_screen_job;
 
 /* Sets the frame's constants, and one object's, except its position and index, and what is written. */

@@ -13,9 +13,9 @@ typedef int32_t gn_coord;
 typedef int16_t gn_coord;
 #endif
 
-/* How a triangle is drawn whose depth needs no bounds: row by row, or by its mask, GN_TRI_MASK + (1 + columns from its
- * box to the top) << 12 + its pixels, see gn_pixel_mask(). */
-enum { GN_TRI_ROWS = 1, GN_TRI_MASK = 0x8000 };
+/* How a triangle is drawn whose depth needs no bounds; other values are the rows that gn_walk_lasts gave. A mask:
+ * GN_TRI_MASK + (1 + columns from its box to the top) << 12 + its pixels, see gn_pixel_mask(). */
+enum { GN_TRI_EXACT = 1, GN_TRI_MASK = 0x8000 };
 
 /* If near / Z may leave the triangle's range where it is drawn: that range. If not, which is common: how the triangle
  * may be drawn. gn_tri_is_bounded tells the two apart. */
@@ -24,7 +24,7 @@ typedef union {
         uint16_t least, largest; /* Q0.16, rounded outwards: least <= largest */
     } bounds;
     struct {
-        uint16_t walk; /* GN_TRI_ROWS or a mask */
+        uint16_t walk; /* above 0: GN_TRI_EXACT, a mask or rows */
         uint16_t zero;
     } unbounded;
 } gn_tri_depth;

@@ -96,7 +96,7 @@ static int any_plane(int32_t least_log2, double most)
     if (ref < 8 || ref > 4294967280.0) return 0;
     tri.iz_dx = (int32_t)lround(dx), tri.iz_dy = (int32_t)lround(dy);
     tri.iz_ref = ((uint32_t)ref & ~7U) | (uint32_t)rng_range(&random_state, 1, 6);
-    gn_tri_set_walk(&tri, GN_TRI_ROWS);
+    gn_tri_set_walk(&tri, GN_TRI_EXACT);
     return 1;
 }
 
