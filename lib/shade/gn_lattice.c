@@ -162,7 +162,7 @@ GN_HOT static void forget_windows(gn_lattice *l)
 GN_HOT static GN_NOINLINE void begin_block(gn_shading *s)
 {
     forget_windows(&s->lattice);
-    s->lattice.look.n_edges = 0;
+    s->lattice.by.look.ask.used = 0;
     gn_corner_begin_part(&s->lattice, s->frame, &s->surface);
 }
 #else

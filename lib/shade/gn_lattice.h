@@ -128,15 +128,13 @@ int gn_lattice_row(const gn_frame *frame, gn_window *window, gn_receiver_step *a
 #endif
 
 #if GN_SHADOWS
-/* Whether an edge of the cell at hand has the window: of five, four at most. */
-GN_HOT static inline int gn_lattice_has_window(const gn_lattice_look *look, const gn_window *window)
+GN_HOT static inline uint32_t gn_lattice_view_bit(const gn_frame *frame, const gn_light_view *view)
 {
-    int has = 0;
-    for (int32_t i = 0; i < look->n_edges; i++) has |= look->edge[i].window == window;
-    return has;
+    return 1U << ((uint32_t)(view - frame->view) & 31U);
 }
 
-/* The view's window among the lattice's, or one that is of no use from column x on, or any that no edge has. */
+/* The view's window among the lattice's, or one that is of no use from column x on, or any that the look at hand does
+ * not use. */
 GN_HOT static inline gn_window *gn_lattice_window_of(gn_lattice *l, const gn_frame *frame, const gn_light_view *view,
                                                      int32_t x)
 {
@@ -146,8 +144,9 @@ GN_HOT static inline gn_window *gn_lattice_window_of(gn_lattice *l, const gn_fra
     for (uint32_t i = 0, at = (uint32_t)(view - frame->view) % GN_WINDOWS; i < GN_WINDOWS; i++) {
         gn_window *window = &l->window[at];
         at = at + 1 < GN_WINDOWS ? at + 1 : 0;
-        if (gn_lattice_has_window(&l->look, window)) continue;
-        if (!window->view || x >= window->until_x) return window;
+        if (!window->view) return window;
+        if (l->by.look.ask.used & gn_lattice_view_bit(frame, window->view)) continue;
+        if (x >= window->until_x) return window;
         if (!other) other = window;
     }
     return other;

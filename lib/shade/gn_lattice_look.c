@@ -347,7 +347,7 @@ GN_HOT static GN_NOINLINE int begin_look(gn_lattice *lattice, const gn_frame *fr
     gn_corner *const *corner = lattice->cell_corner;
     gn_lattice_look *look = &lattice->look;
     gn_lattice_cell *cell = &lattice->by.look.cell;
-    lattice->by.look.ask = (gn_wanted_window){-1, 0, 0};
+    lattice->by.look.ask = (gn_wanted_window){-1, 0, 0, 0};
     *cell = (gn_lattice_cell){lattice, frame, surface, corner, size_log2, {0, 0}, 1, 0, 0, 0, look};
     if (!gn_cell_find_bend(cell) || !gn_cell_normals_hold(cell) || !gn_cell_textures_hold(cell) ||
         !gn_cell_masks_hold(cell))

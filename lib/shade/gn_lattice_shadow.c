@@ -86,20 +86,25 @@ GN_HOT static int verdict_of_window(const gn_frame *frame, gn_window *window, co
     return said == GN_WINDOW_LIT ? GN_CELL_LIT : said == GN_WINDOW_DARK ? GN_CELL_DARK : GN_CELL_EDGE;
 }
 
-/* The view's window, NULL if it has none. Returns 0 if the cell asks for it to be made. */
+/* The view's window, NULL if it has none: a look uses as many as there are. Returns 0 if the cell asks for it to be
+ * made. */
 GN_HOT static int find_window(const gn_lattice_cell *cell, uint32_t slot, const gn_cell_places *p, gn_window **out)
 {
     const int32_t x = cell->corner[0]->x;
-    gn_window *window = gn_lattice_window_of(cell->lattice, cell->frame, p->view, x);
-    const uint32_t asked = 1U << ((uint32_t)(p->view - cell->frame->view) & 31U);
+    const uint32_t bit = gn_lattice_view_bit(cell->frame, p->view);
+    gn_wanted_window *ask = &cell->lattice->by.look.ask;
     *out = NULL;
+    if (!(ask->used & bit)) {
+        if (ask->n_used == GN_WINDOWS) return 1;
+        ask->used |= bit;
+        ask->n_used++;
+    }
+    gn_window *window = gn_lattice_window_of(cell->lattice, cell->frame, p->view, x);
+    if (!window) return 1; /* of more than 32 views */
     if (gn_lattice_window_is_made(window, p->view, x)) {
         if (window->planar) *out = window;
         return 1;
     }
-    gn_wanted_window *ask = &cell->lattice->by.look.ask;
-    if (ask->asked & asked) return 1;
-    ask->asked |= asked;
     ask->slot = (int32_t)slot;
     ask->view_idx = p->view_idx;
     return 0;

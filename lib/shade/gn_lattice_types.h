@@ -149,8 +149,9 @@ typedef struct {
 
 /* A window that is to be made before the cell can be looked at. */
 typedef struct {
-    int32_t slot;             /* -1: none */
-    uint32_t view_idx, asked; /* a bit for each view that was */
+    int32_t slot; /* -1: none */
+    uint32_t view_idx;
+    uint32_t used, n_used; /* a bit for each view whose window the look uses, and how many */
 } gn_wanted_window;
 
 /* The cell at hand. */

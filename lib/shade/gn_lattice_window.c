@@ -157,17 +157,17 @@ GN_HOT static void light_up(gn_window *window)
     window->any = window->all = window->doubts = 0;
 }
 
-/* Makes it for pixels x .. x_end - 1, y .. y_end - 1, or for cells, up to their corners at x_end and y_end. Returns 0
- * if that is too much. */
+/* Makes it for pixels x0 .. x1, y0 .. y1 - 1, or for cells, up to their corners at x1 and y1. Returns 0 if that is too
+ * much. */
 GN_HOT static int make_window(gn_lattice *l, const gn_frame *frame, const gn_surface *s, const gn_rect *r, int cells,
                               gn_window *window)
 {
     gn_seen_box *box = &l->row.seen.all;
-    const int32_t right = r->x1 - !cells, bottom = r->y1 - !cells;
+    const int32_t bottom = r->y1 - !cells;
     int32_t first[2], n[2];
     *box = (gn_seen_box){{INT32_MAX, INT32_MAX}, {INT32_MIN, INT32_MIN}};
     if (!see(l, frame, s, r->x0, r->y0, box) || !see(l, frame, s, r->x0, bottom, box) ||
-        !see(l, frame, s, right, r->y0, box) || !see(l, frame, s, right, bottom, box))
+        !see(l, frame, s, r->x1, r->y0, box) || !see(l, frame, s, r->x1, bottom, box))
         return 0;
     if (gn_beyond_tile(window->view, box->lo[0], box->hi[0], box->lo[1], box->hi[1])) {
         light_up(window);
@@ -208,9 +208,10 @@ GN_HOT gn_window *gn_lattice_window(gn_lattice *l, const gn_frame *frame, const 
     }
     if (window->planar <= 0) return NULL;
     window->w = 0;
-    gn_rect r = {x, l->part_y, l->part_end, l->part_bottom};
+    gn_rect r = {x & ~rest, l->part_y, (l->part_end + rest) & ~rest, l->part_bottom}; /* chunks: rows bend in between */
     const int lower = !cells && x == l->seen.x0;
     if (cells) {
+        r.x0 = x;
         r.y0 = l->seen.y0 - ((l->seen.y0 - l->y) & rest);
         r.x1 = l->seen.x1 + ((x - l->seen.x1) & rest);
         r.y1 = l->seen.y1 + ((r.y0 - l->seen.y1) & rest);

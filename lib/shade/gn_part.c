@@ -193,7 +193,9 @@ GN_HOT static inline int attenuations(const gn_shading *s, const gn_part_view *v
     *missed = 0;
     if (view->said != GN_WINDOW_MIXED) return view->said;
     *missed = (1U << n) - 1;
-    if (!view->window || !row->z_q16) return GN_WINDOW_MISSED;
+    if (!view->window || !row->z_q16 ||
+        (gn_abs32(row->at[0]) | gn_abs32(row->at[1]) | gn_abs32(row->last[0]) | gn_abs32(row->last[1])) >> 27)
+        return GN_WINDOW_MISSED;
     gn_receiver_step from = {row->at[0], row->at[1], 0}, step = {0, 0, 0};
     if (n_all > 1) {
         step.u_q16 = gn_step_of(row->at[0], row->last[0], n_all);

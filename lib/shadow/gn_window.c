@@ -139,16 +139,26 @@ GN_HOT static void sum_up(gn_window *window)
     window->doubts = doubts;
 }
 
+/* Widens n texels from `first` on to the tile's border, which repeats, if they lie beyond it. */
+GN_HOT static inline void reach_tile(int32_t *first, int32_t *n, int32_t last)
+{
+    const int32_t beyond = gn_max32(*first - last, 0);
+    *first -= beyond;
+    *n = gn_max32(*n + beyond, 1 - *first);
+}
+
 GN_HOT int gn_window_compare(gn_window *window, const gn_window_place *place, int32_t u0, int32_t v0, int32_t w,
                              int32_t h)
 {
     const gn_light_view *view = window->view;
     const int32_t *slope = window->slope_q30, last = view->tile_texels - 1, last_row = GN_TILE_ROWS(view) - 1;
+    window->w = 0;
+    reach_tile(&u0, &w, last);
+    reach_tile(&v0, &h, last_row);
+    if (w > GN_WINDOW_TEXELS || h > GN_WINDOW_TEXELS) return 0;
     int64_t du = u0 * 65536 + 32768 - place->u_q16, dv = v0 * 65536 + 32768 - place->v_q16;
     int64_t first = place->depth_q30 + ((du * slope[0] + dv * slope[1]) >> 16);
-    window->w = 0;
     if (!in_range(window, first, place->apart_q30, w, h)) return 0;
-    if (u0 + w <= 0 || v0 + h <= 0 || u0 > last || v0 > last_row) return 0;
     GN_NOTE_TEXELS(window->squares, view, u0, v0, w, h);
     int32_t ua = gn_max32(u0, 0), n = gn_min32(u0 + w - 1, last) - ua + 1, left = ua - u0;
     int32_t va = gn_max32(v0, 0), n_rows = gn_min32(v0 + h - 1, last_row) - va + 1, above = va - v0;
@@ -242,8 +252,7 @@ typedef struct {
 } window_rows;
 
 /* Which of n x n texels from texel s of row j on keep a receiver dark, a byte per row: if some are in doubt, all of
- * more than four are compared. Returns the OR of all rows, and
- * in the upper half their AND. */
+ * more than four are compared. Returns the OR of all rows, and in the upper half their AND. */
 GN_HOT static uint32_t dark_texels(const window_rows *rows, int32_t s, int32_t j, int32_t n, int32_t depth_q30,
                                    uint8_t *dark)
 {
