@@ -77,6 +77,7 @@ GN_HOT static int verdict_of_window(const gn_frame *frame, gn_window *window, co
     int32_t u0, v0, w, h;
     gn_window_reads(p->view, GN_VIEW_EDGE(frame, p->view) > 0, lo->u_q16 - 16, hi->u_q16 + 1040, &u0, &w);
     gn_window_reads(p->view, GN_VIEW_EDGE(frame, p->view) > 0, lo->v_q16 - 16, hi->v_q16 + 1040, &v0, &h);
+    if (gn_window_is_beyond(p->view, u0, v0, w, h)) return gn_border_lit(p->view) ? GN_CELL_LIT : GN_CELL_SPLIT;
     if (!gn_window_covers(window, u0, v0, w, h)) {
         const gn_window_place place = middle_of(window, p);
         if (!may_compare || w > GN_WINDOW_TEXELS || h > GN_WINDOW_TEXELS) return GN_CELL_SPLIT;

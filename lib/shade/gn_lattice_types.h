@@ -41,7 +41,7 @@ typedef struct {
 
 enum { GN_CORNER_DARK = -128, GN_CORNER_FULLY = 127 };
 
-enum { GN_CORNER_NEW, GN_CORNER_KNOWN, GN_CORNER_UNSEEN };
+enum { GN_CORNER_KNOWN = 1, GN_CORNER_UNSEEN };
 
 /* A surface's plane at the centre of a pixel, which may lie outside of the triangle. */
 typedef struct {

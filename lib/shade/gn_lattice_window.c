@@ -157,25 +157,30 @@ GN_HOT static void light_up(gn_window *window)
     window->any = window->all = window->doubts = 0;
 }
 
-/* Makes it for pixels x0 .. x1, y0 .. y1 - 1, or for cells, up to their corners at x1 and y1. Returns 0 if that is too
- * much. */
+/* Makes it for pixels x0 .. x1 - 1, y0 .. y1 - 1, or for cells, up to their corners at x1 and y1. Returns 0 if that is
+ * too much. */
 GN_HOT static int make_window(gn_lattice *l, const gn_frame *frame, const gn_surface *s, const gn_rect *r, int cells,
                               gn_window *window)
 {
     gn_seen_box *box = &l->row.seen.all;
-    const int32_t bottom = r->y1 - !cells;
+    const int32_t right = r->x1 - !cells, bottom = r->y1 - !cells,
+                  beside = cells ? 64 : 65536 >> gn_cell_place_log2(frame); /* what steps are off by */
     int32_t first[2], n[2];
     *box = (gn_seen_box){{INT32_MAX, INT32_MAX}, {INT32_MIN, INT32_MIN}};
     if (!see(l, frame, s, r->x0, r->y0, box) || !see(l, frame, s, r->x0, bottom, box) ||
-        !see(l, frame, s, r->x1, r->y0, box) || !see(l, frame, s, r->x1, bottom, box))
+        !see(l, frame, s, right, r->y0, box) || !see(l, frame, s, right, bottom, box))
         return 0;
+    for (int i = 0; i < 2; i++) {
+        if ((gn_abs32(box->lo[i]) | gn_abs32(box->hi[i])) >> 27) return 0;
+        box->lo[i] -= beside;
+        box->hi[i] += beside;
+    }
     if (gn_beyond_tile(window->view, box->lo[0], box->hi[0], box->lo[1], box->hi[1])) {
         light_up(window);
         return 1;
     }
-    for (int i = 0; i < 2; i++) { /* and what steps over cells are off by */
-        if ((gn_abs32(box->lo[i]) | gn_abs32(box->hi[i])) >> 27) return 0;
-        gn_window_reads(window->view, GN_VIEW_EDGE(frame, window->view), box->lo[i] - 64, box->hi[i] + 1088, &first[i],
+    for (int i = 0; i < 2; i++) {
+        gn_window_reads(window->view, GN_VIEW_EDGE(frame, window->view), box->lo[i], box->hi[i] + 1024, &first[i],
                         &n[i]);
         if (n[i] > GN_WINDOW_TEXELS) return 0;
     }
@@ -208,10 +213,9 @@ GN_HOT gn_window *gn_lattice_window(gn_lattice *l, const gn_frame *frame, const 
     }
     if (window->planar <= 0) return NULL;
     window->w = 0;
-    gn_rect r = {x & ~rest, l->part_y, (l->part_end + rest) & ~rest, l->part_bottom}; /* chunks: rows bend in between */
+    gn_rect r = {x, l->part_y, l->part_end, l->part_bottom};
     const int lower = !cells && x == l->seen.x0;
     if (cells) {
-        r.x0 = x;
         r.y0 = l->seen.y0 - ((l->seen.y0 - l->y) & rest);
         r.x1 = l->seen.x1 + ((x - l->seen.x1) & rest);
         r.y1 = l->seen.y1 + ((r.y0 - l->seen.y1) & rest);
@@ -256,14 +260,31 @@ GN_HOT static GN_NOINLINE int32_t move_window(const gn_frame *frame, gn_window *
     }
 }
 
+/* Whether a place is no window's to tell: beyond a border that repeats. */
+GN_HOT static inline int is_outside(const gn_light_view *view, const gn_receiver_step *at, const gn_receiver_step *step,
+                                    int32_t k)
+{
+    return (uint32_t)(at->u_q16 + k * step->u_q16) >> 16 >= (uint32_t)view->tile_texels ||
+           (uint32_t)(at->v_q16 + k * step->v_q16) >> 16 >= (uint32_t)GN_TILE_ROWS(view);
+}
+
 GN_HOT int gn_lattice_row(const gn_frame *frame, gn_window *window, gn_receiver_step *at, const gn_receiver_step *step,
                           int32_t n, int32_t behind, uint32_t *out, uint32_t *missed)
 {
-    int said = gn_window_row(frame, window, at, step, n, behind, out);
-    *missed = 0;
+    const gn_light_view *view = window->view;
+    int32_t done = 0, end = n;
+    if (!gn_border_lit(view) && window->planar > 0) {
+        while (done < n && is_outside(view, at, step, done)) done++;
+        while (done < end && is_outside(view, at, step, end - 1)) end--;
+    }
+    *missed = ((1U << done) - 1) | (((1U << n) - 1) & ~((1U << end) - 1));
+    int said = end - done < n ? GN_WINDOW_MISSED : gn_window_row(frame, window, at, step, n, behind, out);
     if (said != GN_WINDOW_MISSED) return said;
-    for (int32_t done = 0, some; done < n; done += some) {
-        some = window->planar > 0 ? move_window(frame, window, at, step, n - done) : 0;
+    if (behind >= 0) behind += done;
+    gn_receiver_advance(at, step, done);
+    gn_attenuations_set(out, n, GN_WINDOW_LIT);
+    for (int32_t some; done < end; done += some) {
+        some = window->planar > 0 ? move_window(frame, window, at, step, end - done) : 0;
         said = some ? gn_window_row(frame, window, at, step, some, behind, out + done) : GN_WINDOW_MISSED;
         if (some == n && said != GN_WINDOW_MISSED) return said;
         some = gn_max32(some, 1);
@@ -272,6 +293,7 @@ GN_HOT int gn_lattice_row(const gn_frame *frame, gn_window *window, gn_receiver_
         if (behind >= 0) behind += some;
         gn_receiver_advance(at, step, some);
     }
+    gn_receiver_advance(at, step, n - end);
     return GN_WINDOW_MIXED;
 }
 

@@ -20,8 +20,6 @@ typedef struct {
     int32_t z_q16, last_z_q16;
 } row_ends;
 
-enum { FEW_BENT = 4 };
-
 /* Whether perspective bends a row by more than places may be off: NUMERICS 4.12, what is between corners. */
 GN_HOT static inline int bends(const gn_frame *frame, const row_ends *row)
 {
@@ -52,7 +50,7 @@ GN_HOT static inline int32_t next_places(const gn_shading *s, const gn_part_view
         row->last_z_q16 =
             gn_corner_uv(&s->lattice, s->frame, &s->surface, view->view, x + n, y, view->offset_q16, row->last);
         if (n == 1) return n;
-        if (row->last_z_q16 && (n <= FEW_BENT || !bends(s->frame, row))) return n;
+        if (row->last_z_q16 && !bends(s->frame, row)) return n;
     }
 }
 

@@ -230,7 +230,7 @@ static int find_shared_edge(const uint16_t *p, const uint16_t *q, corners *v)
     return 0;
 }
 
-GN_HOT gn_join gn_join_find(const gn_frame *frame, const gn_tri_source *tri)
+gn_join gn_join_find(const gn_frame *frame, const gn_tri_source *tri)
 {
     const gn_object *object = &frame->scene->objects[tri->object_idx];
     const gn_mesh *mesh = object->mesh;

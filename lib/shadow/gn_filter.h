@@ -305,6 +305,12 @@ GN_HOT static inline int32_t gn_window_depth_step(const gn_window *window, int32
     return (int32_t)(((int64_t)u_q16 * window->slope_q30[0] + (int64_t)v_q16 * window->slope_q30[1]) >> 16);
 }
 
+/* Whether w x h texels lie beyond the tile: no window tells of those. */
+GN_HOT static inline int gn_window_is_beyond(const gn_light_view *view, int32_t u, int32_t v, int32_t w, int32_t h)
+{
+    return u + w <= 0 || v + h <= 0 || u >= view->tile_texels || v >= GN_TILE_ROWS(view);
+}
+
 /* Of texels that it covers: GN_WINDOW_LIT, _DARK or _MIXED. */
 int gn_window_says(const gn_window *window, int32_t u0, int32_t v0, int32_t w, int32_t h);
 

@@ -139,12 +139,12 @@ GN_HOT static void sum_up(gn_window *window)
     window->doubts = doubts;
 }
 
-/* Widens n texels from `first` on to the tile's border, which repeats, if they lie beyond it. */
-GN_HOT static inline void reach_tile(int32_t *first, int32_t *n, int32_t last)
+/* Beyond a border that is lit. */
+GN_HOT static void light_all(gn_window *window)
 {
-    const int32_t beyond = gn_max32(*first - last, 0);
-    *first -= beyond;
-    *n = gn_max32(*n + beyond, 1 - *first);
+    for (int32_t j = 0; j < window->h; j++) window->dark[j] = window->doubt[j] = 0;
+    window->any = window->all = window->doubts = 0;
+    window->plain = 0;
 }
 
 GN_HOT int gn_window_compare(gn_window *window, const gn_window_place *place, int32_t u0, int32_t v0, int32_t w,
@@ -152,14 +152,22 @@ GN_HOT int gn_window_compare(gn_window *window, const gn_window_place *place, in
 {
     const gn_light_view *view = window->view;
     const int32_t *slope = window->slope_q30, last = view->tile_texels - 1, last_row = GN_TILE_ROWS(view) - 1;
-    window->w = 0;
-    reach_tile(&u0, &w, last);
-    reach_tile(&v0, &h, last_row);
-    if (w > GN_WINDOW_TEXELS || h > GN_WINDOW_TEXELS) return 0;
+    const int is_beyond = gn_window_is_beyond(view, u0, v0, w, h), lit = gn_border_lit(view);
     int64_t du = u0 * 65536 + 32768 - place->u_q16, dv = v0 * 65536 + 32768 - place->v_q16;
     int64_t first = place->depth_q30 + ((du * slope[0] + dv * slope[1]) >> 16);
-    if (!in_range(window, first, place->apart_q30, w, h)) return 0;
+    window->w = 0;
+    if (!in_range(window, first, place->apart_q30, w, h) || (is_beyond && !lit)) return 0;
     GN_NOTE_TEXELS(window->squares, view, u0, v0, w, h);
+    GN_COUNT(window_texels, w * h);
+    window->depth_q30 = (int32_t)first;
+    window->u0 = u0;
+    window->v0 = v0;
+    window->w = w;
+    window->h = h;
+    if (is_beyond) {
+        light_all(window);
+        return 1;
+    }
     int32_t ua = gn_max32(u0, 0), n = gn_min32(u0 + w - 1, last) - ua + 1, left = ua - u0;
     int32_t va = gn_max32(v0, 0), n_rows = gn_min32(v0 + h - 1, last_row) - va + 1, above = va - v0;
     const texel_rows rows = {view,
@@ -170,16 +178,12 @@ GN_HOT int gn_window_compare(gn_window *window, const gn_window_place *place, in
                                  slope[1] * above,
                              {slope[0], slope[1]},
                              window->front_q30 + window->behind_q30 + 2 * place->apart_q30};
-    GN_COUNT(window_texels, w * h);
-    window->depth_q30 = (int32_t)first;
-    window->u0 = u0;
-    window->v0 = v0;
-    window->w = w;
-    window->h = h;
     for (int32_t j = 0; j < n_rows; j++) compare_row(&rows, j, &window->dark[above + j], &window->doubt[above + j]);
-    window->plain = GN_VIEW_BITS(view) == 16 && n == w && n_rows == h;
-    if (n != w || n_rows != h) repeat_borders(window, left, n, above, n_rows);
+    const int inside = n == w && n_rows == h;
+    window->plain = inside && GN_VIEW_BITS(view) == 16;
+    if (!inside) repeat_borders(window, left, n, above, n_rows);
     sum_up(window);
+    if (!inside && !lit) window->any |= 1, window->all = 0; /* beyond the tile each is asked */
     return 1;
 }
 
