@@ -259,6 +259,22 @@ GN_INLINE uint32_t tinted_565(gn_texel_rgb texel, uint32_t r_uq16, uint32_t g_uq
                     tinted_q24(texel.blue, b_uq16));
 }
 
+/* Pixels of `bits` of one light: where the texture repeats a colour, so does the picture. */
+GN_HOT static inline void evenly_lit_565(uint16_t *out, uint32_t bits, const gn_texel_rgb *texel, uint32_t r_uq16,
+                                         uint32_t g_uq16, uint32_t b_uq16)
+{
+    gn_texel_rgb last = {0, 0}; /* black */
+    uint32_t packed = 0;
+    for (; bits; bits >>= 1, out++, texel++) {
+        if (!(bits & 1U)) continue;
+        if (texel->red_green != last.red_green || texel->blue != last.blue) {
+            last = *texel;
+            packed = tinted_565(last, r_uq16, g_uq16, b_uq16);
+        }
+        *out = (uint16_t)packed;
+    }
+}
+
 /* Pixels of `bits`, each with a node of its own. */
 GN_HOT static inline void apart_lit_565(uint16_t *out, uint32_t bits, const gn_texel_rgb *texel,
                                         const int32_t (*node)[3])
@@ -276,6 +292,10 @@ GN_HOT static inline void textured_565(uint16_t *out, uint32_t bits, const gn_te
     uint32_t r = (uint32_t)node[0][0], g = (uint32_t)node[0][1], b = (uint32_t)node[0][2];
     int32_t r_step = (node[1][0] - node[0][0]) >> log2, g_step = (node[1][1] - node[0][1]) >> log2,
             b_step = (node[1][2] - node[0][2]) >> log2;
+    if (!(r_step | g_step | b_step)) {
+        evenly_lit_565(out, bits, texel, r >> 8, g >> 8, b >> 8);
+        return;
+    }
     for (; bits; bits >>= 1, out++, texel++) {
         if (bits & 1U) *out = (uint16_t)tinted_565(*texel, r >> 8, g >> 8, b >> 8);
         r += (uint32_t)r_step;
