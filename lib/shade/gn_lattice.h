@@ -122,7 +122,7 @@ GN_HOT static inline void gn_attenuations_set(uint32_t *out, int32_t n, int said
 
 /* What gn_window_row() says of a row of n <= 16 receivers, or GN_WINDOW_MIXED and in *missed a bit for each that no
  * window tells of. Where the window does not cover them one of a plane is made anew for them, or for a half, a
- * quarter... of them at a time; `at` is moved on by n then. */
+ * quarter... of them at a time; `at` is moved on by n then. Places are below 2^27: so are those in between. */
 int gn_lattice_row(const gn_frame *frame, gn_window *window, gn_receiver_step *at, const gn_receiver_step *step,
                    int32_t n, int32_t behind, uint32_t *out, uint32_t *missed);
 #endif

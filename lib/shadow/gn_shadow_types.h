@@ -176,7 +176,7 @@ typedef struct {
 #if GN_CHANGES
     gn_squares *squares; /* to note what is compared */
 #endif
-    int32_t until_x, until_y;             /* gn_lattice: pixels of the screen that it was made for */
+    int32_t until_x, until_y;             /* gn_lattice: where what it was made for ends; rows move it */
     gn_window_place place;                /* a point of the plane */
     int32_t u0, v0, w, h;                 /* texels, w = 0: none yet */
     int32_t plain;                        /* all of them in the tile, of 16 bits */
