@@ -200,6 +200,16 @@ GN_HOT int gn_normalise_q30(int32_t out_q30[3], const int64_t a[3])
     return 1;
 }
 
+GN_HOT void gn_normalise_15(int32_t v[3])
+{
+    gn_to_bits(v, 3, 15);
+    const uint32_t n2 = (uint32_t)(v[0] * v[0]) + (uint32_t)(v[1] * v[1]) + (uint32_t)(v[2] * v[2]); /* 3 * 2^30 */
+    const int32_t up = gn_clz32(n2 | 1U) & ~1, more = up / 2;
+    const int32_t root = (int32_t)(gn_rsqrt_norm((n2 | 1U) << up, 1) >> 1); /* 2^(46 - more) / length */
+    GN_UNROLL
+    for (int i = 0; i < 3; i++) v[i] = 4 * gn_mul_high(v[i] * (1 << (14 + more)), root); /* length 2^more < 2^16 */
+}
+
 GN_HOT GN_NOINLINE void gn_cross64(int64_t out[3], const int32_t a[3], const int32_t b[3])
 {
     out[0] = (int64_t)a[1] * b[2] - (int64_t)a[2] * b[1];

@@ -129,6 +129,20 @@ uint64_t gn_udiv64(uint64_t a, uint64_t b);
  */
 int gn_normalise_q30(int32_t out_q30[3], const int64_t a[3]);
 
+/* A vector of any length to length 1, Q1.30, by its 15 upper bits: off by 2^-13.5 along each axis. 0 stays 0. */
+void gn_normalise_15(int32_t v[3]);
+
+/* Shifts n values until the largest has `bits` bits. */
+GN_INLINE void gn_to_bits(int32_t *v, int32_t n, int32_t bits)
+{
+    uint32_t any = 1;
+    GN_UNROLL
+    for (int32_t k = 0; k < n; k++) any |= gn_abs32(v[k]);
+    const int32_t down = 32 - bits - gn_clz32(any), less = gn_max32(down, 0), more = gn_max32(-down, 0);
+    GN_UNROLL
+    for (int32_t k = 0; k < n; k++) v[k] = (int32_t)((uint32_t)v[k] << more) >> less;
+}
+
 /* Exact; |components| < 2^30 so that the result fits. */
 void gn_cross64(int64_t out[3], const int32_t a[3], const int32_t b[3]);
 /* Exact; |sum| < 2^63 */

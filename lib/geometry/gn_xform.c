@@ -112,37 +112,37 @@ void gn_xform_fast_begin(gn_xform_fast *fast, const gn_xform *xform)
         1U << (31 - gn_max32(up, 1)); /* a position may have 30 bits with any transform: gn_scene_position_ok */
 }
 
-void gn_xform_normal_matrix(int32_t out[3][3], const int32_t m[3][3])
+void gn_xform_normal_matrix(int32_t out_q14[9], const int32_t m[3][3])
 {
     /* The cofactors are the inverse transpose times the determinant: only their direction and the determinant's sign
      * matter. */
-    int64_t cofactor[3][3];
+    int64_t cofactor[9];
     uint64_t any = 1;
     for (int r = 0; r < 3; r++) {
-        int r1 = (r + 1) % 3, r2 = (r + 2) % 3;
+        const int32_t *a = m[r == 2 ? 0 : r + 1], *b = m[r ? r - 1 : 2];
         for (int c = 0; c < 3; c++) {
-            int c1 = (c + 1) % 3, c2 = (c + 2) % 3;
-            cofactor[r][c] = (int64_t)m[r1][c1] * m[r2][c2] - (int64_t)m[r1][c2] * m[r2][c1]; /* <= 2^61 */
-            any |= gn_abs64(cofactor[r][c]);
+            const int c1 = c == 2 ? 0 : c + 1, c2 = c ? c - 1 : 2;
+            cofactor[3 * r + c] = (int64_t)a[c1] * b[c2] - (int64_t)a[c2] * b[c1]; /* <= 2^61 */
+            any |= gn_abs64(cofactor[3 * r + c]);
         }
     }
-    int mirrored = gn_det_sign(m) < 0;
-    int32_t e = 34 - gn_clz64(any);
-    for (int r = 0; r < 3; r++) {
-        for (int c = 0; c < 3; c++) {
-            int64_t v = gn_clamp64(gn_scale64(cofactor[r][c], e), -(1 << 30), 1 << 30);
-            out[r][c] = (int32_t)(mirrored ? -v : v);
-        }
-    }
+    const int32_t turn = gn_det_sign(m) < 0 ? -1 : 1, e = 50 - gn_clz64(any);
+    for (int k = 0; k < 9; k++)
+        out_q14[k] = turn * (int32_t)gn_clamp64(gn_scale64(cofactor[k], e), -(1 << 14), 1 << 14);
 }
 
-void gn_xform_normal(int32_t out_q30[3], const int32_t matrix[3][3], const gn_normal nrm_q15[3])
+/* A normal of up to 15 bits turned, any length: 3 * 2^29 */
+static inline void turn_normal(int32_t out[3], const int32_t m_q14[9], const int32_t n[3])
 {
-    int64_t n[3]; /* 3 * 2^30 * 2^15 */
-    for (int r = 0; r < 3; r++)
-        n[r] = (int64_t)matrix[r][0] * nrm_q15[0] + (int64_t)matrix[r][1] * nrm_q15[1] +
-               (int64_t)matrix[r][2] * nrm_q15[2];
-    if (!gn_normalise_q30(out_q30, n)) out_q30[0] = out_q30[1] = out_q30[2] = 0;
+    GN_UNROLL
+    for (int i = 0; i < 3; i++) out[i] = m_q14[3 * i] * n[0] + m_q14[3 * i + 1] * n[1] + m_q14[3 * i + 2] * n[2];
+}
+
+void gn_xform_normal(int32_t out_q30[3], const int32_t matrix_q14[9], const gn_normal nrm_q15[3])
+{
+    const int32_t n[3] = {nrm_q15[0], nrm_q15[1], nrm_q15[2]};
+    turn_normal(out_q30, matrix_q14, n);
+    gn_normalise_15(out_q30);
 }
 
 /* ---- Skins ------------------------------------------------------------------------------------------------------- */
@@ -247,31 +247,45 @@ void gn_skin_position(int32_t out_q16[3], const gn_object *object, uint32_t vert
 }
 #undef GN_ROW_
 
-/* The weighted mean of the joints' matrices, up to a positive factor: largest entry in 2^29 .. 2^30. */
-static void mean_matrix(int32_t out[3][3], const gn_vertex_joints *of)
+/* The weighted mean of the joints' matrices, up to a positive factor: 14 bits. */
+static void mean_matrix(int32_t mean[9], const gn_vertex_joints *of)
 {
-    int64_t sum[3][3] = {{0}};
-    uint64_t any = 1;
+    int32_t most = 0;
+    for (uint32_t i = 0; i < of->n; i++)
+        if (of->weight_u8[i]) most = gn_max32(most, of->joint[of->idx[i]].exp);
+    for (int k = 0; k < 9; k++) mean[k] = 0;
     for (uint32_t i = 0; i < of->n; i++) {
         const gn_affine *joint = &of->joint[of->idx[i]];
-        for (int k = 0; k < 9; k++) /* 255 * 2^30 * 2^14 in all */
-            sum[k / 3][k % 3] += gn_shl64((int64_t)joint->m_q30[k / 3][k % 3] * of->weight_u8[i], joint->exp);
+        const int32_t weight = of->weight_u8[i], down = gn_min32(8 + most - joint->exp, 31), *m = joint->m_q30[0];
+        if (!weight) continue;
+        GN_UNROLL
+        for (int k = 0; k < 9; k++) mean[k] += (m[k] >> down) * weight; /* 2^22 * 255 in all */
     }
-    for (int k = 0; k < 9; k++) any |= gn_abs64(sum[k / 3][k % 3]);
-    for (int k = 0; k < 9; k++)
-        out[k / 3][k % 3] = (int32_t)gn_clamp64(gn_scale64(sum[k / 3][k % 3], 34 - gn_clz64(any)), -(1 << 30), 1 << 30);
+    gn_to_bits(mean, 9, 14);
 }
 
-void gn_skin_normal(int32_t out_q30[3], const gn_object *object, const int32_t matrix[3][3], uint32_t vertex_idx)
+void gn_skin_normal(int32_t out_q30[3], const gn_object *object, const int32_t matrix_q14[9], uint32_t vertex_idx)
 {
     const gn_vertex_joints of = gn_skin_joints(object->skin, vertex_idx);
-    int32_t mean[3][3], inverse[3][3], posed[3];
-    int64_t n[3]; /* 3 * 2^60 */
+    const gn_normal *nrm = object->mesh->nrm_q15 + 3 * (size_t)vertex_idx;
+    int32_t mean[9], cofactor[9], posed[3], n[3] = {nrm[0], nrm[1], nrm[2]};
     GN_COUNT(posed_normals, 1);
+    gn_to_bits(n, 3, 14);
     mean_matrix(mean, &of);
-    gn_xform_normal_matrix(inverse, (const int32_t(*)[3])mean);
-    gn_xform_normal(posed, (const int32_t(*)[3])inverse, object->mesh->nrm_q15 + 3 * (size_t)vertex_idx);
-    for (int r = 0; r < 3; r++) n[r] = gn_dot64(matrix[r], posed);
-    if (!gn_normalise_q30(out_q30, n)) out_q30[0] = out_q30[1] = out_q30[2] = 0;
+    GN_UNROLL
+    for (int r = 0; r < 3; r++) {
+        const int32_t *a = mean + 3 * (r == 2 ? 0 : r + 1), *b = mean + 3 * (r ? r - 1 : 2);
+        cofactor[3 * r] = a[1] * b[2] - a[2] * b[1]; /* 2^29 */
+        cofactor[3 * r + 1] = a[2] * b[0] - a[0] * b[2];
+        cofactor[3 * r + 2] = a[0] * b[1] - a[1] * b[0];
+    }
+    gn_to_bits(cofactor, 9, 14);
+    /* 12 * 2^14 is rounding: it flattens and has no side */
+    if (mean[0] * cofactor[0] + mean[1] * cofactor[1] + mean[2] * cofactor[2] < -(1 << 18))
+        for (int i = 0; i < 3; i++) n[i] = -n[i];
+    turn_normal(posed, cofactor, n);
+    gn_to_bits(posed, 3, 15);
+    turn_normal(out_q30, matrix_q14, posed);
+    gn_normalise_15(out_q30);
 }
 #endif

@@ -89,7 +89,7 @@ GN_HOT void gn_bias_punctual(const gn_frame *frame, const gn_light_state *light,
 #if GN_AUTO_BIAS
 /* Depth form, both slopes together: planes that the light meets nearly at right angles have the bias of this slope, so
  * that a steeper one beside them does not darken their edge. */
-#define GN_LEAST_SLOPE_Q10 512
+#define GN_LEAST_SLOPE_Q12 2048
 
 GN_HOT int32_t gn_bias_auto_reach_q16(const gn_frame *frame, const gn_light_view *view, gn_auto_bias form)
 {
@@ -98,17 +98,24 @@ GN_HOT int32_t gn_bias_auto_reach_q16(const gn_frame *frame, const gn_light_view
            (int32_t)((view->tile_texels * (int64_t)65536) >> GN_VIEW_BITS(view)) + 1;
 }
 
+/* n over w, whose reciprocal is 2^63 / (w 2^clz), to Q12, with the sign of n: within +-2^30. */
+GN_HOT static int32_t slope_q12(int32_t n_q30, uint32_t recip, int32_t clz)
+{
+    const uint32_t q = gn_umul_high(gn_abs32(n_q30), recip); /* n / w * 2^(31 - clz) */
+    const int32_t down = 19 - clz, up = gn_max32(-down, 0);
+    const uint32_t slope = up && q >> (30 - up) ? 1U << 30 : q << up >> gn_max32(down, 0);
+    return n_q30 < 0 ? -(int32_t)slope : (int32_t)slope;
+}
+
 GN_HOT void gn_bias_auto_face(const gn_light_view *view, gn_auto_bias form, const int32_t face_q30[3], int32_t out[3])
 {
-    int64_t n[3];
     GN_UNROLL
-    for (int i = 0; i < 3; i++) n[i] = gn_dot_q30(face_q30, view->axis_q30[i]);
-    GN_UNROLL
-    for (int i = 0; i < 3; i++) out[i] = gn_sat32(n[i]);
+    for (int i = 0; i < 3; i++) out[i] = gn_sat32(gn_dot_q30(face_q30, view->axis_q30[i]));
     if (form == GN_AUTO_BIAS_NORMAL) return;
-    gn_bfloat per_w = gn_bf_recip(gn_bf_from_u64(gn_abs64(n[2]) | 1U));
-    GN_UNROLL
-    for (int i = 0; i < 2; i++) out[i] = gn_sat32(gn_bf_apply((int64_t)gn_abs64(n[i]), per_w, 10) + 1);
+    const uint32_t w = gn_abs32(out[2]) | 1U;
+    const int32_t clz = gn_clz32(w), turn = out[2] < 0 ? 1 : -1;
+    const uint32_t recip = gn_recip_norm(w << clz, 1);
+    for (int i = 0; i < 2; i++) out[i] = turn * slope_q12(out[i], recip, clz);
 }
 
 GN_HOT void gn_bias_auto_ortho(const gn_light_view *view, gn_auto_bias form, const int32_t face[3], int32_t out_q16[3])
@@ -124,11 +131,12 @@ GN_HOT void gn_bias_auto_ortho(const gn_light_view *view, gn_auto_bias form, con
         for (int i = 0; i < 3; i++) out_q16[i] = gn_sat32(gn_shr64(lift_q16 * face[i], 30));
         return;
     }
-    int64_t most_q10 = (int64_t)1 << (11 + range_log2); /* twice the range: half of that lights all */
-    u = u < most_q10 ? u : most_q10;
-    v = v < most_q10 ? v : most_q10;
-    const int64_t slopes_q10 = u + v > GN_LEAST_SLOPE_Q10 ? u + v : GN_LEAST_SLOPE_Q10;
-    out_q16[2] = gn_sat32(-((reach_q16 * slopes_q10 >> 10) + view->auto_step + 1)); /* 2^21 * 2^32 */
+    const int64_t most_q12 = (int64_t)1 << (13 + range_log2); /* twice the range: half of that lights all */
+    u = u < most_q12 ? u : most_q12;
+    v = v < most_q12 ? v : most_q12;
+    int64_t slopes_q12 = u + v + ((u + v) >> 16) + 2; /* at least what they are: the reciprocal's 2^-17 */
+    if (slopes_q12 < GN_LEAST_SLOPE_Q12) slopes_q12 = GN_LEAST_SLOPE_Q12;
+    out_q16[2] = gn_sat32(-((reach_q16 * slopes_q12 >> 12) + view->auto_step + 1)); /* 2^21 * 2^32 */
 }
 
 #if GN_PUNCTUAL_LIGHTS
@@ -167,7 +175,7 @@ GN_HOT static int too_steep(const gn_light_view *view, uint32_t m_q30, int64_t h
 GN_HOT static int64_t slope_share_q32(const gn_light_view *view, int32_t reach_q16, uint32_t across_q30, int64_t h_q16)
 {
     const gn_persp_fit *fit = &view->fit.persp;
-    if (across_q30 < GN_LEAST_SLOPE_Q10 << 20) across_q30 = GN_LEAST_SLOPE_Q10 << 20;
+    if (across_q30 < GN_LEAST_SLOPE_Q12 << 18) across_q30 = GN_LEAST_SLOPE_Q12 << 18;
     gn_bfloat per_h = gn_bf_mul(gn_bf_recip(gn_bf_from_u64((uint64_t)h_q16 | 1U)), fit->texel_per_z);
     int64_t reach_q26 = (int64_t)((uint64_t)(uint32_t)reach_q16 * across_q30 >> 20); /* 2^21 * 2^31 * 2^-20 */
     return gn_clamp64(gn_bf_apply(reach_q26 * fit->near_q16, per_h, 6) + 1, 0, (int64_t)1 << 33); /* 2^32 * 2^29 */

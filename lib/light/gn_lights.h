@@ -129,7 +129,8 @@ int32_t gn_bias_auto_reach_q16(const gn_frame *frame, const gn_light_view *view,
 int64_t gn_bias_auto_place_q16(const gn_light_view *view, int32_t depth_q16);
 
 /* Once per triangle and directional light: the input of gn_bias_auto_ortho. face_q30: the face's normal in the world,
- * towards the viewer. Normal: its parts along the light's axes, Q30; depth: |dD/dU|, |dD/dV|, Q10. */
+ * towards the viewer. Normal: its parts along the light's axes, Q30; depth: dD/dU, dD/dV, Q12, to 2^-17 of them and
+ * 2^-12, within +-2^30. */
 void gn_bias_auto_face(const gn_light_view *view, gn_auto_bias form, const int32_t face_q30[3], int32_t out[3]);
 
 /* The receiver's offset, in texels along the view's axes, Q16. */

@@ -16,6 +16,7 @@
 GN_HOT void gn_patch_begin_tile(gn_shading *s)
 {
     s->patches.of.object = NULL;
+    s->patches.line = (gn_pixel_line){.node = (const int32_t(*)[3])s->lattice.from.patch.node_q24};
 #if GN_VERTEX_NORMALS
     for (int i = 0; i < GN_PATCH_NORMALS; i++) s->patches.normal[i].tag = 0;
 #endif
@@ -157,7 +158,7 @@ GN_HOT static void draw_patch_nodes(gn_shading *s, const int32_t from[3], const 
                                     const gn_patch_span *span, int32_t x, int32_t y, int32_t n)
 {
     gn_patch *p = &s->lattice.from.patch;
-    gn_pixel_line line = {.node = (const int32_t(*)[3])p->node_q24};
+    gn_pixel_line *line = &s->patches.line;
     int32_t r = from[0], g = from[1], b = from[2], (*node)[3] = p->node_q24;
     for (int32_t(*end)[3] = node + n; node < end; node++, r += step[0], g += step[1], b += step[2])
         (*node)[0] = r, (*node)[1] = g, (*node)[2] = b;
@@ -166,11 +167,11 @@ GN_HOT static void draw_patch_nodes(gn_shading *s, const int32_t from[3], const 
 #if GN_TEXTURES
     if (p->textured) {
         find_row_texels(p, span, n);
-        line.texel = p->texel;
-        line.inside = !(nodes_beyond(line.node, n) >> 24);
-    }
+        line->texel = p->texel;
+        line->inside = !(nodes_beyond(line->node, n) >> 24);
+    } else line->texel = NULL;
 #endif
-    gn_pixel_store_line(s->frame, &s->rows, x, y, (1U << n) - 1, &line);
+    gn_pixel_store_line(s->frame, &s->rows, x, y, (1U << n) - 1, line);
 }
 
 GN_HOT static void draw_patch_row(gn_shading *s, const gn_patch_span *span, int32_t x, int32_t y, int32_t n)

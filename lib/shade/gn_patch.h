@@ -66,9 +66,6 @@ GN_HOT static inline int32_t gn_record_depth(const gn_patch_record *r, int k)
 /* The face's normal along the camera's axes, Q14, length 1, towards the viewer. */
 void gn_record_face(const gn_patch_record *r, const gn_frame *frame, int32_t view_q14[3]);
 
-/* A vector of any length to length 1, Q14; 0 stays 0. */
-void gn_patch_unit(int32_t v[3]);
-
 /* Where a ray plane sees the corners, whose depths are known: Q16, within +-2^30. Returns 0 if they are beyond. */
 int gn_record_places(const gn_patch_record *r, const gn_frame *frame, const gn_ray_plane *plane, int32_t ray_shift,
                      int32_t out_q16[3]);

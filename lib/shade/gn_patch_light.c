@@ -62,9 +62,7 @@ GN_HOT void gn_patch_use_object(gn_shading *s, const gn_object *object)
     of->receives = (uint8_t)(object->flags & GN_OBJECT_RECEIVES && !unlit);
     for (int c = 0; shows_shadow(s->frame) && c < 3; c++) of->base_q24[c] = 0;
     if ((!of->patched && !GN_SKIN(object)) || !GN_VERTEX_NORMALS || !object->mesh->nrm_q15) return;
-    int32_t to_world_q30[3][3];
-    gn_xform_normal_matrix(to_world_q30, object->to_world.m_q30);
-    for (int k = 0; k < 9; k++) of->to_world_q14[k] = to_world_q30[k / 3][k % 3] >> 16;
+    gn_xform_normal_matrix(of->to_world_q14, object->to_world.m_q30);
 }
 
 /* ---- Normals ----------------------------------------------------------------------------------------------------- */
@@ -84,84 +82,19 @@ GN_HOT const int32_t *gn_patch_face(gn_shading *s)
 }
 
 #if GN_VERTEX_NORMALS
-/* A normal of 14 bits turned, any length. */
-GN_HOT static inline void turn_normal(int32_t out[3], const int32_t m_q14[9], const int32_t n[3])
-{
-    GN_UNROLL
-    for (int i = 0; i < 3; i++) {
-        const int32_t *row = m_q14 + 3 * i;
-        out[i] = row[0] * n[0] + row[1] * n[1] + row[2] * n[2]; /* 3 * 2^28 */
-    }
-}
-
-/* Shifts n values until the largest has 14 bits. */
-GN_HOT static inline void to_14_bits(int32_t *v, int32_t n)
-{
-    uint32_t any = 1;
-    GN_UNROLL
-    for (int32_t k = 0; k < n; k++) any |= gn_abs32(v[k]);
-    const int32_t down = 18 - gn_clz32(any), less = gn_max32(down, 0), more = gn_max32(-down, 0);
-    GN_UNROLL
-    for (int32_t k = 0; k < n; k++) v[k] = (int32_t)((uint32_t)v[k] << more) >> less;
-}
-
-#if GN_VERTEX_JOINTS
-/* The weighted mean of the joints' matrices, 14 bits. */
-GN_HOT static void mean_of_joints(const gn_skin *skin, uint32_t vertex_idx, int32_t mean[9])
-{
-    const gn_vertex_joints of = gn_skin_joints(skin, vertex_idx);
-    int32_t most = INT32_MIN;
-    for (uint32_t i = 0; i < of.n; i++)
-        if (of.weight_u8[i]) most = gn_max32(most, of.joint[of.idx[i]].exp);
-    for (int k = 0; k < 9; k++) mean[k] = 0;
-    for (uint32_t i = 0; i < of.n; i++) {
-        const gn_affine *joint = &of.joint[of.idx[i]];
-        const int32_t weight = of.weight_u8[i], down = gn_min32(8 + most - joint->exp, 31);
-        if (!weight) continue;
-        GN_UNROLL
-        for (int k = 0; k < 9; k++) mean[k] += (joint->m_q30[k / 3][k % 3] >> down) * weight; /* 2^22 * 255 in all */
-    }
-    to_14_bits(mean, 9);
-}
-
-/* By the inverse transpose of the joints' mean, which is its cofactors over its determinant: any length. */
-GN_HOT static void turn_by_joints(gn_shading *s, uint32_t vertex_idx, const int32_t n[3], int32_t out[3])
-{
-    int32_t mean[9], cofactor[9], *at = cofactor;
-    mean_of_joints(s->patches.of.object->skin, vertex_idx, mean);
-    GN_UNROLL
-    for (int r = 0; r < 3; r++) {
-        const int32_t *a = mean + 3 * (r == 2 ? 0 : r + 1), *b = mean + 3 * (r ? r - 1 : 2);
-        *at++ = a[1] * b[2] - a[2] * b[1]; /* 2^29 */
-        *at++ = a[2] * b[0] - a[0] * b[2];
-        *at++ = a[0] * b[1] - a[1] * b[0];
-    }
-    to_14_bits(cofactor, 9);
-    const int32_t det = mean[0] * cofactor[0] + mean[1] * cofactor[1] + mean[2] * cofactor[2];
-    const int32_t turn = det < -(1 << 18) ? -1 : 1; /* 12 * 2^14 is rounding: it flattens and has no side */
-    int32_t posed[3];
-    for (int r = 0; r < 3; r++) /* 3 * 2^28 */
-        posed[r] = turn * (cofactor[3 * r] * n[0] + cofactor[3 * r + 1] * n[1] + cofactor[3 * r + 2] * n[2]);
-    to_14_bits(posed, 3);
-    turn_normal(out, s->patches.of.to_world_q14, posed);
-}
-#endif
-
 /* A vertex's normal in the world, before the triangle's back is turned. */
 GN_HOT static GN_NOINLINE uint32_t make_patch_normal(gn_shading *s, uint32_t vertex_idx)
 {
-    const gn_object *object = s->patches.of.object;
-    const gn_normal *nrm = object->mesh->nrm_q15 + 3 * (size_t)vertex_idx;
-    int32_t n[3] = {nrm[0], nrm[1], nrm[2]};
-    int32_t turned[3] = {0, 0, 0};
-    to_14_bits(n, 3);
+    const gn_patch_object *of = &s->patches.of;
+    int32_t n_q30[3];
 #if GN_VERTEX_JOINTS
-    if (object->skin) turn_by_joints(s, vertex_idx, n, turned);
+    if (of->object->skin) gn_skin_normal(n_q30, of->object, of->to_world_q14, vertex_idx);
+    else
 #endif
-    if (!GN_SKIN(object)) turn_normal(turned, s->patches.of.to_world_q14, n);
-    gn_patch_unit(turned);
+        gn_xform_normal(n_q30, of->to_world_q14, of->object->mesh->nrm_q15 + 3 * (size_t)vertex_idx);
     uint32_t packed = 0;
-    for (int i = 0; i < 3; i++) packed = packed << 10 | ((uint32_t)gn_min32(turned[i] + 16, 16383) >> 5 & 1023U);
+    for (int i = 0; i < 3; i++)
+        packed = packed << 10 | ((uint32_t)gn_min32(n_q30[i] + (1 << 20), (1 << 30) - 1) >> 21 & 1023U);
     return packed;
 }
 

@@ -21,6 +21,7 @@ enum { TOO_FAR = 1 << 29 /* texels, Q16: of an offset that no tile is deep enoug
 /* Where the corners are looked up: u, v in texels, Q16, and depth, a share of the view's range, Q30. */
 typedef struct {
     int32_t u[3], v[3], depth[3];
+    int32_t slope_q12[2]; /* of depth over u and v, both in texels: directional views */
 } patch_places;
 
 /* ---- Reach ------------------------------------------------------------------------------------------------------- */
@@ -44,53 +45,66 @@ GN_HOT void gn_patch_begin_reach(gn_shading *s)
     }
 }
 
-/* The cascade of a corner, GN_CASCADE_NONE: none. *fades: it lies where that cascade's factor is below 1. [D4] [D6] */
-GN_HOT static int32_t cascade_of_corner(const gn_shading *s, int k, int *fades)
+/* Square of the distance from the view axis at depth z, both shifted by sphere_down, of a point of the screen whose
+ * half pixels from the centre are `halves2`, squared. */
+GN_HOT static inline uint64_t across2(const gn_frame *frame, uint32_t z, uint32_t halves2)
 {
-    const gn_frame *frame = s->frame;
-    const gn_patch *p = &s->lattice.from.patch;
-    const gn_tri *tri = p->record.tri;
-    const int32_t bits = GN_K(frame, subpixel_bits) - 1, x = tri->x[k] >> bits, y = tri->y[k] >> bits; /* half pixels */
-    const uint32_t z = (uint32_t)gn_record_depth(&p->record, k) >> p->shared->sphere_down;
-    const uint32_t tan2_q24 = (uint32_t)((uint64_t)(uint32_t)(x * x + y * y) * (uint64_t)frame->tan2_per_px2_q44 >> 20);
-    const uint64_t across = ((uint64_t)z * z >> 8) * tan2_q24 >> 16; /* 2^34 * 2^26, see find_patch_reach() */
-    for (int32_t i = 0; i < GN_N_CASCADES(frame); i++) {
-        const gn_patch_sphere *c = &p->shared->sphere[i];
-        const int64_t dz = (int64_t)z - c->centre;
-        const uint64_t d2 = across + (uint64_t)(dz * dz);
-        *fades = d2 > c->inner2;
-        if (d2 < c->radius2) return i;
-    }
-    return GN_CASCADE_NONE;
+    const uint32_t tan2_q24 = (uint32_t)((uint64_t)halves2 * (uint64_t)frame->tan2_per_px2_q44 >> 20);
+    return ((uint64_t)z * z >> 8) * tan2_q24 >> 16; /* 2^34 * 2^26, see find_patch_reach() */
 }
 
-/* The cascade of all three corners, and the strength of shadows at each. Returns 0 if the corners differ, or a cascade
- * fades at one, or strength is not close to linear between them, or distance is measured from the camera. Found once.
- */
+/* The cascade that all of the triangle lies in. Returns 0 if there is none, a sphere may end in it, or the cascade
+ * fades. [D4] [D6] */
+GN_HOT static int find_patch_cascade(gn_shading *s, int32_t nearest, int32_t farthest)
+{
+    const gn_frame *frame = s->frame;
+    gn_patch *p = &s->lattice.from.patch;
+    const gn_tri *tri = p->record.tri;
+    const int blends = GN_BLENDED_CASCADES && frame->scene->shadow.blend != GN_BLEND_HARD;
+    const int32_t bits = GN_K(frame, subpixel_bits) - 1, down = p->shared->sphere_down;
+    const int32_t lo = nearest >> down, hi = farthest >> down;
+    uint32_t least = UINT32_MAX, most = 0;
+    if (hi >> 21) return 0; /* many times as far as the spheres reach */
+    for (int k = 0; k < 3; k++) {
+        const int32_t x = tri->x[k] >> bits, y = tri->y[k] >> bits;
+        const uint32_t halves2 = (uint32_t)(x * x + y * y);
+        least = halves2 < least ? halves2 : least;
+        most = halves2 > most ? halves2 : most;
+    }
+    const uint64_t beyond = across2(frame, (uint32_t)hi, most);
+    for (int32_t i = 0; i < GN_N_CASCADES(frame); i++) {
+        const gn_patch_sphere *c = &p->shared->sphere[i];
+        const int64_t a = c->centre - lo, b = hi - c->centre, far = a > b ? a : b, near = a < b ? -a : -b;
+        const uint64_t d2 = beyond + (uint64_t)(far * far);
+        p->cascade = i;
+        if (d2 < c->radius2) return d2 <= c->inner2 || !(blends || i == GN_LAST_CASCADE(frame));
+        if (across2(frame, (uint32_t)lo, least) + (near > 0 ? (uint64_t)(near * near) : 0) < c->radius2) return 0;
+    }
+    return 0;
+}
+
+/* The cascade of the triangle, and the strength of shadows at each corner. Returns 0 if it lies in several, strength is
+ * not close to linear between corners, or distance is measured from the camera. Found once. */
 GN_HOT static int find_patch_reach(gn_shading *s)
 {
     gn_patch *p = &s->lattice.from.patch;
     const gn_frame *frame = s->frame;
-    const int blends = GN_BLENDED_CASCADES && frame->scene->shadow.blend != GN_BLEND_HARD;
+    int32_t z[3];
+    uint32_t any = 0;
     if (p->reach != GN_REACH_UNKNOWN) return p->reach == GN_REACH_EVEN;
     p->reach = GN_REACH_UNEVEN;
     if (p->shared->coarse) return 0;
     if (frame->scene->shadow.distance_mode == GN_DISTANCE_RADIUS || frame->tan2_q24 >> 26) return 0; /* tan < 2 */
     gn_record_find_depths(&p->record, frame);
-    uint32_t any = 0;
-    for (int k = 0; k < 3; k++)
-        any |= p->strength_uq16[k] = gn_shadow_distance_fade(frame, gn_record_depth(&p->record, k));
-    if (gn_cell_fading(frame, p->strength_uq16, 3) < 0) return 0;
-    p->cascade = 0;
-    for (int k = 0; k < 3 && frame->has_cascades && any; k++) {
-        int fades = 0;
-        if (gn_record_depth(&p->record, k) >> p->shared->sphere_down >> 21)
-            return 0; /* many times as far as the spheres reach */
-        const int32_t cascade = cascade_of_corner(s, k, &fades);
-        if (k && cascade != p->cascade) return 0;
-        if (fades && (blends || cascade >= GN_LAST_CASCADE(frame))) return 0; /* none, too: a sphere may lie between */
-        p->cascade = cascade;
+    for (int k = 0; k < 3; k++) {
+        z[k] = gn_record_depth(&p->record, k);
+        any |= p->strength_uq16[k] = gn_shadow_distance_fade(frame, z[k]);
     }
+    p->cascade = 0;
+    if (gn_cell_fading(frame, p->strength_uq16, 3) < 0) return 0;
+    if (frame->has_cascades && any &&
+        !find_patch_cascade(s, gn_min32(gn_min32(z[0], z[1]), z[2]), gn_max32(gn_max32(z[0], z[1]), z[2])))
+        return 0;
     p->reach = GN_REACH_EVEN;
     return 1;
 }
@@ -110,9 +124,12 @@ GN_HOT static inline int32_t depth_share_q30(const gn_light_view *view, int32_t 
 GN_HOT static int place_in_ortho(gn_shading *s, const gn_light_view *view, gn_auto_bias form, patch_places *out)
 {
     const gn_ortho_fit *fit = &view->fit.ortho;
-    int32_t face[3], offset[3];
-    gn_bias_auto_face(view, form, gn_patch_face(s), face);
-    gn_bias_auto_ortho(view, form, face, offset);
+    const int32_t *face = gn_patch_face(s);
+    int32_t slope[3], normal[3], offset[3];
+    gn_bias_auto_face(view, GN_AUTO_BIAS_DEPTH, face, slope);
+    if (form == GN_AUTO_BIAS_NORMAL) gn_bias_auto_face(view, form, face, normal);
+    gn_bias_auto_ortho(view, form, form == GN_AUTO_BIAS_NORMAL ? normal : slope, offset);
+    for (int i = 0; i < 2; i++) out->slope_q12[i] = slope[i];
     if (offset[2] <= -TOO_FAR) return GN_PATCH_LIT;
     if ((gn_abs32(offset[0]) | gn_abs32(offset[1]) | gn_abs32(offset[2])) >> 29) return GN_PATCH_UNEVEN;
     if (!gn_record_places(&s->lattice.from.patch.record, s->frame, &fit->ray[0], fit->ray_shift, out->u) ||
@@ -194,15 +211,14 @@ GN_HOT static int find_texels_read(const gn_light_view *view, const patch_places
  * a caster's foot. */
 GN_HOT static int ask_texels(gn_shading *s, const gn_light_view *view, const patch_places *at, gn_patch_texels *out)
 {
-    int32_t slope_q28[2];
     if (s->lattice.from.patch.record.px < ASK_PX || view->perspective || GN_VIEW_BITS(view) != 16)
         return TEXELS_UNKNOWN;
-    if (view->filter > GN_FILTER_3X3 || !find_texels_read(view, at, out)) return TEXELS_UNKNOWN;
-    gn_shadow_plane_slopes(view, gn_patch_face(s), NULL, slope_q28);
-    if ((gn_abs32(slope_q28[0]) | gn_abs32(slope_q28[1])) >> 23)
+    const int32_t range_log2 = view->tile_log2 + view->depth_log2, up = 18 - range_log2;
+    if (view->filter > GN_FILTER_3X3 || up < 0 || !find_texels_read(view, at, out)) return TEXELS_UNKNOWN;
+    if ((gn_abs32(at->slope_q12[0]) | gn_abs32(at->slope_q12[1])) >> (7 + range_log2))
         return TEXELS_UNKNOWN; /* 2^-5 of the range per texel */
-    const int32_t across = slope_q28[0] * 4, down = slope_q28[1] * 4, rise = across * (out->w - 1),
-                  fall = down * (out->h - 1);
+    const int32_t across = at->slope_q12[0] * (1 << up), down = at->slope_q12[1] * (1 << up),
+                  rise = across * (out->w - 1), fall = down * (out->h - 1);
     const int64_t to_u = out->u * 65536 + 32768 - at->u[0], to_v = out->v * 65536 + 32768 - at->v[0]; /* 2^22 */
     const int64_t first = at->depth[0] + ((across * to_u + down * to_v) >> 16);                       /* 2^30 + 2^31 */
     if (first < 0 || first > FAR_Q30) return TEXELS_UNKNOWN;

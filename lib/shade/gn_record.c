@@ -25,13 +25,17 @@ GN_HOT static inline uint32_t recip_16(uint32_t m)
     return r > 65535U ? 65535U : r;
 }
 
-/* near / Z at a point that lies (x, y) from the centre of the record's pixel, subpixel_bits fraction bits. Whole pixels
- * and parts apart: 32 bits each, modulo 2^32. */
+/* v t / 2^bits, modulo 2^32, to a unit: whole ones and parts of v apart. */
+GN_HOT static inline uint32_t times_part(int32_t v, int32_t t, int32_t bits)
+{
+    return (uint32_t)(v >> bits) * (uint32_t)t + (uint32_t)(((v & ((1 << bits) - 1)) * t) >> bits); /* 2^8 * 2^18 */
+}
+
+/* near / Z at a point that lies (x, y) from the centre of the record's pixel, subpixel_bits fraction bits: modulo 2^32.
+ */
 GN_HOT static inline uint32_t nearness_at(const gn_tri *tri, int32_t x, int32_t y, int32_t bits)
 {
-    const int32_t one = 1 << bits, part_x = x & (one - 1), part_y = y & (one - 1);
-    const uint32_t whole = (uint32_t)tri->iz_dx * (uint32_t)(x >> bits) + (uint32_t)tri->iz_dy * (uint32_t)(y >> bits);
-    return tri->iz_ref + whole + (uint32_t)(((int64_t)tri->iz_dx * part_x + (int64_t)tri->iz_dy * part_y) >> bits);
+    return tri->iz_ref + times_part(tri->iz_dx, x, bits) + times_part(tri->iz_dy, y, bits);
 }
 
 static const uint8_t vertex_of[7][3] = {{0, 1, 2}, {0, 1, 2}, {1, 2, 0}, {2, 0, 1}, {0, 2, 1}, {2, 1, 0}, {1, 0, 2}};
@@ -145,18 +149,6 @@ GN_HOT int gn_record_places(const gn_patch_record *r, const gn_frame *frame, con
     return up <= 0 || (up < 29 && !(any >> (29 - up)));
 }
 
-GN_HOT void gn_patch_unit(int32_t v[3])
-{
-    const int32_t down = 18 - gn_clz32(gn_abs32(v[0]) | gn_abs32(v[1]) | gn_abs32(v[2]) | 1U);
-    int32_t n[3];
-    for (int i = 0; i < 3; i++) n[i] = down >= 0 ? v[i] >> down : v[i] * (1 << -down);               /* below 2^14 */
-    const uint32_t n2 = (uint32_t)(n[0] * n[0]) + (uint32_t)(n[1] * n[1]) + (uint32_t)(n[2] * n[2]); /* 3 * 2^28 */
-    const int32_t up = gn_clz32(n2 | 1U) & ~1, more = up >> 1;
-    const int32_t root = (int32_t)(gn_rsqrt_norm((n2 | 1U) << up, 1) >> 1); /* 2^(46 - more) / length */
-    GN_UNROLL
-    for (int i = 0; i < 3; i++) v[i] = gn_mul_high(n[i] * (1 << more), root);
-}
-
 /* near / Z is linear on the screen, and n . ray times a constant, n being the face's normal away from the viewer: n =
  * (F dx, -F dy, what it is in the picture's centre). */
 GN_HOT void gn_record_face(const gn_patch_record *r, const gn_frame *frame, int32_t view_q14[3])
@@ -173,7 +165,8 @@ GN_HOT void gn_record_face(const gn_patch_record *r, const gn_frame *frame, int3
     const uint32_t any = (uint32_t)(out[0] >> 32 ^ out[0] >> 63) | (uint32_t)(out[1] >> 32 ^ out[1] >> 63) |
                          (uint32_t)(out[2] >> 32 ^ out[2] >> 63) | 1U;
     for (int i = 0; i < 3; i++) view_q14[i] = (int32_t)(out[i] >> (34 - gn_clz32(any))); /* 30 bits */
-    gn_patch_unit(view_q14);
+    gn_normalise_15(view_q14);
+    for (int i = 0; i < 3; i++) view_q14[i] >>= 16;
 }
 
 /* v > 0 as 16 bits, of which the highest is set, and a power of two: rounded down. */

@@ -116,7 +116,7 @@ typedef struct {
 typedef struct {
     const gn_object *object;
     gn_xform to_view;
-    int32_t normal_matrix[3][3];
+    int32_t to_world_q14[9]; /* of normals */
 } gn_surface_cache;
 
 /* Values sampled at a pixel. The first groups only where a surface has them. */
@@ -276,6 +276,7 @@ typedef struct {
 /* What lasts while a screen tile is shaded. */
 typedef struct {
     gn_patch_object of; /* the object at hand */
+    gn_pixel_line line; /* of rows with a node per pixel */
 #if GN_VERTEX_NORMALS
     gn_patch_normal normal[GN_PATCH_NORMALS];
 #endif

@@ -228,8 +228,8 @@ typedef struct {
     int32_t shrink_q16; /* caster bias, texels */
     gn_xform to_light;
     union {
-        gn_xform_fast fast;          /* of what is not shrunk */
-        int32_t normal_matrix[3][3]; /* of what is */
+        gn_xform_fast fast;      /* of what is not shrunk */
+        int32_t to_world_q14[9]; /* of what is */
     } by;
 } gn_caster_job;
 

@@ -3,6 +3,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "base/gn_math.h"
 #include "check.h"
 #include "exact.h"
 #include "knobs.h"
@@ -126,8 +127,8 @@ static void test_begin(void)
             lo[1] = fmin(lo[1], tri.y[k]), hi[1] = fmax(hi[1], tri.y[k]);
         }
         const int px = (int)ceil(fmax(hi[0] - lo[0], hi[1] - lo[1]) / (1 << bits));
-        /* one rounding down */
-        const double lost = 1, ratio = most / least;
+        /* two roundings down */
+        const double lost = 2, ratio = most / least;
         const int wide = frame.picture.width >= 64 && frame.picture.height >= 64;
         const double units = least / (frame.cam.focal2_px_q16 / 8192.0); /* of near / Z, of 16 for a pixel */
         if (fabs(ratio - 1.5) > 16 / least && fabs(units - 1) > 16 / least)
@@ -259,7 +260,7 @@ static void test_faces(void)
                   16384 * n[k]);
     }
     int32_t zero[3] = {0, 0, 0};
-    gn_patch_unit(zero);
+    gn_normalise_15(zero);
     HOLDS(&t, !zero[0] && !zero[1] && !zero[2], "0 stays 0");
     CHECK_TALLY(t, "normals of faces");
 }
