@@ -96,6 +96,7 @@
 #define gn_corner_find GN_PREFIXED_(GN_PREFIX, gn_corner_find)
 #define gn_corner_find_anchor GN_PREFIXED_(GN_PREFIX, gn_corner_find_anchor)
 #define gn_corner_flat_depth GN_PREFIXED_(GN_PREFIX, gn_corner_flat_depth)
+#define gn_corner_flat_offset GN_PREFIXED_(GN_PREFIX, gn_corner_flat_offset)
 #define gn_corner_irradiance GN_PREFIXED_(GN_PREFIX, gn_corner_irradiance)
 #define gn_corner_locate GN_PREFIXED_(GN_PREFIX, gn_corner_locate)
 #define gn_corner_pixel GN_PREFIXED_(GN_PREFIX, gn_corner_pixel)

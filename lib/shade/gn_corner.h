@@ -92,6 +92,10 @@ int gn_corner_place_any(gn_lattice *lattice, const gn_frame *frame, const gn_sur
 int gn_corner_place_flat(gn_lattice *lattice, const gn_frame *frame, const gn_surface *surface, uint32_t slot,
                          const gn_light_view *view, int32_t x, int32_t y, gn_corner_light *at);
 
+/* The offset of receivers of a flat surface in a directional view: valid until another one's is asked for. */
+const int32_t *gn_corner_flat_offset(gn_lattice *lattice, const gn_frame *frame, const gn_surface *surface,
+                                     uint32_t slot, const gn_light_view *view);
+
 /* Tile coordinates of a pixel in a directional view, Q16 texels. Returns its view depth; 0: it is not seen. */
 int32_t gn_corner_uv(const gn_lattice *lattice, const gn_frame *frame, const gn_surface *surface,
                      const gn_light_view *view, int32_t x, int32_t y, const int32_t offset_q16[3], int32_t uv_q16[2]);

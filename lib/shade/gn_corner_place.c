@@ -22,9 +22,8 @@ GN_HOT static const int32_t *normal_of(const gn_surface *s, const gn_corner *c)
 #endif
 }
 
-/* The offset of a flat surface in a view. */
-GN_HOT static const int32_t *flat_offset(gn_lattice *l, const gn_frame *frame, const gn_surface *s, uint32_t slot,
-                                         const gn_light_view *view)
+GN_HOT const int32_t *gn_corner_flat_offset(gn_lattice *l, const gn_frame *frame, const gn_surface *s, uint32_t slot,
+                                            const gn_light_view *view)
 {
     if (l->offset_view != view) gn_sample_offset(frame, s, slot, view, s->normal_q30[0], l->offset_q16);
     l->offset_view = view;
@@ -70,8 +69,7 @@ GN_HOT int32_t gn_corner_uv(const gn_lattice *l, const gn_frame *frame, const gn
 {
     gn_corner_ray ray;
     const int32_t z_q16 = gn_corner_seen_depth(l, frame, s, x, y);
-    if (z_q16 <= 0) return 0;
-    gn_corner_ray_begin(&ray, frame, view->fit.ortho.ray_shift, x, y, z_q16);
+    if (z_q16 <= 0 || !gn_corner_ray_begin(&ray, frame, view->fit.ortho.ray_shift, x, y, z_q16)) return 0;
     uv_q16[0] = gn_corner_ortho(&view->fit.ortho.ray[0], &ray) + offset_q16[0];
     uv_q16[1] = gn_corner_ortho(&view->fit.ortho.ray[1], &ray) + offset_q16[1];
     return z_q16;
@@ -87,7 +85,7 @@ GN_HOT static GN_NOINLINE void place_directional(gn_lattice *l, const gn_frame *
     const gn_light_state *light = s->light[slot].state;
     int32_t along = 0;
     const int offsets = gn_corner_offsets(&l->light[slot], s, light, view, &along);
-    const int32_t *flat = offsets == GN_OFFSET_OF_FACE ? flat_offset(l, frame, s, slot, view) : NULL;
+    const int32_t *flat = offsets == GN_OFFSET_OF_FACE ? gn_corner_flat_offset(l, frame, s, slot, view) : NULL;
     if (fits && offsets != GN_OFFSET_OF_POINT) coords_directional(&ray, normal_of(s, c), view, along, flat, coord);
     else gn_sample_in_view(frame, s, slot, view, c->x, c->y, c->z_q16, normal_of(s, c), coord);
     at->u_q16 = coord[0];

@@ -51,42 +51,12 @@ GN_HOT static int64_t own_distance_q30(const gn_lattice *l, const gn_frame *fram
     return own + (up >= 0 ? towards * ((int64_t)1 << up) : towards >> -up);
 }
 
-/* Where a directional view sees a flat surface at a pixel: what corners say, without its depth if `uv`. Returns 0 if it
- * is not to be told so. */
-GN_HOT static inline int see_flat(gn_lattice *l, const gn_frame *frame, const gn_surface *s, uint32_t slot,
-                                  const gn_light_view *view, int32_t x, int32_t y, int uv, gn_window_place *out)
-{
-    int32_t z = gn_corner_seen_depth(l, frame, s, x, y);
-    gn_corner_ray at;
-    if (z <= 0 || !gn_corner_ray_begin(&at, frame, view->fit.ortho.ray_shift, x, y, z)) return 0;
-    if (l->offset_view != view) gn_sample_offset(frame, s, slot, view, s->normal_q30[0], l->offset_q16);
-    l->offset_view = view;
-    const gn_ray_plane *ray = view->fit.ortho.ray;
-    const int32_t *offset = l->offset_q16;
-    int32_t u = gn_corner_ortho(&ray[0], &at), v = gn_corner_ortho(&ray[1], &at);
-    const uint32_t quarter = 1U << 30; /* where sums may leave 32 bits */
-    if ((((uint32_t)u + quarter) | ((uint32_t)v + quarter) | ((uint32_t)offset[0] + quarter) |
-         ((uint32_t)offset[1] + quarter)) >>
-        31)
-        return 0;
-    out->u_q16 = u + offset[0];
-    out->v_q16 = v + offset[1];
-    if (uv) return 1;
-    int32_t depth = gn_sat32((int64_t)gn_corner_ortho(&ray[2], &at) + offset[2]),
-            up = 14 - view->tile_log2 - view->depth_log2;
-    if (up < 0) out->depth_q30 = depth >> gn_min32(-up, 31);
-    else out->depth_q30 = gn_max32(-(1 << 29) >> up, gn_min32(depth, ((1 << 30) - 1) >> up)) * (1 << up);
-    return 1;
-}
-
 /* Where the view sees the anchor of a flat surface. Returns 0 if it does not. */
 GN_HOT static GN_NOINLINE int place_anchor(gn_lattice *l, const gn_frame *frame, const gn_surface *s, uint32_t slot,
-                                           uint32_t view_idx, const gn_light_view *view, gn_window_place *out)
+                                           uint32_t view_idx, gn_window_place *out)
 {
     gn_corner *c = &l->corner;
     gn_corner_light *at = &c->light[slot];
-    *out = (gn_window_place){0, 0, 0, 0};
-    if (!view->perspective && see_flat(l, frame, s, slot, view, l->anchor.x, l->anchor.y, 0, out)) return 1;
     c->x = l->anchor.x;
     c->y = l->anchor.y;
     c->z_q16 = l->anchor.z_q16;
@@ -135,17 +105,18 @@ GN_HOT static int see(gn_lattice *l, const gn_frame *frame, const gn_surface *s,
 {
     const uint32_t slot = l->row.seen.slot, view_idx = l->row.seen.view_idx;
     const gn_light_view *view = &frame->view[s->light[slot].state->view_idx + (int32_t)view_idx];
-    gn_window_place place;
-    if (view->perspective || !see_flat(l, frame, s, slot, view, x, y, 1, &place)) {
+    int32_t uv_q16[2];
+    if (view->perspective ||
+        !gn_corner_uv(l, frame, s, view, x, y, gn_corner_flat_offset(l, frame, s, slot, view), uv_q16)) {
         gn_corner *c = &l->corner;
         if (!gn_corner_locate(l, frame, s, slot, x, y, c) || !gn_corner_place(l, frame, s, c, slot, view_idx)) return 0;
-        place.u_q16 = c->light[slot].u_q16;
-        place.v_q16 = c->light[slot].v_q16;
+        uv_q16[0] = c->light[slot].u_q16;
+        uv_q16[1] = c->light[slot].v_q16;
     }
-    box->lo[0] = gn_min32(box->lo[0], place.u_q16);
-    box->hi[0] = gn_max32(box->hi[0], place.u_q16);
-    box->lo[1] = gn_min32(box->lo[1], place.v_q16);
-    box->hi[1] = gn_max32(box->hi[1], place.v_q16);
+    for (int i = 0; i < 2; i++) {
+        box->lo[i] = gn_min32(box->lo[i], uv_q16[i]);
+        box->hi[i] = gn_max32(box->hi[i], uv_q16[i]);
+    }
     return 1;
 }
 
@@ -209,7 +180,7 @@ GN_HOT gn_window *gn_lattice_window(gn_lattice *l, const gn_frame *frame, const 
     const int32_t log2 = cells ? l->size_log2 : GN_CHUNK_LOG2, rest = (1 << log2) - 1;
     if (window->view != view) {
         begin_window(l, frame, s, slot, view, window);
-        if (window->planar > 0) window->planar = place_anchor(l, frame, s, slot, view_idx, view, &window->place);
+        if (window->planar > 0) window->planar = place_anchor(l, frame, s, slot, view_idx, &window->place);
     }
     if (window->planar <= 0) return NULL;
     window->w = 0;

@@ -16,9 +16,8 @@ GN_HOT static uint32_t reach_halves(const gn_light_view *view)
 }
 
 /* Depths in doubt: as far behind the plane as its slope and the filter reach, and in front of it; of 3x3 half of that
- * there, as what casts a shadow so near is under few of the filter's texels. The fastest shading looks closer, and
- * takes the surface's own texels for lit; with 3x3 under directional lights the next one looks closer, too. Slopes at
- * their limit are not the plane's. */
+ * there, as what casts a shadow so near is under few of the filter's texels. The fastest shading takes the surface's
+ * own texels for lit. Slopes at their limit are not the plane's. */
 GN_HOT int gn_window_begin(gn_window *window, const gn_frame *frame, const gn_light_view *view,
                            const int32_t slope_q28[2], int64_t own_q30, int on_plane)
 {
@@ -37,13 +36,9 @@ GN_HOT int gn_window_begin(gn_window *window, const gn_frame *frame, const gn_li
         return 1;
     }
     uint32_t halves = reach_halves(view), rounding = (dropped ? 1U << (dropped - 3) : 0) + 4 * GN_WINDOW_TEXELS + 16;
-    int fast = GN_K(frame, persp_step) == 16,
-        close = GN_K(frame, persp_step) == 8 && view->filter == GN_FILTER_3X3 && !view->perspective;
+    const int fast = GN_K(frame, persp_step) == 16;
     window->behind_q30 = (int32_t)(per_half_q30 * halves + rounding);
-    window->front_q30 = (int32_t)(per_half_q30 * (fast || close           ? 1
-                                                  : view->filter_idx == 1 ? halves >> 1
-                                                                          : halves) +
-                                  rounding);
+    window->front_q30 = (int32_t)(per_half_q30 * (view->filter_idx == 1 ? halves >> 1 : halves) + rounding);
     int64_t safe_q30 = own_q30 - (own_q30 >> 3) - ((int64_t)1 << 30 >> GN_VIEW_BITS(view));
     int enough = own_q30 + (own_q30 >> 3) >= window->behind_q30; /* the reference sees no acne */
     if (enough) window->behind_q30 = window->front_q30;
