@@ -87,7 +87,6 @@
 #define gn_compact_transform GN_PREFIXED_(GN_PREFIX, gn_compact_transform)
 #define gn_compact_unit GN_PREFIXED_(GN_PREFIX, gn_compact_unit)
 #define gn_corner_begin GN_PREFIXED_(GN_PREFIX, gn_corner_begin)
-#define gn_corner_begin_box GN_PREFIXED_(GN_PREFIX, gn_corner_begin_box)
 #define gn_corner_begin_cascade GN_PREFIXED_(GN_PREFIX, gn_corner_begin_cascade)
 #define gn_corner_begin_lights GN_PREFIXED_(GN_PREFIX, gn_corner_begin_lights)
 #define gn_corner_begin_part GN_PREFIXED_(GN_PREFIX, gn_corner_begin_part)

@@ -92,12 +92,11 @@ typedef struct {
 #if GN_ORTHOGRAPHIC
     int32_t flat_q16; /* orthographic: all points are projected as if they were at this depth; 0: perspective */
 #endif
-    uint32_t focal2_px_q16;     /* 2F, twice the focal length in pixels: rays are (2x + 1 - W, H - 1 - 2y, 2F) */
-    gn_bfloat near_over_focal2; /* near / 2F */
-    gn_bfloat inv_focal2;       /* 1 / 2F, 2F in Q16 */
-    int32_t guard_q16[2];       /* |X| <= guard[0] * Z and |Y| <= guard[1] * Z after clipping to the guard band */
-    int32_t coord_max_q16;      /* of screen coordinates from the picture's centre, pixels */
-    int32_t tan_q16[2];         /* the same for the picture's border: (W/2) / F, (H/2) / F, rounded up */
+    uint32_t focal2_px_q16; /* 2F, twice the focal length in pixels: rays are (2x + 1 - W, H - 1 - 2y, 2F) */
+    gn_bfloat inv_focal2;   /* 1 / 2F, 2F in Q16 */
+    int32_t guard_q16[2];   /* |X| <= guard[0] * Z and |Y| <= guard[1] * Z after clipping to the guard band */
+    int32_t coord_max_q16;  /* of screen coordinates from the picture's centre, pixels */
+    int32_t tan_q16[2];     /* the same for the picture's border: (W/2) / F, (H/2) / F, rounded up */
 } gn_cam;
 
 /* The depth that an orthographic camera projects every point at; 0: perspective. */

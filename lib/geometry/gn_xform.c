@@ -47,10 +47,7 @@ void gn_cam_setup(gn_frame *frame)
 #endif
     /* 2F = focal * H: Q8.24 * up to 2048 < 2^43, Q16 needs it >> 8, saturated by validation of focal * H < 2^15 */
     cam->focal2_px_q16 = (uint32_t)(((uint64_t)focal_q24 * frame->picture.height + 128U) >> 8);
-    gn_bfloat near = gn_bf_from_u64((uint64_t)(uint32_t)cam->near_q16);
-    gn_bfloat inverse = gn_bf_recip(gn_bf_from_u64(cam->focal2_px_q16)), ratio = gn_bf_mul(near, inverse);
-    cam->inv_focal2 = inverse;
-    cam->near_over_focal2 = ratio;
+    cam->inv_focal2 = gn_bf_recip(gn_bf_from_u64(cam->focal2_px_q16));
     int32_t size[2] = {frame->picture.width, frame->picture.height}, bits = GN_K(frame, subpixel_bits);
     cam->coord_max_q16 =
         fits_16_bits(bits, gn_max32(size[0], size[1])) ? gn_min32(32767 << (16 - bits), 1 << 27) : 1 << 27;

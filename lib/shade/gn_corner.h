@@ -66,9 +66,6 @@ int32_t gn_corner_depth(const gn_lattice *lattice, const gn_frame *frame, const 
 /* gn_corner_begin()'s: whether one cascade is that of all of the surface. */
 void gn_corner_begin_cascade(gn_lattice *lattice, const gn_frame *frame, const gn_surface *surface);
 
-/* Sets the views that small triangles with pixels in `box` may look into. */
-void gn_corner_begin_box(gn_lattice *lattice, const gn_frame *frame, const gn_surface *surface, const gn_rect *box);
-
 /* Once per part: whether one cascade is that of all of its points. */
 void gn_corner_begin_part(gn_lattice *lattice, const gn_frame *frame, const gn_surface *surface);
 
@@ -143,27 +140,6 @@ GN_HOT static inline int32_t gn_corner_ortho(const gn_ray_plane *r, const gn_cor
     }
 #endif
     return (int32_t)(at + (uint32_t)(gn_mul_high(ray->z, (int32_t)((uint32_t)r->a0 + across)) >> ray->down));
-}
-
-/* Offsets of receivers in a directional view: one of the face; a length along each point's normal; or more than that.
- */
-enum { GN_OFFSET_OF_FACE, GN_OFFSET_ALONG, GN_OFFSET_OF_POINT };
-
-/* Which of them; sets that length, texels, Q16. */
-GN_HOT static inline int gn_corner_offsets(const gn_lattice_light *how, const gn_surface *s,
-                                           const gn_light_state *light, const gn_light_view *view, int32_t *along_q16)
-{
-    const int automatic = GN_AUTO_BIAS && light->auto_bias;
-    if (!GN_SMOOTH(s) || automatic) return GN_OFFSET_OF_FACE;
-    if (!how->lifts) return GN_OFFSET_OF_POINT;
-    *along_q16 = view->offset_q16;
-    return GN_OFFSET_ALONG;
-}
-
-/* Texels, Q16, along an axis of a view, of what is moved along a normal. */
-GN_HOT static inline int32_t gn_corner_lift_q16(const int32_t n_q30[3], const int32_t axis_q30[3], int32_t along_q16)
-{
-    return 4 * gn_mul_high((int32_t)(gn_dot64(n_q30, axis_q30) >> 30), along_q16);
 }
 
 /* Sets u, v, depth in whichever way there is; once per corner, until another view is asked for. Where a spot's light

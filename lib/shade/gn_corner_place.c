@@ -30,18 +30,6 @@ GN_HOT const int32_t *gn_corner_flat_offset(gn_lattice *l, const gn_frame *frame
     return l->offset_q16;
 }
 
-/* Tile coordinates in texels, Q16, of what is moved along its normal. */
-GN_HOT static void coords_directional(const gn_corner_ray *ray, const int32_t n_q30[3], const gn_light_view *view,
-                                      int32_t along_q16, const int32_t *flat_q16, int32_t coord_q16[3])
-{
-    GN_UNROLL
-    for (int i = 0; i < 3; i++) {
-        const int32_t at = gn_corner_ortho(&view->fit.ortho.ray[i], ray);
-        if (flat_q16) coord_q16[i] = gn_sat32((int64_t)at + flat_q16[i]); /* automatic bias may say: lit */
-        else coord_q16[i] = (int32_t)((uint32_t)at + (uint32_t)gn_corner_lift_q16(n_q30, view->axis_q30[i], along_q16));
-    }
-}
-
 /* View depth of the plane at a pixel, up to its largest on the triangle. */
 GN_HOT static inline int32_t plane_depth(const gn_lattice *l, const gn_frame *frame, const gn_surface *s, int32_t x,
                                          int32_t y)
@@ -82,12 +70,12 @@ GN_HOT static GN_NOINLINE void place_directional(gn_lattice *l, const gn_frame *
     int32_t coord[3], up = 14 - view->tile_log2 - view->depth_log2; /* texels, Q16, to a share of the range, Q30 */
     gn_corner_ray ray;
     const int fits = gn_corner_ray_begin(&ray, frame, view->fit.ortho.ray_shift, c->x, c->y, c->z_q16);
-    const gn_light_state *light = s->light[slot].state;
-    int32_t along = 0;
-    const int offsets = gn_corner_offsets(&l->light[slot], s, light, view, &along);
-    const int32_t *flat = offsets == GN_OFFSET_OF_FACE ? gn_corner_flat_offset(l, frame, s, slot, view) : NULL;
-    if (fits && offsets != GN_OFFSET_OF_POINT) coords_directional(&ray, normal_of(s, c), view, along, flat, coord);
-    else gn_sample_in_view(frame, s, slot, view, c->x, c->y, c->z_q16, normal_of(s, c), coord);
+    if (fits && (!GN_SMOOTH(s) || (GN_AUTO_BIAS && s->light[slot].state->auto_bias))) {
+        const int32_t *offset_q16 = gn_corner_flat_offset(l, frame, s, slot, view);
+        GN_UNROLL
+        for (int i = 0; i < 3; i++) /* automatic bias may say: lit */
+            coord[i] = gn_sat32((int64_t)gn_corner_ortho(&view->fit.ortho.ray[i], &ray) + offset_q16[i]);
+    } else gn_sample_in_view(frame, s, slot, view, c->x, c->y, c->z_q16, normal_of(s, c), coord);
     at->u_q16 = coord[0];
     at->v_q16 = coord[1];
     if (up < 0) at->depth_q30 = coord[2] >> gn_min32(-up, 31);
@@ -96,29 +84,15 @@ GN_HOT static GN_NOINLINE void place_directional(gn_lattice *l, const gn_frame *
 }
 
 #if GN_PUNCTUAL_LIGHTS
-/* T / 2 (1 + x / (z t)), |x| < 2 z; half = 2^62 / (z << clz) */
-GN_HOT static inline int32_t coord_persp(int32_t x, int32_t clz, int32_t half, int32_t focal2_q16, int32_t middle_q16)
-{
-    return (int32_t)((int64_t)gn_mul_high(x * (1 << (clz - 2)), half) * focal2_q16 >> 29) + middle_q16;
-}
-
-/* How far the receiver's offset moves a point. */
-GN_HOT static GN_NOINLINE void offset_of(const gn_frame *frame, const gn_surface *s, const gn_corner *c,
-                                         const gn_light_state *light, const int32_t from[3], int32_t offset[3])
-{
-    offset[0] = offset[1] = offset[2] = 0;
-    if (!(GN_AUTO_BIAS && light->auto_bias)) gn_bias_punctual(frame, light, normal_of(s, c), from, offset);
-}
-
-/* In any case. Returns how the point is seen. */
-GN_HOT static GN_NOINLINE int place_carefully(const gn_frame *frame, const gn_surface *s, const gn_corner *c,
-                                              gn_corner_light *at, const gn_light_view *view)
+/* Returns how the point is seen. */
+GN_HOT static GN_NOINLINE int place_persp(const gn_frame *frame, const gn_surface *s, const gn_corner *c,
+                                          gn_corner_light *at, const gn_light_view *view)
 {
     const gn_light_state *light = &frame->light[view->light_idx];
-    int32_t offset[3], from[3];
+    int32_t offset[3] = {0, 0, 0}, from[3];
     gn_arrival place;
     gn_corner_from(c, light, from);
-    offset_of(frame, s, c, light, from, offset);
+    if (!(GN_AUTO_BIAS && light->auto_bias)) gn_bias_punctual(frame, light, normal_of(s, c), from, offset);
     at->seen = (uint8_t)gn_arrival_place(frame, s, view, c->z_q16, from, offset, &place);
     if (!at->seen) return 0;
     at->u_q16 = place.u_q16;
@@ -127,41 +101,6 @@ GN_HOT static GN_NOINLINE int place_carefully(const gn_frame *frame, const gn_su
     return at->seen;
 }
 
-/* Of a smooth surface, under B2. Returns 0 if that is to be done carefully. */
-GN_HOT static GN_NOINLINE int place_punctual(const gn_frame *frame, const gn_surface *s, const gn_lattice_light *how,
-                                             const gn_corner *c, gn_corner_light *at, const gn_light_view *view)
-{
-    const gn_light_state *light = &frame->light[view->light_idx];
-    const uint32_t limit = 1U << 29;
-    const int32_t *n = normal_of(s, c);
-    int32_t from[3], moved[3], p[3], reach = 0;
-    gn_corner_from(c, light, from);
-    if (!how->lifts || view->fit.persp.lift_q31 == INT32_MAX || view->fit.persp.focal2_q16 >> 30 ||
-        (((uint32_t)from[0] + limit) | ((uint32_t)from[1] + limit) | ((uint32_t)from[2] + limit)) >> 30)
-        return 0; /* |from| < 2^29 */
-    if (light->kind == GN_LIGHT_SPOT) reach = -(int32_t)gn_dot_q30(from, light->to_light_q30);
-    else
-        for (int i = 0; i < 3; i++) reach = gn_max32(reach, (int32_t)gn_abs32(from[i]));
-    int32_t lift = 2 * gn_mul_high(gn_max32(reach, 0), view->fit.persp.lift_q31);
-    GN_UNROLL
-    for (int i = 0; i < 3; i++) moved[i] = from[i] + 4 * gn_mul_high(lift, n[i]);
-    GN_UNROLL
-    for (int i = 0; i < 3; i++) p[i] = (int32_t)(gn_dot64(moved, view->axis_q30[i]) >> 30);
-    int32_t z = p[2], near_q16 = view->fit.persp.near_q16;
-    at->seen = z > near_q16;
-    if (!at->seen) return 1;
-    if (gn_abs32(p[0]) >> 1 >= (uint32_t)z || gn_abs32(p[1]) >> 1 >= (uint32_t)z) return 0;
-    int32_t clz = gn_clz32((uint32_t)z), focal2 = (int32_t)view->fit.persp.focal2_q16, middle = view->tile_texels << 15;
-    uint32_t recip = gn_recip_norm((uint32_t)z << clz, GN_RECIP_STEPS(frame));
-    int32_t half = (int32_t)(recip >> 1);
-    GN_KEEP(half); /* signed: one multiplication */
-    GN_KEEP(focal2);
-    at->u_q16 = coord_persp(p[0], clz, half, focal2, middle);
-    at->v_q16 = coord_persp(p[1], clz, half, focal2, middle);
-    /* 1 - n / z */
-    at->depth_q30 = gn_max32((1 << 30) - 1 - (int32_t)((uint64_t)(uint32_t)near_q16 * recip >> (33 - clz)), 0);
-    return 1;
-}
 #endif
 
 GN_HOT void gn_corner_slopes(gn_lattice *l, const gn_frame *frame, const gn_surface *s, const gn_light_view *view,
@@ -190,11 +129,7 @@ GN_HOT int gn_corner_place_any(gn_lattice *l, const gn_frame *frame, const gn_su
                                const gn_light_view *view)
 {
 #if GN_PUNCTUAL_LIGHTS
-    if (view->perspective) {
-        gn_corner_light *at = &c->light[slot];
-        if (GN_SMOOTH(s) && place_punctual(frame, s, &l->light[slot], c, at, view)) return at->seen;
-        return place_carefully(frame, s, c, at, view);
-    }
+    if (view->perspective) return place_persp(frame, s, c, &c->light[slot], view);
 #endif
     place_directional(l, frame, s, c, slot, view);
     return 1;
@@ -290,15 +225,6 @@ GN_HOT static void find_tangents(const gn_frame *frame, int32_t x0, int32_t x1, 
     squares_of(frame->picture.height - 1 - 2 * y1, frame->picture.height - 1 - 2 * y0, &least, &largest);
     e->tan2_lo_q24 = least * (uint64_t)frame->tan2_per_px2_q44 >> 20;
     e->tan2_hi_q24 = (largest * (uint64_t)(frame->tan2_per_px2_q44 + 1) >> 20) + 1;
-}
-
-GN_HOT void gn_corner_begin_box(gn_lattice *l, const gn_frame *frame, const gn_surface *s, const gn_rect *box)
-{
-    extent e = {s->z_min_q16, s->z_max_q16, 0, 0};
-    l->views = 0;
-    if (!s->shadowed) return;
-    find_tangents(frame, box->x0, box->x1 - 1, box->y0, box->y1 - 1, &e);
-    l->views = (uint16_t)possible_views(frame, &e);
 }
 
 GN_HOT void gn_corner_begin_part(gn_lattice *l, const gn_frame *frame, const gn_surface *s)

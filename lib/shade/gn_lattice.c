@@ -223,7 +223,6 @@ GN_HOT void gn_lattice_begin_tile(gn_shading *s)
 {
 #if GN_SHADOWS
     gn_levels_forget(&s->lattice);
-    s->lattice.matrix.view = NULL;
 #endif
     (void)s;
 }

@@ -235,14 +235,6 @@ typedef struct {
 
 enum { GN_SPANS = 32, GN_PART_WIDTH = 64, GN_PART_ROWS = 16, GN_SMALLEST_CELL_LOG2 = 2 };
 
-/* A directional view's coordinates of points in view space: texels, Q16, are m times points times 2^up, over
- * 2^(32 + down). */
-typedef struct {
-    const gn_light_view *view; /* NULL: none */
-    int32_t up, down, m[3][3];
-    int32_t along_q16, lift_q18[3][3]; /* the view's axes times offsets of receivers along their normals */
-} gn_view_matrix;
-
 #if GN_SHADOWS
 /* Tile coordinates of places of a part. */
 typedef struct {
@@ -299,9 +291,6 @@ typedef struct gn_lattice {
     gn_run_span span[GN_SPANS]; /* pixels of the surface, top down and left to right */
     int32_t n_spans;
     gn_screen_plane plane;
-#if GN_SHADOWS
-    gn_view_matrix matrix; /* of the view that was used last */
-#endif
     gn_lattice_light light[GN_SURFACE_LIGHTS];
 #if GN_PUNCTUAL_LIGHTS && GN_SHADOWS
     gn_view_forms forms[GN_VIEW_FORMS]; /* of the surface */
@@ -397,7 +386,6 @@ typedef struct gn_shading {
 #endif
     uint32_t last_q20[3]; /* the last radiance and its pixel: neighbours are often equal */
     uint32_t last_pixel;
-    uint32_t radiance_q20[3];
     gn_sample sample; /* at the pixel or corner at hand */
 #if GN_LAYERS_MAX
     gn_mixture mixture;

@@ -358,7 +358,6 @@ GN_HOT static void sample_values(const gn_frame *frame, const gn_surface *s, con
     if (!s->n_lights) return;
     int32_t n[3];
     normal_at(s, h, n);
-    for (int i = 0; GN_SMOOTH(s) && i < 3; i++) sample->interpolated_q30[i] = n[i];
     if (s->shadowed && asks_for_cascades(frame)) select_cascade(frame, px, py, sample);
     light_values(frame, s, h, px, py, n, with_places, sample);
 }

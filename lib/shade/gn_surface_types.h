@@ -161,10 +161,9 @@ typedef struct {
 #define GN_CASCADE_NONE 4
 
 typedef struct {
-    int32_t cascade;             /* of the surface point, GN_CASCADE_NONE: none */
-    int32_t in_reach;            /* near enough to the camera for shadows */
-    int32_t x, y;                /* the pixel */
-    int32_t interpolated_q30[3]; /* normal, not renormalised; lit smooth surfaces only */
+    int32_t cascade;  /* of the surface point, GN_CASCADE_NONE: none */
+    int32_t in_reach; /* near enough to the camera for shadows */
+    int32_t x, y;     /* the pixel */
     int32_t value[GN_VALUE_COUNT];
 #if GN_PUNCTUAL_LIGHTS
     gn_arrival arrival[GN_SURFACE_LIGHTS]; /* of spot and point lights */
