@@ -69,6 +69,13 @@ void gn_corner_begin_cascade(gn_lattice *lattice, const gn_frame *frame, const g
 /* Once per part: whether one cascade is that of all of its points. */
 void gn_corner_begin_part(gn_lattice *lattice, const gn_frame *frame, const gn_surface *surface);
 
+/* The cascade of all points between two view depths in some pixels, if none of them fades or blends there; -1: it is
+ * not certain. 0 if no light has cascades. */
+int32_t gn_cascade_of_region(const gn_frame *frame, int32_t z_lo_q16, int32_t z_hi_q16, const gn_rect *px);
+
+/* The same of an object, where shadows do not fade with distance either. */
+int32_t gn_cascade_of_object(const gn_frame *frame, uint32_t object_idx);
+
 /* Sets the cascade of a pixel, its share in a blend, and what gn_shadow_distance() asks for. */
 void gn_corner_cascade(const gn_lattice *lattice, const gn_frame *frame, const gn_surface *surface, int32_t x,
                        int32_t y, gn_sample *sample);

@@ -162,16 +162,20 @@ GN_HOT static uint64_t distance2_q32(const gn_frame *frame, const gn_cascade_sta
     return across2_of_q32(frame, z_q16, tan2_q24) + (uint64_t)(dz * dz);
 }
 
-/* Views of cascades that points may look into, a bit each, and GN_VIEWS_FADE. */
-GN_HOT static uint32_t possible_views(const gn_frame *frame, const extent *e)
+/* Whether shadows may fade with distance up to a view depth. */
+GN_HOT static inline int fades_by_distance(const gn_frame *frame, int32_t z_q16)
+{
+    return frame->scene->shadow.distance_mode != GN_DISTANCE_DEPTH || (uint32_t)z_q16 > frame->fade_start_q16;
+}
+
+/* Views of cascades that points may look into, a bit each, and GN_VIEWS_FADE if the last one may fade. */
+GN_HOT static uint32_t views_of_cascades(const gn_frame *frame, const extent *e)
 {
     const int blends = GN_BLENDED_CASCADES && frame->scene->shadow.blend != GN_BLEND_HARD;
     const uint64_t rounding = e->tan2_hi_q24 + 1;
     uint32_t views = 0;
-    if (frame->scene->shadow.distance_mode != GN_DISTANCE_DEPTH || (uint32_t)e->z_hi_q16 > frame->fade_start_q16)
-        views |= GN_VIEWS_FADE;
-    if (!frame->has_cascades) return views;
-    const int beyond = (e->z_hi_q16 | GN_FLAT_Q16(frame)) >> 27 || e->tan2_hi_q24 >> 28; /* what distance2_q32 takes */
+    const int32_t z = e->z_hi_q16 | GN_FLAT_Q16(frame);
+    const int beyond = z >> 30 || e->tan2_hi_q24 >> (z >> 27 ? 26 : 28); /* what distance2_q32() takes */
     for (int32_t i = 0; i < GN_N_CASCADES(frame); i++) {
         const gn_cascade_state *c = &frame->cascade[i];
         if (!c->radius2_q32) continue; /* empty */
@@ -193,6 +197,13 @@ GN_HOT static uint32_t possible_views(const gn_frame *frame, const extent *e)
         if (farthest < c->radius2_q32) return views;
     }
     return views | GN_VIEWS_FADE;
+}
+
+/* The same of lights that may have none, and of distance, too. */
+GN_HOT static uint32_t possible_views(const gn_frame *frame, const extent *e)
+{
+    return (fades_by_distance(frame, e->z_hi_q16) ? GN_VIEWS_FADE : 0) |
+           (frame->has_cascades ? views_of_cascades(frame, e) : 0);
 }
 
 /* The cascade of all points, if none of them fades or blends there; -1 if it is not certain. */
@@ -225,6 +236,35 @@ GN_HOT static void find_tangents(const gn_frame *frame, int32_t x0, int32_t x1, 
     squares_of(frame->picture.height - 1 - 2 * y1, frame->picture.height - 1 - 2 * y0, &least, &largest);
     e->tan2_lo_q24 = least * (uint64_t)frame->tan2_per_px2_q44 >> 20;
     e->tan2_hi_q24 = (largest * (uint64_t)(frame->tan2_per_px2_q44 + 1) >> 20) + 1;
+}
+
+GN_HOT int32_t gn_cascade_of_region(const gn_frame *frame, int32_t z_lo_q16, int32_t z_hi_q16, const gn_rect *px)
+{
+    extent e = {z_lo_q16, z_hi_q16, 0, 0};
+    if (!frame->has_cascades) return 0;
+    find_tangents(frame, px->x0, px->x1 - 1, px->y0, px->y1 - 1, &e);
+    return certain_cascade(views_of_cascades(frame, &e));
+}
+
+GN_HOT int32_t gn_cascade_of_object(const gn_frame *frame, uint32_t object_idx)
+{
+#if GN_BOXES
+    const gn_object_state *o = &frame->object[object_idx];
+    const gn_rect all = {0, 0, frame->picture.width, frame->picture.height};
+    int64_t z = 0, half = 0; /* 3 * 2^32 * 2^30 */
+    for (int i = 0; i < 3; i++) {
+        const int32_t axis_q30 = frame->cam.axis_q30[2][i];
+        z += ((int64_t)o->centre_q16[i] - frame->cam.eye_q16[i]) * axis_q30;
+        half += (int64_t)o->half_q16[i] * (int32_t)gn_abs32(axis_q30);
+    }
+    const int64_t lo = gn_shr64(z - half, 30) - 2, hi = gn_shr64(z + half, 30) + 2;
+    const int32_t nearest = lo > frame->cam.near_q16 ? (int32_t)lo : frame->cam.near_q16;
+    if (hi >= GN_VIEW_LIMIT_Q16 || hi <= nearest || fades_by_distance(frame, (int32_t)hi)) return -1;
+    return gn_cascade_of_region(frame, nearest, (int32_t)hi, &all);
+#else
+    (void)frame, (void)object_idx;
+    return -1;
+#endif
 }
 
 GN_HOT void gn_corner_begin_part(gn_lattice *l, const gn_frame *frame, const gn_surface *s)

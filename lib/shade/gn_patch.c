@@ -20,7 +20,6 @@ GN_HOT void gn_patch_begin_tile(gn_shading *s)
 #if GN_VERTEX_NORMALS
     for (int i = 0; i < GN_PATCH_NORMALS; i++) s->patches.normal[i].tag = 0;
 #endif
-    gn_patch_begin_reach(s);
 }
 
 /* ---- A triangle -------------------------------------------------------------------------------------------------- */

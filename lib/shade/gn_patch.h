@@ -30,9 +30,6 @@ int gn_patch_find_lights(gn_shading *s);
 enum { GN_PATCH_LIT, GN_PATCH_DARK, GN_PATCH_EDGE, GN_PATCH_UNEVEN };
 int gn_patch_find_shadow(gn_shading *s, uint32_t light_idx, gn_patch_light *light);
 
-/* How far shadows reach, once per screen tile. */
-void gn_patch_begin_reach(gn_shading *s);
-
 /* The normal of a vertex of the object that is in use, in the world, Q14: of 10 bits, kept for triangles to come. */
 void gn_patch_vertex_normal(gn_shading *s, uint32_t object_idx, uint32_t vertex_idx, int32_t out_q14[3]);
 

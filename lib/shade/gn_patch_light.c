@@ -7,6 +7,7 @@
 #include "geometry/gn_skin.h"
 #include "geometry/gn_xform.h"
 #include "light/gn_lights.h"
+#include "shade/gn_corner.h"
 #include "shade/gn_patch.h"
 #include "visible/gn_runs.h"
 
@@ -61,6 +62,11 @@ GN_HOT void gn_patch_use_object(gn_shading *s, const gn_object *object)
     of->lit = (uint8_t)(!unlit || shows_shadow(s->frame));
     of->receives = (uint8_t)(object->flags & GN_OBJECT_RECEIVES && !unlit);
     for (int c = 0; shows_shadow(s->frame) && c < 3; c++) of->base_q24[c] = 0;
+    of->cascade = -1;
+#if GN_SHADOWS
+    if (of->patched && of->receives)
+        of->cascade = (int8_t)gn_cascade_of_object(s->frame, (uint32_t)(object - s->frame->scene->objects));
+#endif
     if ((!of->patched && !GN_SKIN(object)) || !GN_VERTEX_NORMALS || !object->mesh->nrm_q15) return;
     gn_xform_normal_matrix(of->to_world_q14, object->to_world.m_q30);
 }

@@ -4,6 +4,7 @@
 #include "base/gn_count.h"
 #include "base/gn_q.h"
 #include "light/gn_lights.h"
+#include "shade/gn_corner.h"
 #include "shade/gn_lattice.h"
 #include "shade/gn_patch.h"
 #include "shade/gn_surface.h"
@@ -26,87 +27,33 @@ typedef struct {
 
 /* ---- Reach ------------------------------------------------------------------------------------------------------- */
 
-GN_HOT void gn_patch_begin_reach(gn_shading *s)
-{
-    gn_patch_shared *shared = &s->patches;
-    uint64_t most = 1;
-    for (int32_t i = 0; i < GN_N_CASCADES(s->frame); i++)
-        if (s->frame->cascade[i].radius2_q32 > most) most = s->frame->cascade[i].radius2_q32;
-    shared->coarse = 0;
-    shared->sphere_down = gn_max32((65 - gn_clz64(most)) / 2 - 15, 0);
-    for (int32_t i = 0; i < GN_N_CASCADES(s->frame); i++) {
-        const gn_cascade_state *c = &s->frame->cascade[i];
-        gn_patch_sphere *sphere = &shared->sphere[i];
-        sphere->centre = c->centre_q16 >> shared->sphere_down;
-        sphere->radius2 = (uint32_t)(c->radius2_q32 >> 2 * shared->sphere_down);
-        sphere->inner2 =
-            c->radius2_q32 ? (uint32_t)(c->inner2_q32 >> 2 * shared->sphere_down) : 0; /* else of any frame */
-        shared->coarse |= c->radius2_q32 && sphere->radius2 >> 20 == 0; /* 10 bits: beside a far larger one */
-    }
-}
-
-/* Square of the distance from the view axis at depth z, both shifted by sphere_down, of a point of the screen whose
- * half pixels from the centre are `halves2`, squared. */
-GN_HOT static inline uint64_t across2(const gn_frame *frame, uint32_t z, uint32_t halves2)
-{
-    const uint32_t tan2_q24 = (uint32_t)((uint64_t)halves2 * (uint64_t)frame->tan2_per_px2_q44 >> 20);
-    return ((uint64_t)z * z >> 8) * tan2_q24 >> 16; /* 2^34 * 2^26, see find_patch_reach() */
-}
-
-/* The cascade that all of the triangle lies in. Returns 0 if there is none, a sphere may end in it, or the cascade
- * fades. [D4] [D6] */
-GN_HOT static int find_patch_cascade(gn_shading *s, int32_t nearest, int32_t farthest)
-{
-    const gn_frame *frame = s->frame;
-    gn_patch *p = &s->lattice.from.patch;
-    const gn_tri *tri = p->record.tri;
-    const int blends = GN_BLENDED_CASCADES && frame->scene->shadow.blend != GN_BLEND_HARD;
-    const int32_t bits = GN_K(frame, subpixel_bits) - 1, down = p->shared->sphere_down;
-    const int32_t lo = nearest >> down, hi = farthest >> down;
-    uint32_t least = UINT32_MAX, most = 0;
-    if (hi >> 21) return 0; /* many times as far as the spheres reach */
-    for (int k = 0; k < 3; k++) {
-        const int32_t x = tri->x[k] >> bits, y = tri->y[k] >> bits;
-        const uint32_t halves2 = (uint32_t)(x * x + y * y);
-        least = halves2 < least ? halves2 : least;
-        most = halves2 > most ? halves2 : most;
-    }
-    const uint64_t beyond = across2(frame, (uint32_t)hi, most);
-    for (int32_t i = 0; i < GN_N_CASCADES(frame); i++) {
-        const gn_patch_sphere *c = &p->shared->sphere[i];
-        const int64_t a = c->centre - lo, b = hi - c->centre, far = a > b ? a : b, near = a < b ? -a : -b;
-        const uint64_t d2 = beyond + (uint64_t)(far * far);
-        p->cascade = i;
-        if (d2 < c->radius2) return d2 <= c->inner2 || !(blends || i == GN_LAST_CASCADE(frame));
-        if (across2(frame, (uint32_t)lo, least) + (near > 0 ? (uint64_t)(near * near) : 0) < c->radius2) return 0;
-    }
-    return 0;
-}
-
 /* The cascade of the triangle, and the strength of shadows at each corner. Returns 0 if it lies in several, strength is
- * not close to linear between corners, or distance is measured from the camera. Found once. */
+ * not close to linear between corners, or distance is measured from the camera. Found once. [D4] [D6] */
 GN_HOT static int find_patch_reach(gn_shading *s)
 {
     gn_patch *p = &s->lattice.from.patch;
+    const gn_patch_record *r = &p->record;
     const gn_frame *frame = s->frame;
-    int32_t z[3];
+    int32_t lo = INT32_MAX, hi = 0;
     uint32_t any = 0;
     if (p->reach != GN_REACH_UNKNOWN) return p->reach == GN_REACH_EVEN;
-    p->reach = GN_REACH_UNEVEN;
-    if (p->shared->coarse) return 0;
-    if (frame->scene->shadow.distance_mode == GN_DISTANCE_RADIUS || frame->tan2_q24 >> 26) return 0; /* tan < 2 */
-    gn_record_find_depths(&p->record, frame);
-    for (int k = 0; k < 3; k++) {
-        z[k] = gn_record_depth(&p->record, k);
-        any |= p->strength_uq16[k] = gn_shadow_distance_fade(frame, z[k]);
-    }
-    p->cascade = 0;
-    if (gn_cell_fading(frame, p->strength_uq16, 3) < 0) return 0;
-    if (frame->has_cascades && any &&
-        !find_patch_cascade(s, gn_min32(gn_min32(z[0], z[1]), z[2]), gn_max32(gn_max32(z[0], z[1]), z[2])))
-        return 0;
     p->reach = GN_REACH_EVEN;
-    return 1;
+    gn_record_find_depths(&p->record, frame);
+    p->cascade = p->shared->of.cascade;
+    for (int k = 0; k < 3; k++) p->strength_uq16[k] = 65536;
+    if (p->cascade >= 0) return 1;
+    p->reach = GN_REACH_UNEVEN;
+    if (frame->scene->shadow.distance_mode == GN_DISTANCE_RADIUS) return 0;
+    for (int k = 0; k < 3; k++) {
+        const int32_t z = gn_record_depth(r, k);
+        lo = gn_min32(lo, z), hi = gn_max32(hi, z);
+        any |= p->strength_uq16[k] = gn_shadow_distance_fade(frame, z);
+    }
+    if (gn_cell_fading(frame, p->strength_uq16, 3) < 0) return 0;
+    const gn_rect px = {r->x0 - r->px - 1, r->y0 - 1, r->x0 + r->px + 2, r->y0 + r->px + 2};
+    p->cascade = any ? gn_cascade_of_region(frame, lo, hi, &px) : 0;
+    p->reach = p->cascade < 0 ? GN_REACH_UNEVEN : GN_REACH_EVEN;
+    return p->cascade >= 0;
 }
 
 /* ---- Places ------------------------------------------------------------------------------------------------------ */
@@ -345,11 +292,6 @@ GN_HOT void gn_patch_attenuation(gn_shading *s, const gn_patch_light *light, con
         out[i] = 65536U - gn_mul_uq16(65536U - out[i], (uint32_t)gn_max32(0, gn_min32(strength.at, 65536)));
 }
 #else
-GN_HOT void gn_patch_begin_reach(gn_shading *s)
-{
-    (void)s;
-}
-
 GN_HOT int gn_patch_find_shadow(gn_shading *s, uint32_t light_idx, gn_patch_light *light)
 {
     (void)light;

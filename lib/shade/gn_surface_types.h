@@ -261,16 +261,10 @@ typedef struct {
     const gn_object *object; /* NULL: none yet */
     uint8_t patched;         /* its small triangles are patches */
     uint8_t receives, lit;
+    int8_t cascade;          /* of all of it, at full strength; -1: it is not certain */
     int32_t to_world_q14[9]; /* of normals */
     int32_t base_q24[3];     /* albedo times ambient, and light of its own that nothing dims; at most 2^27 */
 } gn_patch_object;
-
-/* A cascade's sphere in units of 2^down of Q16, in which it has 15 bits: depth of its centre, squares of its radius and
- * of where it begins to fade. */
-typedef struct {
-    int32_t centre;
-    uint32_t radius2, inner2;
-} gn_patch_sphere;
 
 /* What lasts while a screen tile is shaded. */
 typedef struct {
@@ -278,11 +272,6 @@ typedef struct {
     gn_pixel_line line; /* of rows with a node per pixel */
 #if GN_VERTEX_NORMALS
     gn_patch_normal normal[GN_PATCH_NORMALS];
-#endif
-#if GN_SHADOWS && GN_AUTO_BIAS
-    int32_t sphere_down;
-    int32_t coarse; /* some sphere has too few bits */
-    gn_patch_sphere sphere[4];
 #endif
 } gn_patch_shared;
 
