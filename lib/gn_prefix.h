@@ -93,6 +93,7 @@
 #define gn_corner_begin_lights GN_PREFIXED_(GN_PREFIX, gn_corner_begin_lights)
 #define gn_corner_begin_part GN_PREFIXED_(GN_PREFIX, gn_corner_begin_part)
 #define gn_corner_cascade GN_PREFIXED_(GN_PREFIX, gn_corner_cascade)
+#define gn_corner_coords GN_PREFIXED_(GN_PREFIX, gn_corner_coords)
 #define gn_corner_depth GN_PREFIXED_(GN_PREFIX, gn_corner_depth)
 #define gn_corner_find GN_PREFIXED_(GN_PREFIX, gn_corner_find)
 #define gn_corner_find_anchor GN_PREFIXED_(GN_PREFIX, gn_corner_find_anchor)

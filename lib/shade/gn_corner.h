@@ -90,9 +90,13 @@ int gn_corner_locate(const gn_lattice *lattice, const gn_frame *frame, const gn_
 int gn_corner_place_any(gn_lattice *lattice, const gn_frame *frame, const gn_surface *surface, gn_corner *corner,
                         uint32_t slot, const gn_light_view *view);
 
-/* The same of a flat surface in a perspective view, of the plane at pixel (x, y) itself, which need not be a corner.
- * Returns 0 if that is to be done as of any point: gn_corner_screen.c. at->seen: 0 nearer than the view's near plane,
- * GN_SEEN_OUTSIDE moved along the normal although that leaves the tile. */
+/* Coordinates of a point in a directional view, which bias has moved: u, v, depth in texels, Q16. */
+void gn_corner_coords(gn_lattice *lattice, const gn_frame *frame, const gn_surface *surface, const gn_corner *corner,
+                      uint32_t slot, const gn_light_view *view, int32_t coord_q16[3]);
+
+/* gn_corner_place_any() of a flat surface in a perspective view, of the plane at pixel (x, y) itself, which need not be
+ * a corner. Returns 0 if that is to be done as of any point: gn_corner_screen.c. at->seen: 0 nearer than the view's
+ * near plane, GN_SEEN_OUTSIDE moved along the normal although that leaves the tile. */
 int gn_corner_place_flat(gn_lattice *lattice, const gn_frame *frame, const gn_surface *surface, uint32_t slot,
                          const gn_light_view *view, int32_t x, int32_t y, gn_corner_light *at);
 

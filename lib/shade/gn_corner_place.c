@@ -63,11 +63,9 @@ GN_HOT int32_t gn_corner_uv(const gn_lattice *l, const gn_frame *frame, const gn
     return z_q16;
 }
 
-GN_HOT static GN_NOINLINE void place_directional(gn_lattice *l, const gn_frame *frame, const gn_surface *s,
-                                                 gn_corner *c, uint32_t slot, const gn_light_view *view)
+GN_HOT GN_NOINLINE void gn_corner_coords(gn_lattice *l, const gn_frame *frame, const gn_surface *s, const gn_corner *c,
+                                         uint32_t slot, const gn_light_view *view, int32_t coord[3])
 {
-    gn_corner_light *at = &c->light[slot];
-    int32_t coord[3], up = 14 - view->tile_log2 - view->depth_log2; /* texels, Q16, to a share of the range, Q30 */
     gn_corner_ray ray;
     const int fits = gn_corner_ray_begin(&ray, frame, view->fit.ortho.ray_shift, c->x, c->y, c->z_q16);
     if (fits && (!GN_SMOOTH(s) || (GN_AUTO_BIAS && s->light[slot].state->auto_bias))) {
@@ -76,6 +74,14 @@ GN_HOT static GN_NOINLINE void place_directional(gn_lattice *l, const gn_frame *
         for (int i = 0; i < 3; i++) /* automatic bias may say: lit */
             coord[i] = gn_sat32((int64_t)gn_corner_ortho(&view->fit.ortho.ray[i], &ray) + offset_q16[i]);
     } else gn_sample_in_view(frame, s, slot, view, c->x, c->y, c->z_q16, normal_of(s, c), coord);
+}
+
+GN_HOT static void place_directional(gn_lattice *l, const gn_frame *frame, const gn_surface *s, gn_corner *c,
+                                     uint32_t slot, const gn_light_view *view)
+{
+    gn_corner_light *at = &c->light[slot];
+    int32_t coord[3], up = 14 - view->tile_log2 - view->depth_log2; /* texels, Q16, to a share of the range, Q30 */
+    gn_corner_coords(l, frame, s, c, slot, view, coord);
     at->u_q16 = coord[0];
     at->v_q16 = coord[1];
     if (up < 0) at->depth_q30 = coord[2] >> gn_min32(-up, 31);

@@ -63,7 +63,7 @@ GN_HOT static gn_window_place middle_of(const gn_window *window, const gn_cell_p
         if (beyond > hi) hi = beyond;
     }
     int32_t apart = (int32_t)gn_clamp64((hi - lo + 2) >> 1, 0, 1 << 29);
-    gn_window_place place = {p->u[0], p->v[0], p->depth[0], 0};
+    gn_window_place place = {p->depth[0], p->u[0], p->v[0], 0};
     if (window->planar > 0) return window->place;
     place.depth_q30 = (int32_t)gn_clamp64(p->depth[0] + lo + apart, -(1 << 29), 1 << 30);
     place.apart_q30 = apart;
@@ -135,8 +135,10 @@ GN_HOT static int verdict(const gn_lattice_cell *cell, uint32_t slot, gn_cell_pl
     range_of(p->v, &lo.v_q16, &hi.v_q16);
     range_of(p->depth, &depth_lo, &depth_hi);
     if (gn_beyond_tile(p->view, lo.u_q16, hi.u_q16, lo.v_q16, hi.v_q16)) return GN_CELL_LIT;
-    int32_t limit = p->view->perspective ? 0 : -(1 << 29); /* which bends the plane */
-    if (depth_lo <= limit && depth_hi > limit) return GN_CELL_SPLIT;
+    const int32_t limit = p->view->perspective ? 0 : -(1 << 29), end = (1 << 30) - (1 << 14);
+    /* limits bend the plane */
+    if ((depth_lo <= limit && depth_hi > limit) || (!p->view->perspective && depth_lo < end && depth_hi >= end))
+        return GN_CELL_SPLIT;
     if ((gn_abs32(lo.u_q16) | gn_abs32(hi.u_q16) | gn_abs32(lo.v_q16) | gn_abs32(hi.v_q16)) >> 27) return GN_CELL_SPLIT;
     if (!find_window(cell, slot, p, &window)) return GN_CELL_SPLIT;
     int said = window && window->planar > 0 ? verdict_of_window(cell->frame, window, p, &lo, &hi, 0) : GN_CELL_SPLIT;

@@ -53,7 +53,7 @@ GN_HOT static int64_t own_distance_q30(const gn_lattice *l, const gn_frame *fram
 
 /* Where the view sees the anchor of a flat surface. Returns 0 if it does not. */
 GN_HOT static GN_NOINLINE int place_anchor(gn_lattice *l, const gn_frame *frame, const gn_surface *s, uint32_t slot,
-                                           uint32_t view_idx, gn_window_place *out)
+                                           uint32_t view_idx, const gn_light_view *view, gn_window_place *out)
 {
     gn_corner *c = &l->corner;
     gn_corner_light *at = &c->light[slot];
@@ -68,11 +68,18 @@ GN_HOT static GN_NOINLINE int place_anchor(gn_lattice *l, const gn_frame *frame,
         c->normal_q30[i] = s->normal_q30[0][i];
 #endif
     }
-    at->placed = GN_VIEW_NONE;
-    at->arrives = GN_CORNER_FULLY;
-    if (!gn_corner_place(l, frame, s, c, slot, view_idx)) return 0;
-    *out = (gn_window_place){at->u_q16, at->v_q16, at->depth_q30, 0};
-    return !((gn_abs32(at->u_q16) | gn_abs32(at->v_q16)) >> 30);
+    if (!view->perspective) { /* depth is that of the plane, beyond the view's range, too */
+        const int32_t up = 14 - view->tile_log2 - view->depth_log2;
+        int32_t coord[3];
+        gn_corner_coords(l, frame, s, c, slot, view, coord);
+        *out = (gn_window_place){gn_scale64(coord[2], -up), coord[0], coord[1], 0};
+    } else {
+        at->placed = GN_VIEW_NONE;
+        at->arrives = GN_CORNER_FULLY;
+        if (!gn_corner_place(l, frame, s, c, slot, view_idx) || !at->depth_q30) return 0;
+        *out = (gn_window_place){at->depth_q30, at->u_q16, at->v_q16, 0};
+    }
+    return !((gn_abs32(out->u_q16) | gn_abs32(out->v_q16)) >> 30);
 }
 
 /* Slopes of the surface's plane in a view, by the block's anchor. */
@@ -180,7 +187,7 @@ GN_HOT gn_window *gn_lattice_window(gn_lattice *l, const gn_frame *frame, const 
     const int32_t log2 = cells ? l->size_log2 : GN_CHUNK_LOG2, rest = (1 << log2) - 1;
     if (window->view != view) {
         begin_window(l, frame, s, slot, view, window);
-        if (window->planar > 0) window->planar = place_anchor(l, frame, s, slot, view_idx, &window->place);
+        if (window->planar > 0) window->planar = place_anchor(l, frame, s, slot, view_idx, view, &window->place);
     }
     if (window->planar <= 0) return NULL;
     window->w = 0;

@@ -17,7 +17,7 @@
 /* Other bias than the automatic one is of each pixel. */
 #if GN_SHADOWS && GN_AUTO_BIAS
 
-enum { TOO_FAR = 1 << 29 /* texels, Q16: of an offset that no tile is deep enough for */ };
+enum { TOO_FAR = 1 << 29 /* texels, Q16: of an offset that no tile is deep enough for */, FAR_Q30 = 0xFFFF << 14 };
 
 /* Where the corners are looked up: u, v in texels, Q16, and depth, a share of the view's range, Q30. */
 typedef struct {
@@ -67,7 +67,7 @@ GN_HOT static inline int32_t depth_share_q30(const gn_light_view *view, int32_t 
 }
 
 /* In a directional view. Returns GN_PATCH_EDGE, GN_PATCH_LIT where bias lights everything, or GN_PATCH_UNEVEN far
- * outside. */
+ * outside, or where its range ends. */
 GN_HOT static int place_in_ortho(gn_shading *s, const gn_light_view *view, gn_auto_bias form, patch_places *out)
 {
     const gn_ortho_fit *fit = &view->fit.ortho;
@@ -83,12 +83,14 @@ GN_HOT static int place_in_ortho(gn_shading *s, const gn_light_view *view, gn_au
         !gn_record_places(&s->lattice.from.patch.record, s->frame, &fit->ray[1], fit->ray_shift, out->v) ||
         !gn_record_places(&s->lattice.from.patch.record, s->frame, &fit->ray[2], fit->ray_shift, out->depth))
         return GN_PATCH_UNEVEN;
+    int n_limited = 0;
     for (int k = 0; k < 3; k++) {
         out->u[k] += offset[0];
         out->v[k] += offset[1];
         out->depth[k] = depth_share_q30(view, out->depth[k] + offset[2]);
+        n_limited += out->depth[k] >= FAR_Q30 || out->depth[k] <= -(1 << 29);
     }
-    return GN_PATCH_EDGE;
+    return n_limited % 3 ? GN_PATCH_UNEVEN : GN_PATCH_EDGE; /* some bend the plane */
 }
 
 #if GN_PUNCTUAL_LIGHTS
@@ -128,7 +130,7 @@ GN_HOT static int place_in_persp(gn_shading *s, const gn_light_view **view, cons
 /* ---- Texels before the triangle's plane -------------------------------------------------------------------------- */
 
 enum { ROUND_3X3 = 1024 /* half of 1/32 texel, Q16 */ };
-enum { ASK_PX = 4 /* smaller triangles are looked up at once */, FAR_Q30 = 0xFFFF << 14 };
+enum { ASK_PX = 4 /* smaller triangles are looked up at once */ };
 enum { TEXELS_UNKNOWN, TEXELS_LIT, TEXELS_DARK, TEXELS_EDGE };
 
 GN_HOT static inline int32_t smallest(const int32_t v[3])

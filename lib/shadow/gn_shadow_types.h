@@ -162,9 +162,10 @@ typedef struct {
 enum { GN_WINDOW_TEXELS = 32, GN_WINDOWS = GN_VIEWS_MAX >= 5 ? 5 : GN_VIEWS_MAX >= 1 ? GN_VIEWS_MAX : 1 };
 enum { GN_WINDOW_LIT, GN_WINDOW_DARK, GN_WINDOW_MIXED, GN_WINDOW_MISSED };
 
-/* A receiver on the plane; how far others are before it and behind it. */
+/* A point of the plane, at any depth; how far receivers are before it and behind it. */
 typedef struct {
-    int32_t u_q16, v_q16, depth_q30;
+    int64_t depth_q30;
+    int32_t u_q16, v_q16;
     int32_t apart_q30;
 } gn_window_place;
 

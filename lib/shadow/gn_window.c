@@ -109,13 +109,15 @@ GN_HOT static GN_NOINLINE void repeat_borders(gn_window *window, int32_t left, i
     }
 }
 
-/* Whether depths on the plane over w x h texels can be stepped: the first of them has `first`. */
+/* Whether depths on the plane over w x h texels can be stepped: the first of them has `first`. 0: no; -1: the plane is
+ * nearer to the light than any texel. */
 GN_HOT static int in_range(const gn_window *window, int64_t first, int32_t apart, int32_t w, int32_t h)
 {
     const int32_t *slope = window->slope_q30;
     int64_t across = (int64_t)slope[0] * w, down = (int64_t)slope[1] * h;
     int64_t lo = first + (across < 0 ? across : 0) + (down < 0 ? down : 0),
             hi = first + (across > 0 ? across : 0) + (down > 0 ? down : 0);
+    if (hi + apart + window->behind_q30 < 0) return -1;
     return lo - apart - window->front_q30 >= -(1 << 29) &&
            hi + apart + window->behind_q30 < gn_texel_far(GN_VIEW_BITS(window->view)) >> 2;
 }
@@ -134,7 +136,7 @@ GN_HOT static void sum_up(gn_window *window)
     window->doubts = doubts;
 }
 
-/* Beyond a border that is lit. */
+/* Beyond a border that is lit, or before all that casts. */
 GN_HOT static void light_all(gn_window *window)
 {
     for (int32_t j = 0; j < window->h; j++) window->dark[j] = window->doubt[j] = 0;
@@ -150,8 +152,9 @@ GN_HOT int gn_window_compare(gn_window *window, const gn_window_place *place, in
     const int is_beyond = gn_window_is_beyond(view, u0, v0, w, h), lit = gn_border_lit(view);
     int64_t du = u0 * 65536 + 32768 - place->u_q16, dv = v0 * 65536 + 32768 - place->v_q16;
     int64_t first = place->depth_q30 + ((du * slope[0] + dv * slope[1]) >> 16);
+    const int within = in_range(window, first, place->apart_q30, w, h), all_lit = (is_beyond && lit) || within < 0;
     window->w = 0;
-    if (!in_range(window, first, place->apart_q30, w, h) || (is_beyond && !lit)) return 0;
+    if (!within || (is_beyond && !lit)) return 0;
     GN_NOTE_TEXELS(window->squares, view, u0, v0, w, h);
     GN_COUNT(window_texels, w * h);
     window->depth_q30 = (int32_t)first;
@@ -159,7 +162,7 @@ GN_HOT int gn_window_compare(gn_window *window, const gn_window_place *place, in
     window->v0 = v0;
     window->w = w;
     window->h = h;
-    if (is_beyond) {
+    if (all_lit) {
         light_all(window);
         return 1;
     }
