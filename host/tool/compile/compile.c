@@ -54,6 +54,5 @@ void compile_say_kept(const compiled *c)
     if (c->kept_levels)
         tool_error("frames would change by what can go: compiled as with --simplify %s",
                    compile_simplifies(c) == TOOL_SIMPLIFY_NONE ? "none" : "safe");
-    else if (c->keeps_whole)
-        tool_error("frames would change by vertices or triangles that could go: some meshes keep them");
+    else if (c->keeps_whole) tool_error("frames would change by vertices or triangles that could go: meshes keep them");
 }

@@ -89,7 +89,7 @@ typedef struct {
     header_reasons reasons;
     compile_saving savings[COMPILE_SAVINGS_MAX];
     size_t n_savings;
-    bool keeps_whole; /* some mesh has what others could be without: frames would change */
+    bool keeps_whole; /* meshes have what they could be without: frames would change */
     int kept_levels;  /* how many steps --simplify was lowered by for the same reason */
     compile_track *tracks;
     size_t n_tracks;

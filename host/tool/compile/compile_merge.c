@@ -1,6 +1,5 @@
-/* Triangles without area and vertices that are there twice go, mesh by mesh; a mesh of which a frame then shows another
- * picture gets back what it had. Triangles with vertices in common are drawn as one surface, and that may round pixels
- * otherwise. */
+/* Triangles without area and vertices that are there twice go: no frame shows another picture, and every frame is
+ * drawn to see that. If one does, all meshes get back what they had. */
 #include <stdlib.h>
 #include <string.h>
 
@@ -46,29 +45,15 @@ static void restore(compiled *c, size_t mesh_idx, backup *from)
     from->changed = false;
 }
 
-/* Whether every frame is as it was; else the first that is not is a sample from now on. */
+/* Whether every frame is as it was. */
 static bool same_frames(trial *b)
 {
     compile_run run = {.hash = b->now.hash};
     b->st->begun = false; /* arrays have changed in place */
     const int refused = compile_run_all(&run, b->st, b->c, &b->wanted);
     if (!refused && run.differs < 0) b->now = run;
-    else if (!refused) trial_add_sample(b, run.differs);
     b->st->begun = false;
     return !refused && run.differs < 0;
-}
-
-/* Of the meshes that changed, those stay as they are that change no sample. */
-static void keep_needed(trial *b, backup *backups, compile_mesh_step *step)
-{
-    for (size_t i = 0; i < b->c->fixed.n_meshes; i++)
-        if (backups[i].changed) restore(b->c, i, &backups[i]);
-    for (size_t i = 0; i < b->c->fixed.n_meshes; i++) {
-        backups[i].changed = step(b->c, &b->c->fixed.meshes[i]) > 0;
-        b->st->begun = false;
-        if (backups[i].changed && !trial_same_samples(b)) restore(b->c, i, &backups[i]);
-    }
-    b->st->begun = false;
 }
 
 static size_t step_all(trial *b, backup *backups, compile_mesh_step *step)
@@ -92,16 +77,11 @@ static size_t count_gone(const trial *b, const backup *backups)
     return n;
 }
 
-/* Every round that fails has one more sample; when these are all there, everything is given back. */
+/* If a frame changes, everything is given back. */
 static size_t try_step(trial *b, backup *backups, compile_mesh_step *step)
 {
     if (!step_all(b, backups, step) || same_frames(b)) return count_gone(b, backups);
     b->c->keeps_whole = true;
-    for (int before = -1; b->n_samples > before;) {
-        before = b->n_samples;
-        keep_needed(b, backups, step);
-        if (same_frames(b)) return count_gone(b, backups);
-    }
     for (size_t i = 0; i < b->c->fixed.n_meshes; i++)
         if (backups[i].changed) restore(b->c, i, &backups[i]);
     same_frames(b);
