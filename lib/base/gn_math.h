@@ -133,7 +133,7 @@ int gn_normalise_q30(int32_t out_q30[3], const int64_t a[3]);
 void gn_normalise_15(int32_t v[3]);
 
 /* Shifts n values until the largest has `bits` bits. */
-GN_INLINE void gn_to_bits(int32_t *v, int32_t n, int32_t bits)
+GN_HOT static inline void gn_to_bits(int32_t *v, int32_t n, int32_t bits)
 {
     uint32_t any = 1;
     GN_UNROLL

@@ -109,7 +109,7 @@ void gn_xform_fast_begin(gn_xform_fast *fast, const gn_xform *xform)
         1U << (31 - gn_max32(up, 1)); /* a position may have 30 bits with any transform: gn_scene_position_ok */
 }
 
-void gn_xform_normal_matrix(int32_t out_q14[9], const int32_t m[3][3])
+void gn_xform_normal_matrix(int32_t out_q30[9], const int32_t m[3][3])
 {
     /* The cofactors are the inverse transpose times the determinant: only their direction and the determinant's sign
      * matter. */
@@ -123,23 +123,24 @@ void gn_xform_normal_matrix(int32_t out_q14[9], const int32_t m[3][3])
             any |= gn_abs64(cofactor[3 * r + c]);
         }
     }
-    const int32_t turn = gn_det_sign(m) < 0 ? -1 : 1, e = 50 - gn_clz64(any);
+    const int32_t turn = gn_det_sign(m) < 0 ? -1 : 1, e = 34 - gn_clz64(any);
     for (int k = 0; k < 9; k++)
-        out_q14[k] = turn * (int32_t)gn_clamp64(gn_scale64(cofactor[k], e), -(1 << 14), 1 << 14);
+        out_q30[k] = turn * (int32_t)gn_clamp64(gn_scale64(cofactor[k], e), -(1 << 30), 1 << 30);
 }
 
-/* A normal of up to 15 bits turned, any length: 3 * 2^29 */
-static inline void turn_normal(int32_t out[3], const int32_t m_q14[9], const int32_t n[3])
+/* To length 1, of 15 bits. Thin objects have rows of few bits: sums are exact. */
+static void turn_normal(int32_t out_q30[3], const int32_t matrix_q30[9], const int32_t n[3])
 {
-    GN_UNROLL
-    for (int i = 0; i < 3; i++) out[i] = m_q14[3 * i] * n[0] + m_q14[3 * i + 1] * n[1] + m_q14[3 * i + 2] * n[2];
+    int64_t sum[3];
+    for (int i = 0; i < 3; i++) sum[i] = gn_dot64(matrix_q30 + 3 * i, n); /* 3 * 2^30 * 2^15 */
+    gn_norm_vec(out_q30, sum);
+    gn_normalise_15(out_q30);
 }
 
-void gn_xform_normal(int32_t out_q30[3], const int32_t matrix_q14[9], const gn_normal nrm_q15[3])
+void gn_xform_normal(int32_t out_q30[3], const int32_t matrix_q30[9], const gn_normal nrm_q15[3])
 {
     const int32_t n[3] = {nrm_q15[0], nrm_q15[1], nrm_q15[2]};
-    turn_normal(out_q30, matrix_q14, n);
-    gn_normalise_15(out_q30);
+    turn_normal(out_q30, matrix_q30, n);
 }
 
 /* ---- Skins ------------------------------------------------------------------------------------------------------- */
@@ -261,13 +262,12 @@ static void mean_matrix(int32_t mean[9], const gn_vertex_joints *of)
     gn_to_bits(mean, 9, 14);
 }
 
-void gn_skin_normal(int32_t out_q30[3], const gn_object *object, const int32_t matrix_q14[9], uint32_t vertex_idx)
+void gn_skin_normal(int32_t out_q30[3], const gn_object *object, const int32_t matrix_q30[9], uint32_t vertex_idx)
 {
     const gn_vertex_joints of = gn_skin_joints(object->skin, vertex_idx);
     const gn_normal *nrm = object->mesh->nrm_q15 + 3 * (size_t)vertex_idx;
-    int32_t mean[9], cofactor[9], posed[3], n[3] = {nrm[0], nrm[1], nrm[2]};
+    int32_t mean[9], cofactor[9], posed[3];
     GN_COUNT(posed_normals, 1);
-    gn_to_bits(n, 3, 14);
     mean_matrix(mean, &of);
     GN_UNROLL
     for (int r = 0; r < 3; r++) {
@@ -278,11 +278,13 @@ void gn_skin_normal(int32_t out_q30[3], const gn_object *object, const int32_t m
     }
     gn_to_bits(cofactor, 9, 14);
     /* 12 * 2^14 is rounding: it flattens and has no side */
-    if (mean[0] * cofactor[0] + mean[1] * cofactor[1] + mean[2] * cofactor[2] < -(1 << 18))
-        for (int i = 0; i < 3; i++) n[i] = -n[i];
-    turn_normal(posed, cofactor, n);
-    gn_to_bits(posed, 3, 15);
-    turn_normal(out_q30, matrix_q14, posed);
-    gn_normalise_15(out_q30);
+    const int32_t det = mean[0] * cofactor[0] + mean[1] * cofactor[1] + mean[2] * cofactor[2],
+                  turn = det < -(1 << 18) ? -1 : 1;
+    GN_UNROLL
+    for (int r = 0; r < 3; r++) { /* 3 * 2^29 */
+        const int32_t *row = cofactor + 3 * r;
+        posed[r] = turn * (row[0] * nrm[0] + row[1] * nrm[1] + row[2] * nrm[2]);
+    }
+    turn_normal(out_q30, matrix_q30, posed);
 }
 #endif

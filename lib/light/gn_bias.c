@@ -131,10 +131,10 @@ GN_HOT void gn_bias_auto_ortho(const gn_light_view *view, gn_auto_bias form, con
         for (int i = 0; i < 3; i++) out_q16[i] = gn_sat32(gn_shr64(lift_q16 * face[i], 30));
         return;
     }
-    const int64_t most_q12 = (int64_t)1 << (13 + range_log2); /* twice the range: half of that lights all */
-    u = u < most_q12 ? u : most_q12;
-    v = v < most_q12 ? v : most_q12;
-    int64_t slopes_q12 = u + v + ((u + v) >> 16) + 2; /* at least what they are: the reciprocal's 2^-17 */
+    const uint32_t most_q12 = 1U << gn_min32(13 + range_log2, 30); /* twice the range: half of that lights all */
+    uint32_t slopes_q12 = 2;                                       /* at least what they are: the reciprocal's 2^-17 */
+    for (int i = 0; i < 2; i++) slopes_q12 += gn_abs32(face[i]) < most_q12 ? gn_abs32(face[i]) : most_q12;
+    slopes_q12 += slopes_q12 >> 16;
     if (slopes_q12 < GN_LEAST_SLOPE_Q12) slopes_q12 = GN_LEAST_SLOPE_Q12;
     out_q16[2] = gn_sat32(-((reach_q16 * slopes_q12 >> 12) + view->auto_step + 1)); /* 2^21 * 2^32 */
 }

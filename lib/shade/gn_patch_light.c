@@ -68,7 +68,7 @@ GN_HOT void gn_patch_use_object(gn_shading *s, const gn_object *object)
         of->cascade = (int8_t)gn_cascade_of_object(s->frame, (uint32_t)(object - s->frame->scene->objects));
 #endif
     if ((!of->patched && !GN_SKIN(object)) || !GN_VERTEX_NORMALS || !object->mesh->nrm_q15) return;
-    gn_xform_normal_matrix(of->to_world_q14, object->to_world.m_q30);
+    gn_xform_normal_matrix(of->to_world_q30, object->to_world.m_q30);
 }
 
 /* ---- Normals ----------------------------------------------------------------------------------------------------- */
@@ -94,10 +94,10 @@ GN_HOT static GN_NOINLINE uint32_t make_patch_normal(gn_shading *s, uint32_t ver
     const gn_patch_object *of = &s->patches.of;
     int32_t n_q30[3];
 #if GN_VERTEX_JOINTS
-    if (of->object->skin) gn_skin_normal(n_q30, of->object, of->to_world_q14, vertex_idx);
+    if (of->object->skin) gn_skin_normal(n_q30, of->object, of->to_world_q30, vertex_idx);
     else
 #endif
-        gn_xform_normal(n_q30, of->to_world_q14, of->object->mesh->nrm_q15 + 3 * (size_t)vertex_idx);
+        gn_xform_normal(n_q30, of->to_world_q30, of->object->mesh->nrm_q15 + 3 * (size_t)vertex_idx);
     uint32_t packed = 0;
     for (int i = 0; i < 3; i++)
         packed = packed << 10 | ((uint32_t)gn_min32(n_q30[i] + (1 << 20), (1 << 30) - 1) >> 21 & 1023U);

@@ -58,10 +58,10 @@ static void vertex_normal(int32_t out_q30[3], const gn_frame *frame, gn_scratch 
 #endif
     (void)frame, (void)scratch, (void)object_idx;
     if (GN_VERTEX_JOINTS && GN_SKIN(object)) {
-        gn_skin_normal(out_q30, object, cache->to_world_q14, vertex_idx);
+        gn_skin_normal(out_q30, object, cache->to_world_q30, vertex_idx);
         return;
     }
-    gn_xform_normal(out_q30, cache->to_world_q14, object->mesh->nrm_q15 + 3 * (size_t)vertex_idx);
+    gn_xform_normal(out_q30, cache->to_world_q30, object->mesh->nrm_q15 + 3 * (size_t)vertex_idx);
 }
 
 /* Of the vertices, or of the face where they have none. [M3] */
@@ -274,7 +274,7 @@ static void use_object(const gn_frame *frame, gn_surface_cache *cache, const gn_
     if (cache->object == object) return;
     cache->object = object;
     gn_xform_compose(&cache->to_view, frame->cam.axis_q30, frame->cam.eye_q16, object);
-    if (GN_VERTEX_NORMALS && object->mesh->nrm_q15) gn_xform_normal_matrix(cache->to_world_q14, object->to_world.m_q30);
+    if (GN_VERTEX_NORMALS && object->mesh->nrm_q15) gn_xform_normal_matrix(cache->to_world_q30, object->to_world.m_q30);
 }
 
 #if GN_ORTHOGRAPHIC

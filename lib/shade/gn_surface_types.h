@@ -116,7 +116,7 @@ typedef struct {
 typedef struct {
     const gn_object *object;
     gn_xform to_view;
-    int32_t to_world_q14[9]; /* of normals */
+    int32_t to_world_q30[9]; /* of normals */
 } gn_surface_cache;
 
 /* Values sampled at a pixel. The first groups only where a surface has them. */
@@ -262,7 +262,7 @@ typedef struct {
     uint8_t patched;         /* its small triangles are patches */
     uint8_t receives, lit;
     int8_t cascade;          /* of all of it, at full strength; -1: it is not certain */
-    int32_t to_world_q14[9]; /* of normals */
+    int32_t to_world_q30[9]; /* of normals */
     int32_t base_q24[3];     /* albedo times ambient, and light of its own that nothing dims; at most 2^27 */
 } gn_patch_object;
 

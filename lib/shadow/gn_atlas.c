@@ -23,12 +23,12 @@ static void corner_normals(const caster_job *job, const uint16_t idx[3], int64_t
 {
     const gn_mesh *mesh = job->object->mesh;
     if (GN_VERTEX_JOINTS && GN_VERTEX_NORMALS && mesh->nrm_q15 && GN_SKIN(job->object)) {
-        for (int i = 0; i < 3; i++) gn_skin_normal(out_q30[i], job->object, job->by.to_world_q14, idx[i]);
+        for (int i = 0; i < 3; i++) gn_skin_normal(out_q30[i], job->object, job->by.to_world_q30, idx[i]);
         return;
     }
     if (GN_VERTEX_NORMALS && mesh->nrm_q15) {
         for (int i = 0; i < 3; i++)
-            gn_xform_normal(out_q30[i], job->by.to_world_q14, mesh->nrm_q15 + 3 * (size_t)idx[i]);
+            gn_xform_normal(out_q30[i], job->by.to_world_q30, mesh->nrm_q15 + 3 * (size_t)idx[i]);
         return;
     }
     const int mirrored = (job->frame->flags[job->object_idx] & GN_OBJECT_MIRRORED) != 0;
@@ -246,7 +246,7 @@ static GN_NOINLINE gn_status draw_object(gn_frame *frame, gn_casting *casting, c
     job->shrink_q16 = GN_CASTER_BIAS ? frame->scene->lights[view->light_idx].bias_caster_q16 : 0;
     if (GN_CASTER_BIAS && job->shrink_q16) {
         if (GN_VERTEX_NORMALS && job->object->mesh->nrm_q15)
-            gn_xform_normal_matrix(job->by.to_world_q14, job->object->to_world.m_q30);
+            gn_xform_normal_matrix(job->by.to_world_q30, job->object->to_world.m_q30);
     } else gn_xform_fast_begin(&job->by.fast, &job->to_light);
     const gn_mesh *mesh = job->object->mesh;
     for (uint32_t t = 0; t < mesh->n_triangles; t++) {

@@ -230,7 +230,7 @@ typedef struct {
     gn_xform to_light;
     union {
         gn_xform_fast fast;      /* of what is not shrunk */
-        int32_t to_world_q14[9]; /* of what is */
+        int32_t to_world_q30[9]; /* of what is */
     } by;
 } gn_caster_job;
 

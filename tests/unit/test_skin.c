@@ -171,7 +171,7 @@ static void test_normals(void)
             joint[j].exp = (int32_t)rng_below(&state, 3);
         }
         gn_affine_rotation(&object.to_world, (uint16_t)rng_u32(&state), (uint16_t)i, 77);
-        gn_xform_normal_matrix(shading.patches.of.to_world_q14, object.to_world.m_q30);
+        gn_xform_normal_matrix(shading.patches.of.to_world_q30, object.to_world.m_q30);
         for (int k = 0; k < 9; k++) {
             to_world[k / 3][k % 3] = object.to_world.m_q30[k / 3][k % 3];
             for (int j = 0; j < skin.per_vertex; j++)
@@ -191,7 +191,7 @@ static void test_normals(void)
         unit(want);
         shading.patches.of.object = &object;
         shading.patches.normal[0].tag = 0;
-        gn_skin_normal(got, &object, shading.patches.of.to_world_q14, 0);
+        gn_skin_normal(got, &object, shading.patches.of.to_world_q30, 0);
         gn_patch_vertex_normal(&shading, 0, 0, kept);
         for (int k = 0; k < 3; k++) {
             farthest = fmaxl(farthest, fabsl(ldexpl(got[k], -30) - want[k]));

@@ -136,26 +136,31 @@ static long patch_bytes(const settings *s)
     return all.size;
 }
 
-/* gn_patch_shared of the same */
-static long patch_shared_bytes(const settings *s)
-{
-    layout all = {0, 4};
-    put(&all, 1, 56, 4); /* of */
-    if (s->feature.vertex_values % 2) put(&all, 32, 8, 4);
-    if (s->feature.shadows && s->feature.biases % 2) put(&all, 1, 56, 4);
-    return all.size;
-}
-
 static int has_glow(const settings *s)
 {
     return s->feature.texture_formats && s->feature.materials & 2;
 }
 
+/* gn_pixel_line of lib/visible/gn_screen_types.h */
+static long line_bytes(const settings *s)
+{
+    const int glows = s->feature.materials & 2 && (s->feature.texture_formats || s->feature.vertex_values >= 2);
+    return 16 + (glows ? 12 : 0) + (has_glow(s) ? 4 : 0);
+}
+
+/* gn_patch_shared of the same */
+static long patch_shared_bytes(const settings *s)
+{
+    layout all = {0, 4};
+    put(&all, 1, 56 + line_bytes(s), 4); /* of, line */
+    if (s->feature.vertex_values % 2) put(&all, 32, 8, 4);
+    return all.size;
+}
+
 /* gn_drawing of lib/shade/gn_lattice_types.h */
 static long drawing_bytes(const settings *s)
 {
-    const int glows = s->feature.materials & 2 && (s->feature.texture_formats || s->feature.vertex_values >= 2);
-    return 88 + (glows ? 12 : 0) + (has_glow(s) ? 4 + 92 : 0) + (s->feature.texture_formats ? 76 : 0) +
+    return 72 + line_bytes(s) + (has_glow(s) ? 92 : 0) + (s->feature.texture_formats ? 76 : 0) +
            (has_levels(s) ? 28 : 0);
 }
 
@@ -164,7 +169,6 @@ static long lattice_bytes(const settings *s)
 {
     layout all = {0, 4};
     put(&all, 1, 256, 4);                                                       /* span to plane */
-    if (s->feature.shadows) put(&all, 22, 4, 4);                                /* matrix */
     if (s->feature.shadows && s->feature.other_lights % 2) put(&all, 8, 68, 4); /* forms */
     put(&all, s->capacity.surface_lights, 12, 4);                               /* light */
     put(&all, 1, 276, 4);                                                       /* anchor to bits */
@@ -172,11 +176,11 @@ static long lattice_bytes(const settings *s)
         put(&all, 3, 4, 4); /* slope_view, slope_q28 */
     const long corners = 12 * corner_bytes(s), patch = patch_bytes(s);
     put(&all, 1, corners > patch ? corners : patch, 4); /* from */
-    put(&all, 1, corner_bytes(s), 4);
-    put(&all, 1, 196, 4); /* corner_key to cell_corner */
+    put(&all, 1, 196, 4);                               /* corner_key to cell_corner */
     if (s->feature.shadows)
-        put(&all, n_views(s) >= 5 ? 5 : n_views(s) >= 1 ? n_views(s) : 1, has_changes(s) ? 368 : 364, 4); /* windows */
-    put(&all, 1, 568, 4);                                                                                 /* look */
+        put(&all, n_views(s) >= 5 ? 5 : n_views(s) >= 1 ? n_views(s) : 1, has_changes(s) ? 384 : 376, 8); /* windows */
+    put(&all, 1, corner_bytes(s), 4);
+    put(&all, 1, 568, 4);                  /* look */
     if (has_levels(s)) put(&all, 1, 4, 4); /* of that: level and level_ends */
     put(&all, 1, drawing_bytes(s), 4);
     put(&all, 1, s->feature.shadows ? 224 : 192, 8);        /* by */
@@ -211,10 +215,10 @@ static void put_work(layout *out, const settings *s)
     put(&all, 1, 40, 4);  /* frame to rows */
     put(&all, 1, 120, 4); /* cache */
     put(&all, 1, surface.size, 8);
-    put(&all, s->quality.persp_step > 1 ? 9 : 8, 4, 4); /* tri to radiance_q20 */
+    put(&all, s->quality.persp_step > 1 ? 6 : 5, 4, 4); /* tri to last_pixel */
     long incident = s->feature.other_lights % 2 ? s->capacity.surface_lights : 0;
     incident *= s->feature.shadows ? 20 : 8;
-    put(&all, 1, 28 + 4 * values + incident + (s->feature.materials % 2 ? 24 : 0), 4); /* sample */
+    put(&all, 1, 16 + 4 * values + incident + (s->feature.materials % 2 ? 24 : 0), 4); /* sample */
     if (s->quality.transparent_layers) put(&all, 4, 4, 4);                             /* mixture */
     if (s->quality.persp_step > 1) {
         put(&all, 1, patch_shared_bytes(s), 4);
@@ -267,7 +271,7 @@ settings_ram_parts settings_ram(const settings *s)
     int punctual = s->feature.other_lights % 2;
     const long groups = s->quality.triangle_groups;
     const int fits = s->feature.shadows && s->feature.tile_sizes > 1;
-    put(&frame, 1, (s->feature.pictures & 4 ? 260 : 252) + (groups ? 4 : 0) + (fits ? 4 : 0) + (has_changes(s) ? 8 : 0),
+    put(&frame, 1, (s->feature.pictures & 4 ? 252 : 244) + (groups ? 4 : 0) + (fits ? 4 : 0) + (has_changes(s) ? 8 : 0),
         8); /* scene to detail */
     if (s->feature.shadows) {
         put(&frame, 1, 8, 4);  /* n_cascades to frame_count */
