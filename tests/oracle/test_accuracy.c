@@ -21,12 +21,6 @@ static const floors own_camera[SETTINGS_PRESETS] = {
     [SETTINGS_BALANCED] = {0.80, 0.994, 45, 0.005, 0.80, 45, 1 / 64.0},
     [SETTINGS_ACCURATE] = {0.997, 0.9995, 46, 0.0015, 0.999, 54, 1 / 512.0}};
 
-/* Of views from around: cells may cost balanced 3 dB more. */
-static const floors around[SETTINGS_PRESETS] = {[SETTINGS_TINY] = {0, 0, 0, 1, 0, 0, 1},
-                                                [SETTINGS_FAST] = {0.75, 0.985, 41, 0.01, 0, 0, 1},
-                                                [SETTINGS_BALANCED] = {0.80, 0.994, 42, 0.005, 0, 0, 1},
-                                                [SETTINGS_ACCURATE] = {0.997, 0.9995, 46, 0.0015, 0, 0, 1}};
-
 /* Of scenes whose lights are replaced: they were not made for them. */
 static const floors any_light[SETTINGS_PRESETS] = {[SETTINGS_TINY] = {0, 0, 0, 1, 0, 0, 1},
                                                    [SETTINGS_FAST] = {0.75, 0.98, 38, 0.015, 0, 0, 1},
@@ -192,7 +186,7 @@ static void run(const char *path, int preset, int table)
     for (int n = 0; n <= n_views; n++) {
         if (n) swing(&s, n, &original);
         if (!CHECK_EQ_INT(compare_scene(&m, &s, &set), 0)) continue;
-        check_floors(&m, n ? &around[preset] : &own_camera[preset], preset, path, "");
+        check_floors(&m, &own_camera[preset], preset, path, "");
         if (n) {
             identical[n - 1] = m.identical;
             psnr[n - 1] = m.psnr_db;
