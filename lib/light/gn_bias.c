@@ -112,7 +112,7 @@ GN_HOT void gn_bias_auto_face(const gn_light_view *view, gn_auto_bias form, cons
     GN_UNROLL
     for (int i = 0; i < 3; i++) out[i] = gn_sat32(gn_dot_q30(face_q30, view->axis_q30[i]));
     if (form == GN_AUTO_BIAS_NORMAL) return;
-    const uint32_t w = gn_abs32(out[2]) | 1U;
+    const uint32_t w = (uint32_t)gn_max32((int32_t)gn_abs32(out[2]), 1);
     const int32_t clz = gn_clz32(w), turn = out[2] < 0 ? 1 : -1;
     const uint32_t recip = gn_recip_norm(w << clz, 1);
     for (int i = 0; i < 2; i++) out[i] = turn * slope_q12(out[i], recip, clz);
@@ -132,7 +132,7 @@ GN_HOT void gn_bias_auto_ortho(const gn_light_view *view, gn_auto_bias form, con
         return;
     }
     const uint32_t most_q12 = 1U << gn_min32(13 + range_log2, 30); /* twice the range: half of that lights all */
-    uint32_t slopes_q12 = 2;                                       /* at least what they are: the reciprocal's 2^-17 */
+    uint32_t slopes_q12 = 2;                                       /* the reciprocal is off by 2^-17 */
     for (int i = 0; i < 2; i++) slopes_q12 += gn_abs32(face[i]) < most_q12 ? gn_abs32(face[i]) : most_q12;
     slopes_q12 += slopes_q12 >> 16;
     if (slopes_q12 < GN_LEAST_SLOPE_Q12) slopes_q12 = GN_LEAST_SLOPE_Q12;

@@ -257,7 +257,7 @@ GN_HOT int32_t gn_cascade_of_object(const gn_frame *frame, uint32_t object_idx)
 #if GN_BOXES
     const gn_object_state *o = &frame->object[object_idx];
     const gn_rect all = {0, 0, frame->picture.width, frame->picture.height};
-    int64_t z = 0, half = 0; /* 3 * 2^32 * 2^30 */
+    int64_t z = 0, half = 0; /* below 2^63: the axis has length 1 */
     for (int i = 0; i < 3; i++) {
         const int32_t axis_q30 = frame->cam.axis_q30[2][i];
         z += ((int64_t)o->centre_q16[i] - frame->cam.eye_q16[i]) * axis_q30;

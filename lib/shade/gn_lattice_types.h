@@ -309,7 +309,7 @@ typedef struct gn_lattice {
 #endif
     int32_t uniform;         /* nothing but shadows varies over the surface */
     int16_t cascade;         /* of all of the part, none of which fades; -1: of each point for itself */
-    uint16_t views;          /* views of cascades that the part, or the small triangle, may look into, a bit
+    uint16_t views;          /* views of cascades that the part may look into, a bit
                                 each, and GN_VIEWS_FADE */
     int16_t surface_cascade; /* the same of the surface */
     int32_t size_log2;       /* of the largest cells, in pixels */

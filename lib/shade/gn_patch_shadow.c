@@ -50,6 +50,7 @@ GN_HOT static int find_patch_reach(gn_shading *s)
         any |= p->strength_uq16[k] = gn_shadow_distance_fade(frame, z);
     }
     if (gn_cell_fading(frame, p->strength_uq16, 3) < 0) return 0;
+    lo -= (lo >> 16) + 1, hi += (hi >> 16) + 1; /* what depths are off by */
     const gn_rect px = {r->x0 - r->px - 1, r->y0 - 1, r->x0 + r->px + 2, r->y0 + r->px + 2};
     p->cascade = any ? gn_cascade_of_region(frame, lo, hi, &px) : 0;
     p->reach = p->cascade < 0 ? GN_REACH_UNEVEN : GN_REACH_EVEN;
@@ -83,14 +84,15 @@ GN_HOT static int place_in_ortho(gn_shading *s, const gn_light_view *view, gn_au
         !gn_record_places(&s->lattice.from.patch.record, s->frame, &fit->ray[1], fit->ray_shift, out->v) ||
         !gn_record_places(&s->lattice.from.patch.record, s->frame, &fit->ray[2], fit->ray_shift, out->depth))
         return GN_PATCH_UNEVEN;
-    int n_limited = 0;
+    int n_near = 0, n_far = 0;
     for (int k = 0; k < 3; k++) {
         out->u[k] += offset[0];
         out->v[k] += offset[1];
         out->depth[k] = depth_share_q30(view, out->depth[k] + offset[2]);
-        n_limited += out->depth[k] >= FAR_Q30 || out->depth[k] <= -(1 << 29);
+        n_near += out->depth[k] <= -(1 << 29);
+        n_far += out->depth[k] >= FAR_Q30;
     }
-    return n_limited % 3 ? GN_PATCH_UNEVEN : GN_PATCH_EDGE; /* some bend the plane */
+    return n_near % 3 || n_far % 3 ? GN_PATCH_UNEVEN : GN_PATCH_EDGE; /* some bend the plane */
 }
 
 #if GN_PUNCTUAL_LIGHTS

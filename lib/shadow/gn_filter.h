@@ -285,7 +285,8 @@ void gn_window_reads(const gn_light_view *view, int32_t edge, int32_t lo_q16, in
                      int32_t *n);
 
 /* Compares w x h texels from (u0, v0) on, all at most GN_WINDOW_TEXELS, with the plane through a place. Returns 0 if
- * the plane leaves the range of depths there, or all lie beyond a border that repeats. */
+ * the plane leaves the range of depths there, or all lie beyond a border that repeats; before all of the range it is
+ * lit. */
 int gn_window_compare(gn_window *window, const gn_window_place *place, int32_t u0, int32_t v0, int32_t w, int32_t h);
 
 GN_HOT static inline int gn_window_covers(const gn_window *window, int32_t u0, int32_t v0, int32_t w, int32_t h)

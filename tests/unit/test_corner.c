@@ -708,6 +708,20 @@ static void check_pixel_views(const gn_lattice *l, const gn_surface *s, int x, i
     }
 }
 
+/* That of a region of depths and pixels around the point, and of the object. */
+static void check_region(const gn_surface *s, const known_point *k, int x, int y)
+{
+    const gn_frame *frame = &renderer.frame;
+    const int32_t z = (int32_t)(k->at.z * 65536);
+    const gn_rect px = {x - (int32_t)uniform(0, 9), y - (int32_t)uniform(0, 9), x + (int32_t)uniform(1, 9),
+                        y + (int32_t)uniform(1, 9)};
+    if (!frame->has_cascades || fixed.shadow.distance_mode != GN_DISTANCE_DEPTH) return;
+    check_cascade(s, gn_cascade_of_object(frame, (uint32_t)(s->object - frame->scene->objects)), x, y);
+    if (gn_shadow_distance_fade(frame, z + 2) < 65536) return;
+    const int32_t lo = z - (int32_t)uniform(2, z / 8 + 3), hi = z + (int32_t)uniform(2, z / 8 + 3);
+    check_cascade(s, gn_cascade_of_region(frame, lo, hi, &px), x, y);
+}
+
 static void check_part(gn_lattice *l, const gn_surface *s, const gn_rect *r, const known_point *k, int x, int y)
 {
     if (x < r->x0 || x >= r->x1 || y < r->y0 || y >= r->y1) return;
@@ -726,6 +740,7 @@ static void check_part(gn_lattice *l, const gn_surface *s, const gn_rect *r, con
     n_fading += l->views & GN_VIEWS_FADE ? 1 : 0;
     if (l->cascade < 0) check_pixel_views(l, s, x, y);
     l->cascade = l->surface_cascade;
+    check_region(s, k, x, y);
 }
 
 /* Light between corners of spots and point lights, where all of it arrives: the largest share of the bound. */

@@ -84,7 +84,7 @@ static size_t try_step(trial *b, backup *backups, compile_mesh_step *step)
     b->c->keeps_whole = true;
     for (size_t i = 0; i < b->c->fixed.n_meshes; i++)
         if (backups[i].changed) restore(b->c, i, &backups[i]);
-    same_frames(b);
+    b->no_memory |= !same_frames(b);
     return 0;
 }
 
