@@ -30,15 +30,11 @@ GN_HOT static inline uint32_t bits_of(int32_t from, int32_t to)
     return (UINT32_MAX >> (32 - (to - from))) << from;
 }
 
-/* Sets the box of the block's pixels, of those in `box`, and for cells which they are. Returns 0 if there are none. */
-GN_HOT static GN_NOINLINE int mark(gn_lattice *l, const gn_rect *box)
+/* Sets the box of the block's pixels, and for cells which they are. Returns 0 if there are none. */
+GN_HOT static GN_NOINLINE int mark(gn_lattice *l)
 {
     gn_rect *seen = &l->seen;
-    if (l->uniform && box->x0 >= l->x && box->x1 <= l->x + GN_PART_WIDTH && box->y0 >= l->y &&
-        box->y1 <= l->y + GN_PART_ROWS) {
-        *seen = *box;
-        return 1;
-    }
+    if (l->uniform > 1) return 1; /* it is that of all */
     *seen = (gn_rect){INT32_MAX, INT32_MAX, INT32_MIN, INT32_MIN};
     if (!l->uniform) memset(l->bits, 0, sizeof l->bits);
     for (int32_t i = 0; i < l->n_spans; i++) {
@@ -255,12 +251,12 @@ GN_HOT static void cut_block(gn_lattice *l)
     *r = (gn_rect){l->x, l->y, l->x + GN_PART_WIDTH, l->y + GN_PART_ROWS}; /* does not happen */
 }
 
-GN_HOT static void shade_block(gn_shading *s, int32_t x, int32_t y, const gn_rect *box, int exactly)
+GN_HOT static void shade_block(gn_shading *s, int32_t x, int32_t y, int exactly)
 {
     gn_lattice *l = &s->lattice;
     l->x = x;
     l->y = y;
-    if (!mark(l, box)) return;
+    if (!mark(l)) return;
     cut_block(l);
     if (exactly || !gn_corner_begin(l, s->frame, &s->surface, &l->block)) {
         shade_pixels(s, 1);
@@ -299,9 +295,12 @@ GN_HOT void gn_lattice_shade(gn_shading *s)
     /* of parallel rays each pixel has its own highlight: gn_sample_on_plane() is of rays from the eye */
     const int exactly =
         !reached || (GN_FLAT_Q16(s->frame) && GN_SPECULAR && s->surface.specular && s->surface.n_lights);
-    for (int32_t y = first_block(bounds->y0, bounds->y1, box.y0, GN_PART_ROWS); y < box.y1; y += GN_PART_ROWS)
-        for (int32_t x = first_block(bounds->x0, bounds->x1, box.x0, GN_PART_WIDTH); x < box.x1; x += GN_PART_WIDTH)
-            shade_block(s, x, y, &box, exactly);
+    const int32_t x0 = first_block(bounds->x0, bounds->x1, box.x0, GN_PART_WIDTH),
+                  y0 = first_block(bounds->y0, bounds->y1, box.y0, GN_PART_ROWS);
+    if (l->uniform) l->uniform = 1 + (box.x1 <= x0 + GN_PART_WIDTH && box.y1 <= y0 + GN_PART_ROWS);
+    l->seen = box;
+    for (int32_t y = y0; y < box.y1; y += GN_PART_ROWS)
+        for (int32_t x = x0; x < box.x1; x += GN_PART_WIDTH) shade_block(s, x, y, exactly);
 }
 
 #endif

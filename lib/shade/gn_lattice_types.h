@@ -307,7 +307,7 @@ typedef struct gn_lattice {
     const gn_light_view *slope_view; /* a view, NULL: none, */
     int32_t slope_q28[2];            /* and the slopes of the surface in it */
 #endif
-    int32_t uniform;         /* nothing but shadows varies over the surface */
+    int32_t uniform;         /* nothing but shadows varies over the surface; 2: and what is visible lies in one block */
     int16_t cascade;         /* of all of the part, none of which fades; -1: of each point for itself */
     uint16_t views;          /* views of cascades that the part may look into, a bit
                                 each, and GN_VIEWS_FADE */
