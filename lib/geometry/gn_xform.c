@@ -267,7 +267,6 @@ void gn_skin_normal(int32_t out_q30[3], const gn_object *object, const int32_t m
     const gn_vertex_joints of = gn_skin_joints(object->skin, vertex_idx);
     const gn_normal *nrm = object->mesh->nrm_q15 + 3 * (size_t)vertex_idx;
     int32_t mean[9], cofactor[9], posed[3];
-    GN_COUNT(posed_normals, 1);
     mean_matrix(mean, &of);
     GN_UNROLL
     for (int r = 0; r < 3; r++) {

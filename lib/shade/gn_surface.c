@@ -58,6 +58,7 @@ static void vertex_normal(int32_t out_q30[3], const gn_frame *frame, gn_scratch 
 #endif
     (void)frame, (void)scratch, (void)object_idx;
     if (GN_VERTEX_JOINTS && GN_SKIN(object)) {
+        GN_COUNT(posed_normals, 1);
         gn_skin_normal(out_q30, object, cache->to_world_q30, vertex_idx);
         return;
     }

@@ -23,6 +23,7 @@ static void corner_normals(const caster_job *job, const uint16_t idx[3], int64_t
 {
     const gn_mesh *mesh = job->object->mesh;
     if (GN_VERTEX_JOINTS && GN_VERTEX_NORMALS && mesh->nrm_q15 && GN_SKIN(job->object)) {
+        GN_COUNT(posed_normals, 3);
         for (int i = 0; i < 3; i++) gn_skin_normal(out_q30[i], job->object, job->by.to_world_q30, idx[i]);
         return;
     }
