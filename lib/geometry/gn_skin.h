@@ -20,8 +20,7 @@ void gn_skin_position(int32_t out_q16[3], const gn_object *object, uint32_t vert
 
 /* A vertex's unit world normal, Q1.30: by the inverse transposes of its joints' weighted mean and of the object's
  * transform, which is `matrix_q30`, of gn_xform_normal_matrix(). Zero where the mesh's is, or the mean flattens to a
- * line. NUMERICS 4.17.
- */
+ * line. NUMERICS 4.17. */
 void gn_skin_normal(int32_t out_q30[3], const gn_object *object, const int32_t matrix_q30[9], uint32_t vertex_idx);
 
 /* The joints of a vertex and their weights, n of each. */

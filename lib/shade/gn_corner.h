@@ -153,6 +153,17 @@ GN_HOT static inline int32_t gn_corner_ortho(const gn_ray_plane *r, const gn_cor
     return (int32_t)(at + (uint32_t)(gn_mul_high(ray->z, (int32_t)((uint32_t)r->a0 + across)) >> ray->down));
 }
 
+/* Depths that gn_depth_share_q30() limits are at these, or beyond: up to 2^14 below the end. */
+enum { GN_DEPTH_LEAST_Q30 = -(1 << 29), GN_DEPTH_END_Q30 = (1 << 30) - (1 << 14) };
+
+/* Texels along a directional view's axis, Q16, as a share of its range, limited to -1/2 .. 1. */
+GN_HOT static inline int32_t gn_depth_share_q30(const gn_light_view *view, int32_t depth_q16)
+{
+    const int32_t up = 14 - view->tile_log2 - view->depth_log2;
+    if (up < 0) return depth_q16 >> gn_min32(-up, 31);
+    return gn_max32(GN_DEPTH_LEAST_Q30 >> up, gn_min32(depth_q16, ((1 << 30) - 1) >> up)) * (1 << up);
+}
+
 /* Sets u, v, depth in whichever way there is; once per corner, until another view is asked for. Where a spot's light
  * does not arrive, automatic bias goes on along the normal: cells of its rim stay on one plane. */
 GN_HOT static inline int gn_corner_place(gn_lattice *l, const gn_frame *frame, const gn_surface *s, gn_corner *c,

@@ -58,8 +58,15 @@ GN_HOT int32_t gn_corner_uv(const gn_lattice *l, const gn_frame *frame, const gn
     gn_corner_ray ray;
     const int32_t z_q16 = gn_corner_seen_depth(l, frame, s, x, y);
     if (z_q16 <= 0 || !gn_corner_ray_begin(&ray, frame, view->fit.ortho.ray_shift, x, y, z_q16)) return 0;
-    uv_q16[0] = gn_corner_ortho(&view->fit.ortho.ray[0], &ray) + offset_q16[0];
-    uv_q16[1] = gn_corner_ortho(&view->fit.ortho.ray[1], &ray) + offset_q16[1];
+    uint32_t beyond = 0; /* its sign: a sum has another than both of its terms */
+    GN_UNROLL
+    for (int i = 0; i < 2; i++) {
+        const uint32_t at = (uint32_t)gn_corner_ortho(&view->fit.ortho.ray[i], &ray), offset = (uint32_t)offset_q16[i],
+                       sum = at + offset;
+        beyond |= (at ^ sum) & (offset ^ sum);
+        uv_q16[i] = (int32_t)sum;
+    }
+    if (beyond >> 31) return 0;
     return z_q16;
 }
 
@@ -80,12 +87,11 @@ GN_HOT static void place_directional(gn_lattice *l, const gn_frame *frame, const
                                      uint32_t slot, const gn_light_view *view)
 {
     gn_corner_light *at = &c->light[slot];
-    int32_t coord[3], up = 14 - view->tile_log2 - view->depth_log2; /* texels, Q16, to a share of the range, Q30 */
+    int32_t coord[3];
     gn_corner_coords(l, frame, s, c, slot, view, coord);
     at->u_q16 = coord[0];
     at->v_q16 = coord[1];
-    if (up < 0) at->depth_q30 = coord[2] >> gn_min32(-up, 31);
-    else at->depth_q30 = gn_max32(-(1 << 29) >> up, gn_min32(coord[2], ((1 << 30) - 1) >> up)) * (1 << up);
+    at->depth_q30 = gn_depth_share_q30(view, coord[2]);
     at->seen = 1;
 }
 
@@ -257,7 +263,7 @@ GN_HOT int32_t gn_cascade_of_object(const gn_frame *frame, uint32_t object_idx)
 #if GN_BOXES
     const gn_object_state *o = &frame->object[object_idx];
     const gn_rect all = {0, 0, frame->picture.width, frame->picture.height};
-    int64_t z = 0, half = 0; /* below 2^63: the axis has length 1 */
+    int64_t z = 0, half = 0; /* |centre| + half <= 2^31, |eye| <= 2^30, an axis of length 1: below 2^63 */
     for (int i = 0; i < 3; i++) {
         const int32_t axis_q30 = frame->cam.axis_q30[2][i];
         z += ((int64_t)o->centre_q16[i] - frame->cam.eye_q16[i]) * axis_q30;

@@ -135,10 +135,9 @@ GN_HOT static int verdict(const gn_lattice_cell *cell, uint32_t slot, gn_cell_pl
     range_of(p->v, &lo.v_q16, &hi.v_q16);
     range_of(p->depth, &depth_lo, &depth_hi);
     if (gn_beyond_tile(p->view, lo.u_q16, hi.u_q16, lo.v_q16, hi.v_q16)) return GN_CELL_LIT;
-    const int32_t limit = p->view->perspective ? 0 : -(1 << 29), end = (1 << 30) - (1 << 14);
-    /* limits bend the plane */
-    if ((depth_lo <= limit && depth_hi > limit) || (!p->view->perspective && depth_lo < end && depth_hi >= end))
-        return GN_CELL_SPLIT;
+    const int32_t limit = p->view->perspective ? 0 : GN_DEPTH_LEAST_Q30;
+    if (depth_lo <= limit && depth_hi > limit) return GN_CELL_SPLIT; /* limits bend the plane */
+    if (!p->view->perspective && depth_lo < GN_DEPTH_END_Q30 && depth_hi >= GN_DEPTH_END_Q30) return GN_CELL_SPLIT;
     if ((gn_abs32(lo.u_q16) | gn_abs32(hi.u_q16) | gn_abs32(lo.v_q16) | gn_abs32(hi.v_q16)) >> 27) return GN_CELL_SPLIT;
     if (!find_window(cell, slot, p, &window)) return GN_CELL_SPLIT;
     int said = window && window->planar > 0 ? verdict_of_window(cell->frame, window, p, &lo, &hi, 0) : GN_CELL_SPLIT;

@@ -17,7 +17,7 @@
 /* Other bias than the automatic one is of each pixel. */
 #if GN_SHADOWS && GN_AUTO_BIAS
 
-enum { TOO_FAR = 1 << 29 /* texels, Q16: of an offset that no tile is deep enough for */, FAR_Q30 = 0xFFFF << 14 };
+enum { TOO_FAR = 1 << 29 /* texels, Q16: of an offset that no tile is deep enough for */ };
 
 /* Where the corners are looked up: u, v in texels, Q16, and depth, a share of the view's range, Q30. */
 typedef struct {
@@ -59,14 +59,6 @@ GN_HOT static int find_patch_reach(gn_shading *s)
 
 /* ---- Places ------------------------------------------------------------------------------------------------------ */
 
-/* Texels along a directional view's axis, Q16, as a share of its range. */
-GN_HOT static inline int32_t depth_share_q30(const gn_light_view *view, int32_t depth_q16)
-{
-    const int32_t up = 14 - view->tile_log2 - view->depth_log2;
-    if (up < 0) return depth_q16 >> gn_min32(-up, 31);
-    return gn_max32(-(1 << 29) >> up, gn_min32(depth_q16, ((1 << 30) - 1) >> up)) * (1 << up);
-}
-
 /* In a directional view. Returns GN_PATCH_EDGE, GN_PATCH_LIT where bias lights everything, or GN_PATCH_UNEVEN far
  * outside, or where its range ends. */
 GN_HOT static int place_in_ortho(gn_shading *s, const gn_light_view *view, gn_auto_bias form, patch_places *out)
@@ -88,9 +80,9 @@ GN_HOT static int place_in_ortho(gn_shading *s, const gn_light_view *view, gn_au
     for (int k = 0; k < 3; k++) {
         out->u[k] += offset[0];
         out->v[k] += offset[1];
-        out->depth[k] = depth_share_q30(view, out->depth[k] + offset[2]);
-        n_near += out->depth[k] <= -(1 << 29);
-        n_far += out->depth[k] >= FAR_Q30;
+        out->depth[k] = gn_depth_share_q30(view, out->depth[k] + offset[2]);
+        n_near += out->depth[k] <= GN_DEPTH_LEAST_Q30;
+        n_far += out->depth[k] >= GN_DEPTH_END_Q30;
     }
     return n_near % 3 || n_far % 3 ? GN_PATCH_UNEVEN : GN_PATCH_EDGE; /* some bend the plane */
 }
@@ -167,17 +159,17 @@ GN_HOT static int ask_texels(gn_shading *s, const gn_light_view *view, const pat
     const int32_t range_log2 = view->tile_log2 + view->depth_log2, up = 18 - range_log2;
     if (view->filter > GN_FILTER_3X3 || up < 0 || !find_texels_read(view, at, out)) return TEXELS_UNKNOWN;
     if ((gn_abs32(at->slope_q12[0]) | gn_abs32(at->slope_q12[1])) >> (7 + range_log2))
-        return TEXELS_UNKNOWN; /* 2^-5 of the range per texel */
+        return TEXELS_UNKNOWN; /* 2^-5 of the range per texel: steps below 2^25 */
     const int32_t across = at->slope_q12[0] * (1 << up), down = at->slope_q12[1] * (1 << up),
                   rise = across * (out->w - 1), fall = down * (out->h - 1);
     const int64_t to_u = out->u * 65536 + 32768 - at->u[0], to_v = out->v * 65536 + 32768 - at->v[0]; /* 2^22 */
     const int64_t first = at->depth[0] + ((across * to_u + down * to_v) >> 16);                       /* 2^30 + 2^31 */
-    if (first < 0 || first > FAR_Q30) return TEXELS_UNKNOWN;
+    if (first < 0 || first > GN_DEPTH_END_Q30) return TEXELS_UNKNOWN;
     int32_t depth = (int32_t)first;
     const uint16_t *texel = view->depth.d16 + out->v * view->tile_texels + out->u;
     uint32_t any = 0, all = UINT32_MAX >> (32 - out->w);
     if (depth + gn_min32(rise, 0) + gn_min32(fall, 0) < 0) return TEXELS_UNKNOWN;
-    if (depth + gn_max32(rise, 0) + gn_max32(fall, 0) > FAR_Q30) return TEXELS_UNKNOWN;
+    if (depth + gn_max32(rise, 0) + gn_max32(fall, 0) > GN_DEPTH_END_Q30) return TEXELS_UNKNOWN;
     GN_COUNT(windows, 1);
     GN_NOTE_TEXELS(&s->scratch->squares, view, out->u, out->v, out->w, out->h);
     for (int32_t row = 0; row < out->h; row++, texel += view->tile_texels, depth += down) {

@@ -708,6 +708,8 @@ static void check_pixel_views(const gn_lattice *l, const gn_surface *s, int x, i
     }
 }
 
+static long n_whole, n_regions;
+
 /* That of a region of depths and pixels around the point, and of the object. */
 static void check_region(const gn_surface *s, const known_point *k, int x, int y)
 {
@@ -716,10 +718,14 @@ static void check_region(const gn_surface *s, const known_point *k, int x, int y
     const gn_rect px = {x - (int32_t)uniform(0, 9), y - (int32_t)uniform(0, 9), x + (int32_t)uniform(1, 9),
                         y + (int32_t)uniform(1, 9)};
     if (!frame->has_cascades || fixed.shadow.distance_mode != GN_DISTANCE_DEPTH) return;
-    check_cascade(s, gn_cascade_of_object(frame, (uint32_t)(s->object - frame->scene->objects)), x, y);
+    const int32_t all = gn_cascade_of_object(frame, (uint32_t)(s->object - frame->scene->objects));
+    n_whole += all >= 0;
+    check_cascade(s, all, x, y);
     if (gn_shadow_distance_fade(frame, z + 2) < 65536) return;
     const int32_t lo = z - (int32_t)uniform(2, z / 8 + 3), hi = z + (int32_t)uniform(2, z / 8 + 3);
-    check_cascade(s, gn_cascade_of_region(frame, lo, hi, &px), x, y);
+    const int32_t region = gn_cascade_of_region(frame, lo, hi, &px);
+    n_regions += region >= 0;
+    check_cascade(s, region, x, y);
 }
 
 static void check_part(gn_lattice *l, const gn_surface *s, const gn_rect *r, const known_point *k, int x, int y)
@@ -974,7 +980,7 @@ int main(int argc, char **argv)
     }
     CHECK(n_known > n_unseen && n_unseen > 100 && n_wide > 1000);
     printf("%ld corners are known, %ld of them outside of their triangles, %ld not; %ld of %ld surfaces have no plane; "
-           "cascades: %ld certain, %ld not; boxes: %ld in several, %ld where shadows fade\n",
+           "cascades: %ld certain, %ld not; parts: %ld in several, %ld where shadows fade\n",
            n_known, n_wide, n_unseen, n_no_plane, n_planes + n_no_plane, n_certain, n_uncertain, n_several, n_fading);
     printf("cells: coordinates of %ld bend along rows, of %ld down columns, of %ld not\n", n_bent_rows, n_bent_columns,
            n_straight);
@@ -988,7 +994,7 @@ int main(int argc, char **argv)
     CHECK(n_wide_places > 1000);
     CHECK(n_certain > 1000 && n_uncertain > 100 && n_several > 100 && n_fading > 100);
     printf("cells: shadows that begin or end to fade at %ld places\n", n_fades);
-    CHECK(n_fades > 200);
+    CHECK(n_fades > 200 && n_whole > 50 && n_regions > 1000);
     CHECK(lit_by_bias.n > 1000);
     CHECK_TALLY(finest, "planes at the finest scale");
     CHECK_TALLY(rim_dark, "corners beyond a rim");

@@ -254,9 +254,9 @@ static void test_faces(void)
         any_record(&r);
         gn_record_face(&r, &frame, view_q14);
         exact_face(&r, n);
-        /* axes lose less than a bit of 14: sqrt(3) of a length of at least 2^13; products another, the root 2^-15 */
+        /* axes lose less than a bit of 15: sqrt(3) of a length of at least 2^14; results another, the root 2^-15 */
         for (int k = 0; k < 3; k++)
-            HOLDS(&t, fabs(view_q14[k] - 16384 * n[k]) < 2 * sqrt(3) + 1.5, "axis %d: %d, not %g", k, (int)view_q14[k],
+            HOLDS(&t, fabs(view_q14[k] - 16384 * n[k]) < sqrt(3) + 1.5, "axis %d: %d, not %g", k, (int)view_q14[k],
                   16384 * n[k]);
     }
     int32_t zero[3] = {0, 0, 0};

@@ -166,7 +166,7 @@ static void test_normals(void)
             gn_affine_rotation(&joint[j], (uint16_t)rng_u32(&state), (uint16_t)rng_u32(&state), (uint16_t)i);
             for (int k = 0; k < 9; k++) {
                 int32_t *at = &joint[j].m_q30[k / 3][k % 3];
-                *at = (int32_t)((int64_t)*at * scale[k % 3] >> 15) / (i % 7 + 1) * (i & 2 ? -1 : 1);
+                *at = (int32_t)((int64_t)*at * scale[k % 3] >> 15) / (i % 7 + 1) / (1 << i % 4) * (i & 2 ? -1 : 1);
             }
             joint[j].exp = (int32_t)rng_below(&state, 3);
         }

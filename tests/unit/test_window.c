@@ -448,6 +448,10 @@ static void test_none(void)
         }
         HOLDS(&t, !made || (hi < 0 && !window.any) || (lo > -((int64_t)1 << 46) && hi < (int64_t)1 << 46), "%g .. %g",
               ldexp((double)lo, -46), ldexp((double)hi, -46));
+        const int64_t beside =
+            (int64_t)abs(window.slope_q30[0]) + abs(window.slope_q30[1]) + place.apart_q30; /* a texel */
+        HOLDS(&t, hi + (beside + window.behind_q30 + 1) * 65536 >= 0 || (made && !window.any), "%g .. %g is not lit",
+              ldexp((double)lo, -46), ldexp((double)hi, -46));
         HOLDS(&t, made || lo < ((int64_t)1 << 43) - reach() || hi > ((int64_t)7 << 43) - 2 * reach() - rounding(),
               "%g .. %g has none", ldexp((double)lo, -46), ldexp((double)hi, -46));
     }
