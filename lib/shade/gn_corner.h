@@ -153,11 +153,11 @@ GN_HOT static inline int32_t gn_corner_ortho(const gn_ray_plane *r, const gn_cor
     return (int32_t)(at + (uint32_t)(gn_mul_high(ray->z, (int32_t)((uint32_t)r->a0 + across)) >> ray->down));
 }
 
-/* Depths that gn_depth_share_q30() limits are at these, or beyond: up to 2^14 below the end. */
+/* Depths that gn_depth_q30() limits are at these, or beyond: up to 2^14 below the end. */
 enum { GN_DEPTH_LEAST_Q30 = -(1 << 29), GN_DEPTH_END_Q30 = (1 << 30) - (1 << 14) };
 
 /* Texels along a directional view's axis, Q16, as a share of its range, limited to -1/2 .. 1. */
-GN_HOT static inline int32_t gn_depth_share_q30(const gn_light_view *view, int32_t depth_q16)
+GN_HOT static inline int32_t gn_depth_q30(const gn_light_view *view, int32_t depth_q16)
 {
     const int32_t up = 14 - view->tile_log2 - view->depth_log2;
     if (up < 0) return depth_q16 >> gn_min32(-up, 31);

@@ -91,7 +91,7 @@ GN_HOT static void place_directional(gn_lattice *l, const gn_frame *frame, const
     gn_corner_coords(l, frame, s, c, slot, view, coord);
     at->u_q16 = coord[0];
     at->v_q16 = coord[1];
-    at->depth_q30 = gn_depth_share_q30(view, coord[2]);
+    at->depth_q30 = gn_depth_q30(view, coord[2]);
     at->seen = 1;
 }
 

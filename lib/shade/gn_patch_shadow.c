@@ -80,7 +80,7 @@ GN_HOT static int place_in_ortho(gn_shading *s, const gn_light_view *view, gn_au
     for (int k = 0; k < 3; k++) {
         out->u[k] += offset[0];
         out->v[k] += offset[1];
-        out->depth[k] = gn_depth_share_q30(view, out->depth[k] + offset[2]);
+        out->depth[k] = gn_depth_q30(view, out->depth[k] + offset[2]);
         n_near += out->depth[k] <= GN_DEPTH_LEAST_Q30;
         n_far += out->depth[k] >= GN_DEPTH_END_Q30;
     }
