@@ -59,7 +59,7 @@
       "references from screen tiles to triangles; unused with triangle_groups", "2 bytes each")                        \
     X(max_lights, MAX_LIGHTS, 1, 64, "lights in a scene", "176 bytes each, 36 without spot and point lights")          \
     X(surface_lights, SURFACE_LIGHTS, 1, 64, "lights that can affect one surface",                                     \
-      "620 bytes each, 84 with persp_step 1")                                                                          \
+      "516 bytes each, 72 with persp_step 1")                                                                          \
     X(max_objects, MAX_OBJECTS, 1, 65535, "objects in a scene", "41 bytes each, 29 without spot and point lights")     \
     X(max_shadow_tiles, MAX_SHADOW_TILES, 1, 16, "tiles of the directional atlas: lights times cascades",              \
       "272 bytes each, 64 less without tile_sizes, 16 without incremental, 8 without automatic bias")                  \

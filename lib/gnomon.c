@@ -81,14 +81,16 @@
 #include "visible/gn_setup.c"
 
 /* Their colours. */
-#include "shade/gn_light.c"
 #include "shade/gn_shade.c"
 #include "shade/gn_surface_lights.c"
-#if GN_INTERPOLATES
+#include "shade/gn_cascade_point.c"
 #include "shade/gn_corner.c"
+#include "shade/gn_corner_pixel.c"
 #include "shade/gn_corner_place.c"
 #include "shade/gn_corner_screen.c"
 #include "shade/gn_lattice.c"
+#include "shade/gn_mix.c"
+#if GN_INTERPOLATES
 #include "shade/gn_lattice_window.c"
 #include "shade/gn_lattice_draw.c"
 #include "shade/gn_lattice_even.c"
@@ -102,8 +104,6 @@
 #include "shade/gn_record.c"
 #include "shade/gn_screen_plane.c"
 #endif
-#include "shade/gn_sample.c"
-#include "shade/gn_shadow.c"
 #include "shade/gn_surface.c"
 #endif
 

@@ -9,7 +9,7 @@
  * - every call returns a status; gn_status_text() says it in words, gn_detail names what and where
  *
  * A frame: describe a gn_scene, call gn_render() with a flush callback. Nothing is allocated, nothing is global: all
- * state is in gn_renderer (one static object, about 111 KB as configured by default, of which 34 KB serve the atlas of
+ * state is in gn_renderer (one static object, about 110 KB as configured by default, of which 34 KB serve the atlas of
  * spot and point lights: 73 KB with GN_OTHER_LIGHTS 0), so several can run in one program.
  */
 #ifndef GNOMON_H

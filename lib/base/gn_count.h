@@ -36,12 +36,9 @@
     X(surfaces, "triangle with a pixel to shade in a screen tile")                                                     \
     X(runs, "run of pixels of one surface")                                                                            \
     X(filled, "pixel of a surface that looks the same all over")                                                       \
-    X(samples, "place where a surface is evaluated with a perspective divide")                                         \
-    X(samples_smooth, "the same with interpolated normals, colours or texture coordinates")                            \
-    X(sample_lights, "directional light at such a place")                                                              \
-    X(sample_lights_punctual, "spot or point light at such a place")                                                   \
-    X(shaded, "pixel shaded")                                                                                          \
-    X(corners, "corner of cells")                                                                                      \
+    X(shaded, "pixel shaded for itself")                                                                               \
+    X(corners, "corner of cells, or pixel for itself")                                                                 \
+    X(corner_lights, "directional light at one")                                                                       \
     X(places, "corner seen by a light's view")                                                                         \
     X(cells, "cell of a surface")                                                                                      \
     X(cells_split, "cell that is split")                                                                               \
@@ -57,15 +54,14 @@
     X(window_texels, "texel compared with a plane")                                                                    \
     X(window_lookups, "lookup in a window")                                                                            \
     X(edge_lookups, "lookup in a cell with the edge of a shadow")                                                      \
-    X(lights, "light that arrives at a pixel")                                                                         \
-    X(lights_punctual, "spot or point light that faces a pixel")                                                       \
-    X(highlights, "specular highlight of a light at a pixel")                                                          \
+    X(lights, "light that arrives at a pixel for itself")                                                              \
+    X(lights_punctual, "spot or point light that faces a corner")                                                      \
+    X(highlights, "specular highlight of a light at a pixel for itself")                                               \
     X(textured, "pixel for itself whose colour is a texture's")                                                        \
     X(textured_rows, "pixel of a row of a cell whose colour is a texture's")                                           \
     X(masked, "look-up in a mask image")                                                                               \
     X(packed, "colour encoded")                                                                                        \
-    X(lookups, "shadow lookup in an orthographic view")                                                                \
-    X(lookups_persp, "shadow lookup in a perspective view")                                                            \
+    X(lookups, "shadow lookup of a pixel for itself")                                                                  \
     X(undecided, "lookup by 3x3 and up, or the disk, that bounds did not decide")                                      \
     X(lookups_2x2, "lookup by 2x2")                                                                                    \
     X(taps_tent, "tap of 3x3, 5x5 or 7x7")                                                                             \

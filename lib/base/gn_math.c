@@ -273,13 +273,6 @@ GN_HOT uint64_t gn_length_bits(int32_t newton_steps, const int32_t n_q30[3])
     return (uint64_t)shift << 32 | root;
 }
 
-GN_HOT int32_t gn_length_cosine_q24(gn_length length, const int32_t n_q30[3], const int32_t unit_q30[3])
-{
-    int64_t dot_q30 = gn_dot_q30(n_q30, unit_q30);
-    int64_t cosine = gn_scale64(dot_q30 * (int64_t)length.root, 63 - 24 - length.shift / 2);
-    return (int32_t)gn_clamp64(cosine, -(1 << 24), 1 << 24);
-}
-
 GN_HOT void gn_length_unit(gn_length length, const int32_t n_q30[3], int32_t out_q30[3])
 {
     for (int i = 0; i < 3; i++) {

@@ -185,8 +185,6 @@ GN_INLINE gn_length gn_length_of(int32_t newton_steps, const int32_t n_q30[3])
     return length;
 }
 
-int32_t gn_length_cosine_q24(gn_length length, const int32_t n_q30[3],
-                             const int32_t unit_q30[3]);                           /* n . unit / |n|, within +-1 */
 void gn_length_unit(gn_length length, const int32_t n_q30[3], int32_t out_q30[3]); /* n / |n| */
 
 /* Round Q1.30 cross product of unit vectors. */

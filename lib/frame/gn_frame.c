@@ -21,8 +21,8 @@
  *   tile's triangles are set up again for it (visible/gn_setup)
  * - gn_shade_tile: the visible runs (visible/gn_runs) of a triangle at a time (shade/gn_surface), part by part: of one
  *   or two colours (gn_part), or by cells (gn_lattice: gn_corner, gn_lattice_look, gn_lattice_draw), with texel windows
- *   (gn_lattice_window, shadow/gn_window); or pixel by pixel (gn_corner_screen, gn_sample): light (gn_light,
- *   light/gn_punctual), shadow (gn_shadow, shadow/gn_filter); encoded pixels (gn_shade, gn_pixel)
+ *   (gn_lattice_window, shadow/gn_window); or pixel by pixel (gn_corner_pixel): light (gn_corner,
+ *   light/gn_punctual), shadow (gn_corner_place, shadow/gn_filter); encoded pixels (gn_shade, gn_pixel)
  * - the caller's drawing over it (behind it: gn_shade_tile), flush
  *
  * With GN_COMPACT, compact/ has all stages but the first, in 32 bits, behind the same calls.

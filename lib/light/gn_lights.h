@@ -64,30 +64,47 @@ gn_bfloat gn_punctual_weight(const gn_light_state *light, uint64_t distance2_q32
  * the reciprocal of that edge in Q30, and has this exponent or a larger one. */
 #define GN_NARROW_EXP (-55)
 
-/* A surface point in a light's range and cone; d2 is the square of its distance to the light, Q32. */
+/* A surface point in a light's range and cone. */
 typedef struct {
-    uint32_t factor_q30;  /* window^2 * angle^2: the fade towards the range, and from the inner to the outer cone */
-    uint32_t inv_root;    /* 1 / distance: 2^47 / sqrt(d2 << shift >> 32), in [2^31, 2^32) */
-    int32_t shift;        /* of inv_root; even, so that the root is a shift by half of it */
-    uint32_t scale_root;  /* the same of max(d2, 10^-4), whose square attenuates */
-    int32_t scale_shift;  /* of scale_root */
-    int32_t colour_exp;   /* the light's colour is colour_uq16 * 2^colour_exp */
+    int32_t factor_q30;  /* window^2 * angle^2: the fade towards the range, and from the inner to the outer cone */
+    int32_t root_q31;    /* 1 / distance: a length in Q16 times 2^half, times this / 2^31, is its share of it, Q30 */
+    int32_t half;        /* -1 .. 30 */
+    int32_t inverse_q31; /* 1 / max(distance^2, 10^-4), and */
+    int32_t down; /* the bits that irradiance goes down by: with the light's colour, colour_uq16 * 2^colour_exp */
     int32_t within_inner; /* 1: inside a spot's inner cone, where its angle has no effect */
     int32_t beyond_q30;   /* of spots, also where nothing arrives: the cosine less that of the cone's edge, -2^30 behind
                              the light; INT32_MAX out of range */
 } gn_punctual_point;
+
+/* The square of the distance, of components below 2^31 in magnitude. */
+GN_HOT static inline uint64_t gn_distance2_q32(const int32_t from_q16[3])
+{
+    return (uint64_t)((int64_t)from_q16[0] * from_q16[0]) + (uint64_t)((int64_t)from_q16[1] * from_q16[1]) +
+           (uint64_t)((int64_t)from_q16[2] * from_q16[2]);
+}
+
+/* (1 - (d^2 / r^2)^2)^2: the share that the window of a light's range leaves at d < r. */
+int32_t gn_punctual_window_q30(const gn_light_state *light, uint64_t d2_q32);
+
+#if GN_PUNCTUAL_LIGHTS
+/* A difference of cosines at a spot's rim, as a share of the rim's, Q30: below 2^48. */
+GN_HOT static inline uint64_t gn_punctual_rim_q30(const gn_light_state *light, uint32_t cosine_q30)
+{
+    return (uint64_t)gn_umul_high(cosine_q30, light->angle_scale.mant) << (62 + light->angle_scale.exp);
+}
+#endif
 
 /* Fills `out` for a surface point; `from_light` is the point minus the light's position, world axes, Q16. Returns 0
  * where no light arrives: of `out` only the last two are then defined. */
 int gn_punctual_at(const gn_frame *frame, const gn_light_state *light, const int32_t from_light_q16[3],
                    gn_punctual_point *out);
 
-/* length / distance to the light, Q30, saturated at +-1: a cosine, if the length is the projection of the ray from the
- * light on a unit vector. */
+/* length / distance to the light, Q30, of lengths up to it: a cosine, if the length is the projection of the ray from
+ * the light on a unit vector. */
 int32_t gn_punctual_cosine_q30(const gn_punctual_point *point, int32_t length_q16);
 
 /* factor * cosine / max(d^2, min) * 2^colour_exp: irradiance of a light whose colour is 1, Q24, saturated below 128. */
-uint32_t gn_punctual_irradiance_q24(const gn_punctual_point *point, int32_t cosine_q30);
+int32_t gn_punctual_irradiance_q24(const gn_punctual_point *point, int32_t cosine_q30);
 
 /* ---- Receiver bias (MODEL 7) ------------------------------------------------------------------------------------- */
 

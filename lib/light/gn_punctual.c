@@ -66,12 +66,18 @@ GN_COLD void gn_punctual_setup(gn_frame *frame, uint32_t light_idx)
 }
 
 /* (1 - (d^2 / r^2)^2)^2, Q30; d < r [P2] */
-GN_HOT static uint32_t window_q30(const gn_light_state *light, uint64_t d2_q32)
+GN_INLINE int32_t window_q30(const gn_light_state *light, uint64_t d2_q32)
 {
     if (light->range2_q32 == UINT64_MAX) return GN_ONE_Q30;
-    int64_t ratio = gn_clamp64(gn_bf_apply((int64_t)(d2_q32 >> 1), light->inv_range2, 31), 0, GN_ONE_Q30);
-    int32_t window = GN_ONE_Q30 - gn_mul_q30((int32_t)ratio, (int32_t)ratio);
-    return (uint32_t)gn_mul_q30(window, window);
+    const int32_t clz = gn_clz64(light->range2_q32),
+                  ratio = (int32_t)(gn_umul_high((uint32_t)((d2_q32 << clz) >> 32), light->inv_range2.mant) >> 1),
+                  window = GN_ONE_Q30 - 4 * gn_mul_high(ratio, ratio);
+    return 4 * gn_mul_high(window, window);
+}
+
+GN_HOT int32_t gn_punctual_window_q30(const gn_light_state *light, uint64_t d2_q32)
+{
+    return window_q30(light, d2_q32);
 }
 
 GN_COLD gn_bfloat gn_punctual_weight(const gn_light_state *light, uint64_t distance2_q32, uint64_t min2_q32)
@@ -79,7 +85,7 @@ GN_COLD gn_bfloat gn_punctual_weight(const gn_light_state *light, uint64_t dista
     uint32_t largest = 1;
     for (int c = 0; c < 3; c++)
         if (light->colour_uq16[c] > largest) largest = light->colour_uq16[c];
-    uint64_t window = (uint64_t)window_q30(light, distance2_q32) + 1;
+    uint64_t window = distance2_q32 < light->range2_q32 ? (uint64_t)window_q30(light, distance2_q32) + 1 : 1;
     gn_bfloat weight = gn_bf_recip(gn_bf_from_u64(distance2_q32 > min2_q32 ? distance2_q32 : min2_q32));
     weight = gn_bf_mul(weight, gn_bf_from_u64(window * largest));
     weight.exp += light->colour_exp;
@@ -94,11 +100,12 @@ GN_HOT static uint32_t inverse_root(uint64_t v, int32_t newton_steps, int32_t *s
 }
 
 /* clamp((cos - cos outer) / (cos inner - cos outer), 0, 1)^2, Q30 [P3] */
-GN_HOT static uint32_t angle_q30(const gn_light_state *light, int32_t beyond)
+GN_HOT static int32_t angle_q30(const gn_light_state *light, int32_t beyond_q30)
 {
-    if (beyond <= 0) return 0;
-    int32_t share = (int32_t)gn_clamp64(gn_bf_apply(beyond, light->angle_scale, 30), 0, GN_ONE_Q30);
-    return (uint32_t)gn_mul_q30(share, share);
+    if (beyond_q30 <= 0) return 0;
+    const uint64_t share_q30 = gn_punctual_rim_q30(light, (uint32_t)beyond_q30);
+    const int32_t share = (int32_t)share_q30;
+    return share_q30 >> 30 ? GN_ONE_Q30 : 4 * gn_mul_high(share, share);
 }
 
 GN_HOT static int32_t root_steps(const gn_frame *frame, const gn_light_state *light)
@@ -106,46 +113,49 @@ GN_HOT static int32_t root_steps(const gn_frame *frame, const gn_light_state *li
     return light->kind == GN_LIGHT_SPOT && light->angle_scale.exp >= GN_NARROW_EXP ? 2 : GN_RECIP_STEPS(frame);
 }
 
+GN_HOT int32_t gn_punctual_cosine_q30(const gn_punctual_point *point, int32_t length_q16)
+{
+    const int32_t half = point->half, most = INT32_MAX >> gn_max32(half, 0);
+    int32_t length = gn_max32(-most, gn_min32(length_q16, most));
+    length = half < 0 ? length >> 1 : length * (1 << half);
+    return 2 * gn_mul_high(length, point->root_q31);
+}
+
 /* Distance and cone together. [P2] [P3] */
 GN_HOT int gn_punctual_at(const gn_frame *frame, const gn_light_state *light, const int32_t from_light_q16[3],
                           gn_punctual_point *out)
 {
-    uint64_t d2 = 0;
+    const uint64_t d2 = gn_distance2_q32(from_light_q16);
+    int32_t shift;
     out->within_inner = 0;
     out->beyond_q30 = INT32_MAX;
-    for (int i = 0; i < 3; i++) d2 += (uint64_t)((int64_t)from_light_q16[i] * from_light_q16[i]);
     if (d2 >= light->range2_q32 || d2 == 0) return 0;
-    int32_t steps = root_steps(frame, light);
-    out->inv_root = out->scale_root = inverse_root(d2, steps, &out->shift);
-    out->scale_shift = out->shift;
-    if (d2 < frame->min2_q32) out->scale_root = inverse_root(frame->min2_q32, steps, &out->scale_shift);
-    out->colour_exp = light->colour_exp;
+    const int32_t steps = root_steps(frame, light);
+    uint32_t root = inverse_root(d2, steps, &shift);
+    out->half = (shift >> 1) - 1;
+    out->root_q31 = (int32_t)(root >> 1);
     out->factor_q30 = window_q30(light, d2);
     if (light->kind == GN_LIGHT_SPOT) {
         /* against the axis towards the light: the ratio of light-plane distance to distance */
-        int32_t along = gn_sat32(-gn_dot_q30(from_light_q16, light->to_light_q30));
+        const int32_t along = gn_sat32(-gn_dot_q30(from_light_q16, light->to_light_q30));
         out->beyond_q30 = along > 0 ? gn_punctual_cosine_q30(out, along) - light->cos_outer_q30 : -GN_ONE_Q30;
-        uint32_t angle = angle_q30(light, out->beyond_q30);
+        const int32_t angle = angle_q30(light, out->beyond_q30);
         out->within_inner = angle == GN_ONE_Q30;
-        out->factor_q30 = (uint32_t)gn_mul_q30((int32_t)out->factor_q30, (int32_t)angle);
+        out->factor_q30 = 4 * gn_mul_high(out->factor_q30, angle);
     }
+    if (d2 < frame->min2_q32) root = inverse_root(frame->min2_q32, steps, &shift); /* cosines are of the distance */
+    /* 1 / d^2 = root^2 * 2^(shift - 94), of which 31 bits are used */
+    out->inverse_q31 = (int32_t)(gn_umul_high(root, root) >> 1);
+    out->down = 35 - shift - light->colour_exp;
     return out->factor_q30 != 0;
 }
 
-GN_HOT int32_t gn_punctual_cosine_q30(const gn_punctual_point *point, int32_t length_q16)
+GN_HOT int32_t gn_punctual_irradiance_q24(const gn_punctual_point *point, int32_t cosine_q30)
 {
-    /* length * 2^16 / (d * 2^16): d = 2^(63 - shift / 2) / root. 2^31 * 2^32 */
-    int64_t product = (int64_t)length_q16 * (int64_t)point->inv_root;
-    return (int32_t)gn_clamp64(gn_scale64(product, 33 - point->shift / 2), -GN_ONE_Q30, GN_ONE_Q30);
-}
-
-GN_HOT uint32_t gn_punctual_irradiance_q24(const gn_punctual_point *point, int32_t cosine_q30)
-{
+    const int32_t down = point->down;
     if (cosine_q30 <= 0) return 0;
-    int64_t share_q30 = gn_mul_q30((int32_t)point->factor_q30, cosine_q30);
-    /* 1 / d^2 = 2^32 / d2 = root^2 * 2^(shift - 94); 32 bits of root^2 */
-    uint64_t inverse = ((uint64_t)point->scale_root * point->scale_root) >> 32;
-    int64_t q24 =
-        gn_scale64(share_q30 * (int64_t)(inverse >> 1), 30 + 61 - 24 - point->scale_shift - point->colour_exp);
-    return (uint32_t)gn_clamp64(q24, 0, INT32_MAX);
+    const int32_t share_q30 = 4 * gn_mul_high(point->factor_q30, cosine_q30),
+                  q = gn_mul_high(share_q30, point->inverse_q31);
+    if (down >= 0) return q >> gn_min32(down, 31);
+    return down < -30 || q >> (31 + down) ? INT32_MAX : q * (1 << -down);
 }

@@ -1,5 +1,5 @@
-/* Corners of cells: points of a surface's plane, between which cells interpolate. All lights share one reciprocal and
- * one position; what is computed here is close to what gn_sample computes, in 32 bits (NUMERICS 4.12). */
+/* Corners: points of a surface's plane, at the centres of pixels. Cells interpolate between them, and the exact end of
+ * shading has one per pixel. All lights share one reciprocal and one position, in 32 bits (NUMERICS 4.12). */
 #ifndef GN_CORNER_H
 #define GN_CORNER_H
 
@@ -7,21 +7,32 @@
 #include "light/gn_lights.h"
 #include "shade/gn_surface.h"
 
-#if GN_INTERPOLATES
-
-/* Once per surface. Returns 0 if a light is out of reach of 32 bits. */
-int gn_corner_begin_lights(gn_lattice *lattice, const gn_frame *frame, const gn_surface *surface);
+/* Once per surface. */
+void gn_corner_begin_lights(gn_lattice *lattice, const gn_frame *frame, const gn_surface *surface);
 
 /* Then, for pixels of `rect`. Returns 0 if its plane does not fit 32 bits there. */
 int gn_corner_begin(gn_lattice *lattice, const gn_frame *frame, const gn_surface *surface, const gn_rect *rect);
 
+/* In place of both, of a surface all of whose pixels are shaded each for itself. */
+void gn_corner_begin_pixels(gn_lattice *lattice, const gn_frame *frame, gn_surface *surface);
+
 /* Looks for the block's anchor. Returns 0 if it has none. */
 int gn_corner_find_anchor(gn_lattice *lattice, const gn_frame *frame, const gn_surface *surface);
 
-/* Makes a corner known, at the centre of pixel (x, y), or unseen where the plane cannot be sampled there. `sample` is
- * scratch. */
+/* Makes a corner known, at the centre of pixel (x, y), or unseen where the plane cannot be sampled there: beyond half
+ * and twice the surface's depths, barycentrics of 2, a way of 2^30 from the eye. of_pixel: the surface covers the
+ * pixel: it becomes known, with values that are limited to the surface's where they are beyond that. */
 void gn_corner_find(const gn_lattice *lattice, const gn_frame *frame, const gn_surface *surface, int32_t x, int32_t y,
-                    gn_sample *sample, gn_corner *corner);
+                    int of_pixel, gn_corner *corner);
+
+/* Texture coordinates alone, of a pixel that the surface covers, after gn_surface_use_bary(). */
+void gn_corner_find_texture(const gn_frame *frame, const gn_surface *surface, int32_t x, int32_t y, gn_corner *corner);
+
+/* What shadow and mask leave of the light in a slot of a pixel's corner, 65536: all. */
+uint32_t gn_corner_share(gn_shading *s, gn_corner *corner, uint32_t slot);
+
+/* Radiance of a pixel's corner towards the viewer (MODEL 3), Q20, not clamped to 1. */
+void gn_corner_radiance(gn_shading *s, gn_corner *corner, uint32_t radiance_q20[3]);
 
 /* ---- The plane on the screen: gn_screen_plane.c -------------------------------------------------------------------
  */
@@ -31,16 +42,16 @@ GN_HOT static inline int32_t gn_slope_at(const gn_slope *s, int32_t dx, int32_t 
     return s->at + s->dx * dx + s->dy * dy;
 }
 
-/* Finds forms of the surface at a common scale, for pixels of `rect` and `beyond` more each way. Returns 0 if they do
- * not fit. */
-int gn_screen_plane_find(gn_screen_plane *plane, const gn_frame *frame, const gn_surface *surface, const gn_rect *rect,
-                         int32_t beyond);
+/* Finds forms of the surface at a common scale, for pixels of `rect` and one more each way. Returns 0 if they do not
+ * fit. */
+int gn_screen_plane_find(gn_screen_plane *plane, const gn_frame *frame, const gn_surface *surface, const gn_rect *rect);
 
 /* View depth of the plane at a pixel, and barycentrics there, both linear on the screen: of an orthographic camera
  * alone. Returns 0 far off the triangle. */
 int32_t gn_corner_flat_depth(const gn_screen_plane *plane, const gn_surface *surface, int32_t x, int32_t y,
                              int32_t b_q28[2]);
 
+#if GN_INTERPOLATES
 /* View depth of the plane at a pixel; 0: it is not seen there, or far beyond the surface. */
 GN_HOT static inline int32_t gn_corner_seen_depth(const gn_lattice *l, const gn_frame *frame, const gn_surface *s,
                                                   int32_t x, int32_t y)
@@ -62,6 +73,7 @@ GN_HOT static inline int32_t gn_corner_seen_depth(const gn_lattice *l, const gn_
 /* View depth of the plane at a pixel, up to its largest on the triangle. */
 int32_t gn_corner_depth(const gn_lattice *lattice, const gn_frame *frame, const gn_surface *surface, int32_t x,
                         int32_t y);
+#endif
 
 /* gn_corner_begin()'s: whether one cascade is that of all of the surface. */
 void gn_corner_begin_cascade(gn_lattice *lattice, const gn_frame *frame, const gn_surface *surface);
@@ -75,10 +87,6 @@ int32_t gn_cascade_of_region(const gn_frame *frame, int32_t z_lo_q16, int32_t z_
 
 /* The same of an object, where shadows do not fade with distance either. */
 int32_t gn_cascade_of_object(const gn_frame *frame, uint32_t object_idx);
-
-/* Sets the cascade of a pixel, its share in a blend, and what gn_shadow_distance() asks for. */
-void gn_corner_cascade(const gn_lattice *lattice, const gn_frame *frame, const gn_surface *surface, int32_t x,
-                       int32_t y, gn_sample *sample);
 
 /* A point of which only gn_corner_place() of one light may be asked. Returns 0 where the plane, or its normal, cannot
  * be sampled. */
@@ -99,6 +107,10 @@ void gn_corner_coords(gn_lattice *lattice, const gn_frame *frame, const gn_surfa
  * near plane, GN_SEEN_OUTSIDE moved along the normal although that leaves the tile. */
 int gn_corner_place_flat(gn_lattice *lattice, const gn_frame *frame, const gn_surface *surface, uint32_t slot,
                          const gn_light_view *view, int32_t x, int32_t y, gn_corner_light *at);
+
+/* The receiver's offset in a directional view, texels along its axes, Q16. */
+void gn_corner_offset(const gn_frame *frame, const gn_surface *surface, uint32_t slot, const gn_light_view *view,
+                      const int32_t n_q30[3], int32_t offset_q16[3]);
 
 /* The offset of receivers of a flat surface in a directional view: valid until another one's is asked for. */
 const int32_t *gn_corner_flat_offset(gn_lattice *lattice, const gn_frame *frame, const gn_surface *surface,
@@ -174,7 +186,7 @@ GN_HOT static inline int gn_corner_place(gn_lattice *l, const gn_frame *frame, c
     const gn_light_view *view = &frame->view[s->light[slot].state->view_idx + (int32_t)view_idx];
     at->placed = (uint8_t)view_idx;
     GN_COUNT(places, 1);
-#if GN_PUNCTUAL_LIGHTS
+#if GN_INTERPOLATES && GN_PUNCTUAL_LIGHTS
     if (view->perspective && !GN_SMOOTH(s) && gn_corner_place_flat(l, frame, s, slot, view, c->x, c->y, at)) {
         at->placed |= GN_BY_FORMS;
         if (at->seen == GN_SEEN_OUTSIDE && at->arrives <= 0) at->seen = 1;
@@ -186,15 +198,15 @@ GN_HOT static inline int gn_corner_place(gn_lattice *l, const gn_frame *frame, c
 #endif
 
 #if GN_SHADOWS
-/* Slopes of depth over a texel of the view, 0 without B5 and F7, of all of the block. */
+/* Slopes of depth over a texel of the view, 0 without B5 and F7, of all of the block, which the corner lies in. */
 void gn_corner_slopes(gn_lattice *lattice, const gn_frame *frame, const gn_surface *surface, const gn_light_view *view,
-                      int32_t slope_q28[2]);
+                      const gn_corner *corner, int32_t slope_q28[2]);
 #endif
 
 /* Of another surface. */
 GN_HOT static inline void gn_corner_forget_forms(gn_lattice *l)
 {
-#if GN_PUNCTUAL_LIGHTS && GN_SHADOWS
+#if GN_INTERPOLATES && GN_PUNCTUAL_LIGHTS && GN_SHADOWS
     for (int i = 0; i < GN_VIEW_FORMS; i++) l->forms[i].view = NULL;
 #endif
     (void)l;
@@ -208,14 +220,12 @@ GN_HOT static inline uint32_t gn_corner_mask_uq16(const gn_corner_light *light)
 #endif
 
 #if GN_PUNCTUAL_LIGHTS
-/* Irradiance of a light whose colour is 1: gn_punctual_irradiance_q24() in 32 bits, which sets out->arrives. `d2` is
- * the square of the distance, `facing` the way against the normal. rim_q20 not NULL: sets, in place of out->arrives,
- * how far a point is from the edge of a spot's cone to where its rim ends, whose square, limited to 0 .. 1, is not part
- * of it then. */
-int32_t gn_corner_irradiance(const gn_frame *frame, const gn_light_state *light, const int32_t from_q16[3], uint64_t d2,
-                             int32_t facing_q16, gn_corner_light *out, int32_t *rim_q20);
+/* From the eye to the point at view depth z on a pixel's ray, along the world's axes: the same for all lights. Returns
+ * 0 if it is 2^30 away along an axis. */
+int gn_corner_find_ray(const gn_frame *frame, const gn_light_state *any, int32_t x, int32_t y, int32_t z_q16,
+                       int32_t ray_q16[3]);
 
-/* From a spot or point light to a point: both lie within 2^30 of the eye. */
+/* From a spot or point light to a point: rays are within 2^30 - 1, and eye and light within 2^29 (gn_scene). */
 GN_HOT static inline void gn_corner_from_ray(const int32_t ray_q16[3], const gn_light_state *light, int32_t from_q16[3])
 {
     GN_UNROLL
@@ -227,27 +237,6 @@ GN_HOT static inline void gn_corner_from(const gn_corner *c, const gn_light_stat
     gn_corner_from_ray(c->ray_q16, light, from_q16);
 }
 
-/* The square of the distance, of components below 2^31. */
-GN_HOT static inline uint64_t gn_corner_distance2_q32(const int32_t from_q16[3])
-{
-    return (uint64_t)((int64_t)from_q16[0] * from_q16[0]) + (uint64_t)((int64_t)from_q16[1] * from_q16[1]) +
-           (uint64_t)((int64_t)from_q16[2] * from_q16[2]);
-}
-
-/* The share that the window of a light's range leaves at a square of a distance that is less. */
-GN_HOT static inline int32_t gn_corner_window_q30(const gn_light_state *light, uint64_t d2_q32)
-{
-    int32_t clz = gn_clz64(light->range2_q32);
-    int32_t ratio = (int32_t)(gn_umul_high((uint32_t)((d2_q32 << clz) >> 32), light->inv_range2.mant) >> 1);
-    int32_t window = (1 << 30) - 4 * gn_mul_high(ratio, ratio);
-    return 4 * gn_mul_high(window, window);
-}
-
-/* A difference of cosines at a spot's rim, as a share of the rim's, Q30: below 2^48. */
-GN_HOT static inline uint64_t gn_corner_rim_q30(const gn_light_state *light, uint32_t cosine_q30)
-{
-    return (uint64_t)gn_umul_high(cosine_q30, light->angle_scale.mant) << (62 + light->angle_scale.exp);
-}
 #endif
 
 /* A colour times irradiance, Q24, limited to 8. */
@@ -260,7 +249,5 @@ GN_HOT static inline int32_t gn_corner_times(uint32_t colour_uq16, int32_t irrad
     uint64_t product = (uint64_t)colour_uq16 * (uint32_t)irradiance_q24;
     return product >> 43 ? 1 << 27 : (int32_t)(uint32_t)(product >> 16);
 }
-
-#endif
 
 #endif

@@ -2,15 +2,11 @@
 #include "gn_internal.h"
 
 #include "base/gn_base_types.h"
-#include "base/gn_count.h"
 #include "base/gn_math.h"
 #include "base/gn_q.h"
 #include "light/gn_lights.h"
 #include "shade/gn_corner.h"
-#include "shade/gn_lattice.h"
-#include "shade/gn_pixel.h"
 #include "shade/gn_surface.h"
-#include "shadow/gn_filter.h"
 
 #if GN_INTERPOLATES && GN_SHADOWS && GN_PUNCTUAL_LIGHTS
 
@@ -170,7 +166,7 @@ GN_HOT static GN_NOINLINE int find_move(gn_lattice *l, const gn_frame *frame, co
                                         gn_view_forms *out, point_mover *move)
 {
     const gn_light_view *view = out->view;
-    if (GN_FLAT_Q16(frame)) return 0;
+    if (GN_FLAT_Q16(frame) || !l->plane.fits) return 0;
     *move = (point_mover){s->normal_q30[0], view->fit.persp.lift_q31, 0, 0};
     out->less_q30 = out->in_tile = 0;
     out->z_least = 1 << 22;
@@ -200,8 +196,8 @@ GN_HOT int gn_corner_place_flat(gn_lattice *l, const gn_frame *frame, const gn_s
                                 const gn_light_view *view, int32_t x, int32_t y, gn_corner_light *at)
 {
     const gn_view_forms *forms = forms_of(l, frame, s, slot, view);
-    int32_t dx = x - l->plane.x, dy = y - l->plane.y;
     if (forms->near_up == INT32_MAX) return 0;
+    const int32_t dx = x - l->plane.x, dy = y - l->plane.y;
     int32_t u = gn_slope_at(&forms->u, dx, dy), v = gn_slope_at(&forms->v, dx, dy), z = gn_slope_at(&forms->z, dx, dy);
     /* what roundings of slopes do not matter to, nor carry to 2^30 */
     if ((uint32_t)(z - forms->z_least) >= (uint32_t)((1 << 30) - forms->z_least)) return 0;
@@ -229,122 +225,6 @@ GN_HOT int gn_corner_place_flat(gn_lattice *l, const gn_frame *frame, const gn_s
     if (forms->in_tile && ((uint32_t)at->u_q16 > end || (uint32_t)at->v_q16 > end)) at->seen = GN_SEEN_OUTSIDE;
 #endif
     return 1;
-}
-
-#endif
-
-/* ---- Pixels that are corners of their own ------------------------------------------------------------------------ */
-
-#if GN_INTERPOLATES
-
-#if GN_SHADOWS
-/* Whether two cascades are blended at the corner. */
-GN_HOT static inline int is_blended(const gn_frame *frame, const gn_corner *c)
-{
-    return GN_BLENDED_CASCADES && c->fade_uq16 < 65536 && c->cascade != GN_LAST_CASCADE(frame) &&
-           frame->scene->shadow.blend != GN_BLEND_HARD;
-}
-
-/* What is left of a light in its shadow map. */
-GN_HOT static uint32_t looked_up(gn_shading *s, gn_corner *c, uint32_t slot)
-{
-    const gn_light_state *light = s->surface.light[slot].state;
-    const gn_corner_light *at = &c->light[slot];
-    const gn_light_view *view = &s->frame->view[light->view_idx + (int32_t)at->view];
-    if (at->view == GN_VIEW_NONE || !gn_corner_place(&s->lattice, s->frame, &s->surface, c, slot, at->view))
-        return 65536;
-    int32_t depth_q30 = gn_max32(0, gn_min32(at->depth_q30, (1 << 30) - 1));
-    gn_receiver r = {at->u_q16, at->v_q16, (uint32_t)depth_q30 << 2, {0, 0}, c->x, c->y};
-    gn_corner_slopes(&s->lattice, s->frame, &s->surface, view, r.slope_q28);
-    GN_COUNT(edge_lookups, 1);
-    GN_NOTE_LOOKUP(&s->scratch->squares, s->frame, view, &r);
-    return gn_filter_attenuation(s->frame, view, &r);
-}
-#else
-GN_HOT static inline int is_blended(const gn_frame *frame, const gn_corner *c)
-{
-    (void)frame, (void)c;
-    return 0;
-}
-
-GN_HOT static uint32_t looked_up(gn_shading *s, gn_corner *c, uint32_t slot)
-{
-    (void)s, (void)c, (void)slot;
-    return 65536;
-}
-#endif
-
-/* What shadow and mask leave of a light. */
-GN_HOT static GN_NOINLINE uint32_t share_of(gn_shading *s, gn_corner *c, uint32_t slot)
-{
-    const gn_light_state *light = s->surface.light[slot].state;
-    uint32_t mask = 65536;
-#if GN_MASKS
-    mask = gn_corner_mask_uq16(&c->light[slot]);
-#endif
-    if (!(s->surface.shadowed | s->surface.masked)) return 65536;
-    if (!s->surface.shadowed || !gn_shadow_is_realtime(light, c->g_uq16)) return gn_shadow_baked(light, mask);
-    return gn_shadow_mixed(s->frame, light, mask, c->g_uq16, looked_up(s, c, slot));
-}
-
-/* Light at the corner, Q24. Returns 0 if the corner does not know all, or limits what is dimmed then. */
-GN_HOT static inline int light_corner(gn_shading *s, gn_corner *c, int32_t sum_q24[3])
-{
-    const gn_surface *surface = &s->surface;
-    const int dims = surface->textured | GN_COLOURED(surface);
-    if (surface->shadowed && is_blended(s->frame, c)) return 0;
-    for (int i = 0; i < 3; i++) sum_q24[i] = gn_max32(c->base_q24[i], 0);
-    if (dims && (sum_q24[0] | sum_q24[1] | sum_q24[2]) >> 27) return 0;
-    for (uint32_t slot = 0; slot < surface->n_lights; slot++) {
-        const uint32_t *colour = surface->light[slot].radiance_uq16;
-        const int32_t e = c->light[slot].irradiance_q24;
-        if (e <= 0) continue;
-        if (gn_cell_is_limited(surface, colour, e)) return 0;
-        const uint32_t share = share_of(s, c, slot);
-        if (gn_cell_hides(colour, e, share)) return 0;
-        const int32_t left = gn_cell_share(e, share);
-        for (int i = 0; i < 3; i++) /* 2^30 + 2^27 */
-            sum_q24[i] = gn_min32(sum_q24[i] + gn_corner_times(colour[i], left), 1 << 30);
-    }
-    return !(dims && (sum_q24[0] | sum_q24[1] | sum_q24[2]) >> 30);
-}
-
-/* Times the colours of vertices and textures, Q20. */
-GN_HOT static GN_NOINLINE void modulate_corner(gn_shading *s, const gn_corner *c, uint32_t q20[3])
-{
-    int32_t *value = s->sample.value;
-    uint64_t sum[3] = {q20[0], q20[1], q20[2]};
-    value[GN_VALUE_Z] = c->z_q16;
-#if GN_TEXTURES
-    for (int i = 0; i < 2; i++) value[GN_VALUE_UV + i] = c->uv_q20[i];
-#endif
-#if GN_VERTEX_COLOURS
-    for (int i = 0; i < 3; i++) value[GN_VALUE_RGB + i] = c->tint_q16[i];
-#endif
-    gn_light_modulate(s->frame, &s->surface, &s->sample, sum);
-    for (int i = 0; i < 3; i++) q20[i] = sum[i] > UINT32_MAX ? UINT32_MAX : (uint32_t)sum[i];
-}
-
-GN_HOT GN_NOINLINE void gn_corner_pixel(gn_shading *s, int32_t x, int32_t y)
-{
-    gn_corner *c = &s->lattice.corner;
-    int32_t sum_q24[3];
-    uint32_t q20[3];
-    if (!(GN_SPECULAR && s->surface.specular && s->surface.n_lights)) /* those know more */
-        gn_corner_find(&s->lattice, s->frame, &s->surface, x, y, &s->sample, c);
-    else c->state = GN_CORNER_UNSEEN;
-    if (c->state != GN_CORNER_KNOWN || !light_corner(s, c, sum_q24)) {
-        gn_exact_pixel(s, x, y);
-        return;
-    }
-    if (GN_RAW_VIEWS && s->frame->picture.format == GN_FORMAT_RAW32) {
-        s->scratch->pixel.raw[(y - s->rect.y0) * s->rows.width + x - s->rect.x0] = (uint32_t)sum_q24[0] >> 8;
-        return;
-    }
-    GN_COUNT(shaded, 1);
-    for (int i = 0; i < 3; i++) q20[i] = ((uint32_t)sum_q24[i] + 8) >> 4;
-    if (s->surface.textured | GN_COLOURED(&s->surface)) modulate_corner(s, c, q20);
-    gn_pixel_store(s->frame, &s->rows, x, y, gn_exact_pack(s, q20));
 }
 
 #endif

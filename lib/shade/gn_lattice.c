@@ -34,9 +34,9 @@ GN_HOT static inline uint32_t bits_of(int32_t from, int32_t to)
 GN_HOT static GN_NOINLINE int mark(gn_lattice *l)
 {
     gn_rect *seen = &l->seen;
-    if (l->uniform > 1) return 1; /* it is that of all */
+    const int cells = !(l->few | l->uniform);
     *seen = (gn_rect){INT32_MAX, INT32_MAX, INT32_MIN, INT32_MIN};
-    if (!l->uniform) memset(l->bits, 0, sizeof l->bits);
+    if (cells) memset(l->bits, 0, sizeof l->bits);
     for (int32_t i = 0; i < l->n_spans; i++) {
         const gn_run_span *span = &l->span[i];
         int32_t row = span->y - l->y, from = gn_max32(span->x - l->x, 0),
@@ -46,7 +46,7 @@ GN_HOT static GN_NOINLINE int mark(gn_lattice *l)
         seen->x1 = gn_max32(seen->x1, l->x + to);
         seen->y0 = gn_min32(seen->y0, span->y);
         seen->y1 = span->y + 1;
-        if (l->uniform) continue;
+        if (!cells) continue;
         if (from < 32) l->bits[0][row] |= bits_of(from, gn_min32(to, 32));
         if (to > 32) l->bits[1][row] |= bits_of(gn_max32(from - 32, 0), to - 32);
     }
@@ -75,7 +75,7 @@ GN_HOT static GN_NOINLINE uint32_t new_corner(gn_shading *s, int32_t x, int32_t 
         l->next_corner = i + 1 < GN_CORNERS ? i + 1 : 0;
     } while (l->corner_key[i] != UINT32_MAX && l->now - l->corner_used[i] < 4);
     l->corner_key[i] = key;
-    gn_corner_find(l, s->frame, &s->surface, x, y, &s->sample, &l->from.corners[i]);
+    gn_corner_find(l, s->frame, &s->surface, x, y, 0, &l->from.corners[i]);
     return i;
 }
 
@@ -133,8 +133,6 @@ GN_HOT static void shade_cell(gn_shading *s, int32_t x, int32_t y, int32_t size_
     }
 }
 
-/* ---- Blocks ------------------------------------------------------------------------------------------------------ */
-
 GN_HOT static void forget_corners(gn_lattice *l)
 {
     for (int i = 0; i < GN_CORNERS; i++) l->corner_key[i] = UINT32_MAX;
@@ -153,25 +151,38 @@ GN_HOT static GN_NOINLINE void shade_cells(gn_shading *s)
             if (gn_lattice_columns(l, x, y, size, log2)) shade_cell(s, x, y, log2);
 }
 
-#if GN_SHADOWS
-GN_HOT static void forget_windows(gn_lattice *l)
+GN_HOT void gn_lattice_begin_tile(gn_shading *s)
 {
-    for (int i = 0; i < GN_WINDOWS; i++) l->window[i].view = NULL;
+#if GN_SHADOWS
+    gn_levels_forget(&s->lattice);
+#endif
+    (void)s;
 }
+
+/* Cells as large as the knob says, half of that under several lamps, which large ones seldom hold for; not much larger
+ * than the surface, or than its shorter side if its normals turn. */
+GN_HOT static int32_t cell_log2(const gn_frame *frame, const gn_surface *s, const gn_rect *box)
+{
+    int32_t most = GN_K(frame, persp_step) >= 8 && s->n_punctual < 2 ? 4 : 3, log2 = GN_SMALLEST_CELL_LOG2;
+    int32_t w = box->x1 - box->x0, h = box->y1 - box->y0, across = GN_SMOOTH(s) ? gn_min32(w, h) : gn_max32(w, h);
+    (void)frame, (void)s;
+    while (log2 < most && 1 << log2 < across) log2++;
+    return log2;
+}
+
+/* ---- Blocks ------------------------------------------------------------------------------------------------------ */
 
 /* Of another block. */
 GN_HOT static GN_NOINLINE void begin_block(gn_shading *s)
 {
-    forget_windows(&s->lattice);
+#if GN_SHADOWS
+    for (int i = 0; i < GN_WINDOWS; i++) s->lattice.window[i].view = NULL;
     s->lattice.by.look.ask.used = 0;
     gn_corner_begin_part(&s->lattice, s->frame, &s->surface);
-}
 #else
-GN_HOT static void begin_block(gn_shading *s)
-{
     (void)s;
-}
 #endif
+}
 
 /* Half pixels from the picture's centre to a coordinate, up to 2^14, with 2^63 / (depth 2^clz). */
 GN_HOT static inline int32_t halves_to(const gn_frame *frame, int32_t v_q16, uint32_t recip, int32_t clz)
@@ -204,37 +215,15 @@ GN_HOT static GN_NOINLINE void find_screen_bounds(const gn_frame *frame, const g
     out->y1 = gn_min32((h + 2 - lo[1]) >> 1, h);
 }
 
-/* Cells as large as the knob says, half of that under several lamps, which large ones seldom hold for; not much larger
- * than the surface, or than its shorter side if its normals turn. */
-GN_HOT static int32_t cell_log2(const gn_frame *frame, const gn_surface *s, const gn_rect *box)
-{
-    int32_t most = GN_K(frame, persp_step) >= 8 && s->n_punctual < 2 ? 4 : 3, log2 = GN_SMALLEST_CELL_LOG2;
-    int32_t w = box->x1 - box->x0, h = box->y1 - box->y0, across = GN_SMOOTH(s) ? gn_min32(w, h) : gn_max32(w, h);
-    (void)frame, (void)s;
-    while (log2 < most && 1 << log2 < across) log2++;
-    return log2;
-}
-
-GN_HOT void gn_lattice_begin_tile(gn_shading *s)
-{
-#if GN_SHADOWS
-    gn_levels_forget(&s->lattice);
-#endif
-    (void)s;
-}
-
-/* Pixels of the block, each for itself, as corners or exactly. */
-GN_HOT static GN_NOINLINE void shade_pixels(gn_shading *s, int exactly)
+/* Pixels of the block, each for itself. */
+GN_HOT static GN_NOINLINE void shade_pixels(gn_shading *s)
 {
     const gn_lattice *l = &s->lattice;
     for (int32_t i = 0; i < l->n_spans; i++) {
         const gn_run_span *span = &l->span[i];
         const int32_t end = gn_min32(span->x + span->n_px, l->seen.x1);
         if (span->y < l->seen.y0 || span->y >= l->seen.y1) continue;
-        for (int32_t x = gn_max32(span->x, l->seen.x0); x < end; x++) {
-            if (exactly) gn_exact_pixel(s, x, span->y);
-            else gn_corner_pixel(s, x, span->y);
-        }
+        for (int32_t x = gn_max32(span->x, l->seen.x0); x < end; x++) gn_corner_pixel(s, x, span->y);
     }
 }
 
@@ -251,19 +240,19 @@ GN_HOT static void cut_block(gn_lattice *l)
     *r = (gn_rect){l->x, l->y, l->x + GN_PART_WIDTH, l->y + GN_PART_ROWS}; /* does not happen */
 }
 
-GN_HOT static void shade_block(gn_shading *s, int32_t x, int32_t y, int exactly)
+GN_HOT static void shade_block(gn_shading *s, int32_t x, int32_t y)
 {
     gn_lattice *l = &s->lattice;
     l->x = x;
     l->y = y;
     if (!mark(l)) return;
     cut_block(l);
-    if (exactly || !gn_corner_begin(l, s->frame, &s->surface, &l->block)) {
-        shade_pixels(s, 1);
+    if (!gn_corner_begin(l, s->frame, &s->surface, &l->block)) {
+        shade_pixels(s);
         return;
     }
     begin_block(s);
-    if (l->few) shade_pixels(s, 0);
+    if (l->few) shade_pixels(s);
     else if (l->uniform) gn_part_shade(s);
     else shade_cells(s);
 }
@@ -283,7 +272,7 @@ GN_HOT void gn_lattice_shade(gn_shading *s)
 {
     gn_lattice *l = &s->lattice;
     const gn_rect box = box_of(l), *bounds = &l->bounds;
-    const int reached = gn_corner_begin_lights(l, s->frame, &s->surface);
+    gn_corner_begin_lights(l, s->frame, &s->surface);
     gn_surface_use_bary(s->frame, &s->surface);
     find_screen_bounds(s->frame, &s->surface, &l->bounds);
     l->size_log2 = cell_log2(s->frame, &s->surface, &l->bounds);
@@ -292,15 +281,10 @@ GN_HOT void gn_lattice_shade(gn_shading *s)
 #if GN_SHADOWS
     gn_corner_begin_cascade(l, s->frame, &s->surface);
 #endif
-    /* of parallel rays each pixel has its own highlight: gn_sample_on_plane() is of rays from the eye */
-    const int exactly =
-        !reached || (GN_FLAT_Q16(s->frame) && GN_SPECULAR && s->surface.specular && s->surface.n_lights);
     const int32_t x0 = first_block(bounds->x0, bounds->x1, box.x0, GN_PART_WIDTH),
                   y0 = first_block(bounds->y0, bounds->y1, box.y0, GN_PART_ROWS);
-    if (l->uniform) l->uniform = 1 + (box.x1 <= x0 + GN_PART_WIDTH && box.y1 <= y0 + GN_PART_ROWS);
-    l->seen = box;
     for (int32_t y = y0; y < box.y1; y += GN_PART_ROWS)
-        for (int32_t x = x0; x < box.x1; x += GN_PART_WIDTH) shade_block(s, x, y, exactly);
+        for (int32_t x = x0; x < box.x1; x += GN_PART_WIDTH) shade_block(s, x, y);
 }
 
 #endif

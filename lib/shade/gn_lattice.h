@@ -226,17 +226,6 @@ GN_INLINE gn_node_row gn_row_of_edge(const gn_drawing *d, const gn_lattice_edge 
 
 #endif
 
-/* ---- Pixels that are corners of their own ------------------------------------------------------------------------ */
-
-/* Cells of one pixel. */
-
-#if GN_INTERPOLATES
-
-/* Shades a pixel of the surface at hand, after gn_corner_begin(). */
-void gn_corner_pixel(gn_shading *shading, int32_t x, int32_t y);
-
-#endif
-
 /* ---- Parts of a surface of which nothing but shadows varies ------------------------------------------------------ */
 
 /* Filled where a window says that a light falls on all of it, or on none; rows of two colours where it has an edge.

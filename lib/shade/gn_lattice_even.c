@@ -177,7 +177,7 @@ GN_HOT static int light_may_be_near(gn_lattice_cell *cell, const gn_light_state 
 {
     int32_t p[3];
     gn_corner_from(cell->corner[0], light, p);
-    return gn_corner_distance2_q32(p) >> 5 < sides_q30(cell);
+    return gn_distance2_q32(p) >> 5 < sides_q30(cell);
 }
 
 /* How much a light bends over its distance, K of NUMERICS 4.12, Q8. */
@@ -204,7 +204,7 @@ GN_HOT static GN_NOINLINE uint32_t bend_q30(gn_lattice_cell *cell, const gn_ligh
     uint64_t of = d->nearest_q32 - (cell->sides_q30 * 11 >> 2);
     uint64_t bend = ((cell->sides_q30 >> 9) + 1) * curvature_q8(cell, light, d);
     if (d->farthest_q32 > light->range2_q32 >> 3)
-        of = share_q30_of(of, (uint32_t)gn_corner_window_q30(light, d->nearest_q32));
+        of = share_q30_of(of, (uint32_t)gn_punctual_window_q30(light, d->nearest_q32));
     return bend >= of ? UINT32_MAX : ratio_q30(bend, of);
 }
 
@@ -323,7 +323,7 @@ GN_HOT static GN_NOINLINE uint32_t rim_error_q24(const gn_light_state *light, in
         error_q10 += 2 * WHOLE * before * beyond / (before + beyond);
     }
     if (error_q10 < square && unit_q24 * error_q10 < change_q24) error_q24 = unit_q24 * error_q10;
-    uint64_t bent_q30 = gn_corner_rim_q30(light, size2_q24 * 32); /* of the cosine, 5/32 of the square */
+    uint64_t bent_q30 = gn_punctual_rim_q30(light, size2_q24 * 32); /* of the cosine, 5/32 of the square */
     uint32_t bent_q10 = bent_q30 >> 30 ? 1U << 10 : (uint32_t)(bent_q30 >> 20);
     bent_q10 = bent_q10 * 2 * top / WHOLE + (bent_q10 * bent_q10 >> 10); /* (q + bent)^2 - q^2 */
     uint64_t more_q24 = (uint64_t)unit_q24 * (bent_q10 >> 10 ? 1U << 10 : bent_q10);

@@ -361,7 +361,7 @@ GN_HOT static GN_NOINLINE int begin_look(gn_lattice *lattice, const gn_frame *fr
     int limited = 0;
     for (int i = 0; i < 4; i++)
         for (int j = 0; j < 3; j++) {
-            const int32_t base = corner[i]->base_q24[j];
+            const int32_t base = corner[i]->base_q20[j] * 16;
             limited |= base >= 1 << 27 || base <= -(1 << 27);
             look->colour_q24[i][j] = base;
             look->highlight_q24[i][j] = 0;

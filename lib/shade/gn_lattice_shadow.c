@@ -43,7 +43,7 @@ GN_HOT static void find_slopes(const gn_lattice_cell *cell, const gn_cell_places
         for (int i = 0; i < 2; i++) slope_q28[i] = p->window->slope_q30[i] / 4;
     else
 #endif
-        gn_corner_slopes(cell->lattice, cell->frame, cell->s, p->view, slope_q28);
+        gn_corner_slopes(cell->lattice, cell->frame, cell->s, p->view, cell->corner[0], slope_q28);
 }
 
 GN_HOT static void range_of(const int32_t at[4], int32_t *lo, int32_t *hi)

@@ -5,7 +5,6 @@
 #include "shade/gn_surface_types.h"
 #include "shadow/gn_shadow_types.h"
 
-#if GN_INTERPOLATES
 /* Linear on the screen: the value at a pixel, and its change per pixel to the right and down. */
 typedef struct {
     int32_t at, dx, dy;
@@ -16,7 +15,7 @@ typedef struct {
 
 /* A light at a corner of cells. */
 typedef struct {
-    int32_t irradiance_q24; /* of a light whose colour is 1, before shadows; at most 2^27 */
+    int32_t irradiance_q24; /* of a light whose colour is 1, before shadows; of cells at most 2^27 */
 #if GN_MASKS
     int32_t mask_q16; /* beyond 0 and 1 at corners outside of the triangle */
 #endif
@@ -32,7 +31,7 @@ typedef struct {
 #if GN_SHADOWS
     uint8_t view;   /* of the light's views: where the point itself is looked up, GN_VIEW_NONE: nowhere */
     uint8_t placed; /* the view that u, v and depth are of, GN_VIEW_NONE: none yet; and GN_BY_FORMS */
-    uint8_t seen;   /* what gn_arrival_place() returns: 0 nearer to the light than the view's near plane */
+    uint8_t seen;   /* what gn_corner_place() returns: 0 nearer to the light than the view's near plane */
 #endif
 } gn_corner_light;
 
@@ -50,7 +49,7 @@ typedef struct {
     int16_t x, y;
     int32_t z_q16;
     uint32_t g_uq16, fade_uq16; /* shadow strength; share of the cascade in the blend with the next */
-    int32_t base_q24[3];        /* ambient and baked light */
+    int32_t base_q20[3];        /* ambient and baked light: -2^23 .. 2^30, of cells up to 2^23 */
 #if GN_VERTEX_COLOURS
     int32_t tint_q16[3];
 #endif
@@ -69,6 +68,48 @@ typedef struct {
     gn_corner_light light[GN_SURFACE_LIGHTS];
 } gn_corner;
 
+/* A light of the surface's list, once per surface. */
+typedef struct {
+    uint8_t realtime; /* its shadow map counts, */
+    uint8_t masked;   /* and its mask where shadows do not fade, too */
+    uint8_t lifts;    /* the receiver's offset is along the normal, in proportion to the light-plane distance */
+    uint32_t lit_uq16, dark_uq16; /* what is left of it without a mask, where shadows do not fade */
+} gn_lattice_light;
+
+/* A surface's plane on the screen, 32 bits: n . ray and the barycentrics times it, at one scale; orthographic: the
+ * barycentrics themselves, Q28. */
+typedef struct {
+    int32_t x, y;       /* the pixel of w, b: the middle of */
+    int32_t w_px, h_px; /* so many on each side of it, with what cells go beyond */
+    gn_slope w, b[2];
+    int32_t w_least; /* below it w is off by more than 2^-17: half a unit per pixel; 2^28 at most */
+    int32_t fits;    /* it was found */
+    int32_t z_shift; /* view depth = depth_scale.mant * (2^63 / w normalised) / 2^32 >> z_shift - clz(w) */
+} gn_screen_plane;
+
+#if GN_PUNCTUAL_LIGHTS && GN_SHADOWS
+/* Where a perspective view sees a flat surface, on the screen: u / z and v / z are shares of 2^tile_log2 texels,
+ * near / z is the share of its near distance in a point's. */
+typedef struct {
+    const gn_light_view *view; /* NULL: none */
+    int32_t near_up;           /* near is 2^near_up times too large; INT32_MAX: there are none */
+    int32_t z_least;           /* below it roundings matter */
+    int32_t less_q30;          /* automatic bias: what is taken off depths, */
+    int32_t in_tile;           /* and whether forms hold within the tile alone */
+    gn_slope u, v, z, near;
+} gn_view_forms;
+
+enum { GN_VIEW_FORMS = 8 };
+#endif
+
+/* Pixels of a row. */
+typedef struct {
+    int16_t x, y, n_px;
+} gn_run_span;
+
+enum { GN_SPANS = 32, GN_PART_WIDTH = 64, GN_PART_ROWS = 16, GN_SMALLEST_CELL_LOG2 = 2 };
+
+#if GN_INTERPOLATES
 /* Bilinear over a cell, (x, y) from its first pixel: at + x dx + y dy + x y dxy. */
 typedef struct {
     int32_t at, dx, dy, dxy;
@@ -195,46 +236,6 @@ typedef struct {
     uint32_t pixel[65];
 } gn_levels;
 
-/* A light of the surface's list, once per surface. */
-typedef struct {
-    uint8_t realtime; /* its shadow map counts, */
-    uint8_t masked;   /* and its mask where shadows do not fade, too */
-    uint8_t lifts;    /* the receiver's offset is along the normal, in proportion to the light-plane distance */
-    uint32_t lit_uq16, dark_uq16; /* what is left of it without a mask, where shadows do not fade */
-} gn_lattice_light;
-
-/* A surface's plane on the screen, 32 bits: n . ray and the barycentrics times it, at one scale; orthographic: the
- * barycentrics themselves, Q28. */
-typedef struct {
-    int32_t x, y;       /* the pixel of w, b: the middle of */
-    int32_t w_px, h_px; /* so many on each side of it, with what cells go beyond */
-    gn_slope w, b[2];
-    int32_t w_least; /* below it w is off by more than 2^-17: half a unit per pixel; 2^28 at most */
-    int32_t z_shift; /* view depth = depth_scale.mant * (2^63 / w normalised) / 2^32 >> z_shift - clz(w) */
-} gn_screen_plane;
-
-#if GN_PUNCTUAL_LIGHTS && GN_SHADOWS
-/* Where a perspective view sees a flat surface, on the screen: u / z and v / z are shares of 2^tile_log2 texels,
- * near / z is the share of its near distance in a point's. */
-typedef struct {
-    const gn_light_view *view; /* NULL: none */
-    int32_t near_up;           /* near is 2^near_up times too large; INT32_MAX: there are none */
-    int32_t z_least;           /* below it roundings matter */
-    int32_t less_q30;          /* automatic bias: what is taken off depths, */
-    int32_t in_tile;           /* and whether forms hold within the tile alone */
-    gn_slope u, v, z, near;
-} gn_view_forms;
-
-enum { GN_VIEW_FORMS = 8 };
-#endif
-
-/* Pixels of a row. */
-typedef struct {
-    int16_t x, y, n_px;
-} gn_run_span;
-
-enum { GN_SPANS = 32, GN_PART_WIDTH = 64, GN_PART_ROWS = 16, GN_SMALLEST_CELL_LOG2 = 2 };
-
 #if GN_SHADOWS
 /* Tile coordinates of places of a part. */
 typedef struct {
@@ -281,16 +282,23 @@ typedef struct {
 /* Corners that are kept: 9 of a cell that is split, and some that its neighbour asks for. */
 enum { GN_CORNERS = 12 };
 
+#define GN_LATTICE_NODES 16 /* pixels in a row of the largest cell */
+#endif
+
 /* Shadows may fade with distance, or end. */
 #define GN_VIEWS_FADE 32
 
-#define GN_LATTICE_NODES 16 /* pixels in a row of the largest cell */
-
-/* A surface by cells. */
+/* A surface, block by block or pixel by pixel. */
 typedef struct gn_lattice {
+    gn_corner corner; /* of a pixel, or a window */
+#if GN_PLANES && GN_SHADOWS
+    const gn_light_view *slope_view; /* a view, NULL: none, */
+    int32_t slope_q28[2];            /* and the slopes of the surface in it */
+#endif
+#if GN_INTERPOLATES
     gn_run_span span[GN_SPANS]; /* pixels of the surface, top down and left to right */
     int32_t n_spans;
-    gn_screen_plane plane;
+    gn_screen_plane plane; /* of the block */
     gn_lattice_light light[GN_SURFACE_LIGHTS];
 #if GN_PUNCTUAL_LIGHTS && GN_SHADOWS
     gn_view_forms forms[GN_VIEW_FORMS]; /* of the surface */
@@ -300,25 +308,21 @@ typedef struct gn_lattice {
         int16_t x, y;
         int32_t z_q16, ray_q16[3];    /* and the way from the eye, along the world's axes */
     } anchor;                         /* of the block: a pixel where the surface's plane is seen */
-    int32_t has_face, face_q30[3];    /* the face's normal, once something has asked for it */
     const gn_light_view *offset_view; /* flat surfaces: a directional view, NULL: none, */
     int32_t offset_q16[3];            /* and the receiver's offset in it */
-#if GN_PLANES && GN_SHADOWS
-    const gn_light_view *slope_view; /* a view, NULL: none, */
-    int32_t slope_q28[2];            /* and the slopes of the surface in it */
-#endif
-    int32_t uniform;         /* nothing but shadows varies over the surface; 2: and what is visible lies in one block */
-    int16_t cascade;         /* of all of the part, none of which fades; -1: of each point for itself */
-    uint16_t views;          /* views of cascades that the part may look into, a bit
-                                each, and GN_VIEWS_FADE */
-    int16_t surface_cascade; /* the same of the surface */
-    int32_t size_log2;       /* of the largest cells, in pixels */
-    int32_t few;             /* pixels: each for itself */
-    gn_rect bounds;          /* of the surface on the screen, no smaller than it */
-    int32_t x, y;            /* of the block of pixels at hand, 64 x 16 of the picture, */
-    int32_t part_x, part_end, part_y, part_bottom; /* what windows hold together */
-    gn_rect block, seen;                           /* what the surface may have of it, in cells, and what is visible */
-    uint32_t bits[GN_PART_WIDTH / 32][GN_PART_ROWS]; /* its pixels */
+    int16_t cascade;                  /* of all of the part, none of which fades; -1: of each point for itself */
+    uint16_t views;                   /* views of cascades that the part may look into, a bit
+                                         each, and GN_VIEWS_FADE */
+    int16_t surface_cascade;          /* the same of the surface */
+    gn_rect bounds;                   /* of the surface on the screen, no smaller than it */
+    int32_t x, y;                     /* of the block of pixels at hand, 64 x 16 of the picture, */
+    gn_rect block, seen;              /* what the surface may have of it, in cells, and what is visible */
+    int32_t has_face, face_q30[3];    /* the face's normal, once something has asked for it */
+    int32_t uniform;                  /* nothing but shadows varies over the surface */
+    int32_t size_log2;                /* of the largest cells, in pixels */
+    int32_t few;                      /* pixels: each for itself */
+    int32_t part_x, part_end, part_y, part_bottom;   /* what windows hold together */
+    uint32_t bits[GN_PART_WIDTH / 32][GN_PART_ROWS]; /* the block's pixels */
     union {
         gn_corner corners[GN_CORNERS]; /* those of the part that were asked for last */
         gn_part part;                  /* a part of one or two colours has none, */
@@ -333,7 +337,6 @@ typedef struct gn_lattice {
 #if GN_SHADOWS
     gn_window window[GN_WINDOWS];
 #endif
-    gn_corner corner; /* of a window */
     gn_lattice_look look;
     gn_drawing drawing; /* after that */
     union {
@@ -362,8 +365,8 @@ typedef struct gn_lattice {
 #if GN_GLOW_TEXTURES
     gn_texel_rgb glow[16]; /* the same of the texture of emitted light */
 #endif
-} gn_lattice;
 #endif
+} gn_lattice;
 
 /* ---- What shading works on --------------------------------------------------------------------------------------- */
 
@@ -386,14 +389,13 @@ typedef struct gn_shading {
 #endif
     uint32_t last_q20[3]; /* the last radiance and its pixel: neighbours are often equal */
     uint32_t last_pixel;
-    gn_sample sample; /* at the pixel or corner at hand */
 #if GN_LAYERS_MAX
     gn_mixture mixture;
 #endif
 #if GN_INTERPOLATES
     gn_patch_shared patches;
-    gn_lattice lattice;
 #endif
+    gn_lattice lattice;
 } gn_shading;
 
 #endif

@@ -44,7 +44,7 @@ GN_HOT static int64_t own_distance_q30(const gn_lattice *l, const gn_frame *fram
     }
 #endif
     int32_t offset[3], up = 14 - view->tile_log2 - view->depth_log2;
-    gn_sample_offset(frame, s, slot, view, s->normal_q30[0], offset);
+    gn_corner_offset(frame, s, slot, view, s->normal_q30[0], offset);
     own += ((int64_t)offset[0] * slope_q28[0] + (int64_t)offset[1] * slope_q28[1]) >> 14;
     int64_t towards = (int64_t)view->bias_constant_q16 - offset[2];
     (void)l, (void)from_q16;
@@ -304,7 +304,7 @@ GN_HOT int gn_cell_border(const gn_lattice_cell *cell, uint32_t slot, int32_t on
     for (int i = 0; i < 4; i++) {
         const gn_corner *c = cell->corner[i];
         nearest = gn_min32(nearest, c->z_q16);
-        exact[i] = cascaded ? gn_sample_inside_q32(cell->frame, c->x, c->y, c->z_q16, one)
+        exact[i] = cascaded ? gn_cascade_inside_q32(cell->frame, c->x, c->y, c->z_q16, one)
                             : inside_face(cell, slot, one, other, c);
         all |= gn_abs64(exact[i]);
         if (exact[i] < lo) lo = exact[i];

@@ -128,7 +128,7 @@ GN_HOT static void begin_edge(gn_shading *s, uint32_t slot, gn_part *part)
     part->cascaded = !first->border_lit;
     for (uint32_t i = 0; i < 4; i++)
         if (part->view[i].window)
-            gn_sample_offset(s->frame, &s->surface, slot, first + i, s->surface.normal_q30[0],
+            gn_corner_offset(s->frame, &s->surface, slot, first + i, s->surface.normal_q30[0],
                              part->view[i].offset_q16);
 }
 #else
@@ -257,18 +257,11 @@ GN_HOT static GN_NOINLINE void mixed_span(gn_shading *s, const gn_part_view *vie
     for (; x < end; at += GN_CHUNK, x = at) mixed_chunk(s, view, &row, at, x, y, gn_min32(end, at + GN_CHUNK));
 }
 
-/* The cascade of a pixel, its share in a blend, and how far shadows fade there. */
-typedef struct {
-    int32_t cascade;
-    uint32_t fade_uq16, g_uq16;
-} row_end;
-
-GN_HOT static GN_NOINLINE row_end cascade_at(gn_shading *s, int32_t x, int32_t y)
+GN_HOT static GN_NOINLINE gn_cascade_point cascade_at(const gn_shading *s, int32_t x, int32_t y)
 {
-    gn_corner_cascade(&s->lattice, s->frame, &s->surface, x, y, &s->sample);
-    row_end out = {s->sample.cascade, (uint32_t)s->sample.value[GN_VALUE_FADE],
-                   gn_shadow_distance(s->frame, &s->surface, &s->sample)};
-    return out;
+    gn_cascade_point at;
+    gn_cascade_at(s->frame, x, y, gn_corner_depth(&s->lattice, s->frame, &s->surface, x, y), &at);
+    return at;
 }
 
 /* attenuations_of_row() with a row of its own. */
@@ -283,7 +276,7 @@ GN_HOT static inline int attenuations_in(gn_shading *s, const gn_part_view *view
 /* A row's pixels where shadows fade, or cascades blend, n from x on, of which the visible ones are those from `first`
  * to `end`: shares are linear along them. */
 GN_HOT static GN_NOINLINE void fading_pixels(gn_shading *s, int32_t x, int32_t y, int32_t n, int32_t first, int32_t end,
-                                             const row_end *a, const row_end *b)
+                                             const gn_cascade_point *a, const gn_cascade_point *b)
 {
     gn_part *part = &s->lattice.from.part;
     uint32_t *here = part->attenuation[0], *next = part->attenuation[1];
@@ -318,7 +311,7 @@ GN_HOT static GN_NOINLINE void fading_pixels(gn_shading *s, int32_t x, int32_t y
 GN_HOT static GN_NOINLINE void fading_span(gn_shading *s, int32_t x, int32_t y, int32_t end)
 {
     int32_t at = x & -GN_CHUNK;
-    row_end a = cascade_at(s, at, y), b;
+    gn_cascade_point a = cascade_at(s, at, y), b;
     for (int32_t n; x < end; at += n, a = b) {
         n = GN_CHUNK - (at & (GN_CHUNK - 1));
         for (;; n >>= 1) { /* up to the border of two cascades, or where a ramp begins or ends */

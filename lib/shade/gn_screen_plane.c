@@ -89,14 +89,13 @@ GN_HOT static inline int32_t shift_of(const gn_screen_plane *p, const int32_t fo
 
 /* At the finest scale at which n . ray is below 2^30 there, or, for barycentrics that are larger, one up to that at
  * which it is below 2^27 on the triangle. */
-GN_HOT int gn_screen_plane_find(gn_screen_plane *p, const gn_frame *frame, const gn_surface *s, const gn_rect *rect,
-                                int32_t beyond)
+GN_HOT int gn_screen_plane_find(gn_screen_plane *p, const gn_frame *frame, const gn_surface *s, const gn_rect *rect)
 {
     if (s->plane.det <= 0) return 0;
     p->x = (rect->x0 + rect->x1) >> 1;
     p->y = (rect->y0 + rect->y1) >> 1;
-    p->w_px = ((rect->x1 - rect->x0) >> 1) + beyond + 1;
-    p->h_px = ((rect->y1 - rect->y0) >> 1) + beyond + 1;
+    p->w_px = ((rect->x1 - rect->x0) >> 1) + 2;
+    p->h_px = ((rect->y1 - rect->y0) >> 1) + 2;
 #if GN_ORTHOGRAPHIC
     if (GN_FLAT_Q16(frame)) return find_flat_plane(p, frame, s);
 #endif

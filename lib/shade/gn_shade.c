@@ -7,6 +7,7 @@
 #include "base/gn_count.h"
 #include "base/gn_q.h"
 #include "light/gn_lights.h"
+#include "shade/gn_corner.h"
 #include "shade/gn_lattice.h"
 #include "shade/gn_patch.h"
 #include "shade/gn_pixel.h"
@@ -19,31 +20,17 @@ typedef gn_shading shading;
 /* The one pixel value of a surface of constant colour. */
 GN_HOT static uint32_t constant_pixel(gn_shading *s)
 {
-    gn_sample *sample = &s->sample;
+    gn_corner *c = &s->lattice.corner;
     uint32_t radiance_q20[3];
-    sample->cascade = GN_CASCADE_NONE;
+    for (int i = 0; i < 3; i++) c->base_q20[i] = (int32_t)s->surface.base_q20[i];
     for (uint32_t i = 0; i < s->surface.n_lights; i++)
-        sample->value[GN_VALUE_LIGHT + GN_VALUES_PER_LIGHT * i] = s->surface.light[i].cosine_q24[0];
-    gn_light_radiance(s->frame, &s->surface, sample, radiance_q20);
+        c->light[i].irradiance_q24 = gn_max32(s->surface.light[i].cosine_q24[0], 0);
+    gn_corner_radiance(s, c, radiance_q20);
     return gn_exact_pack(s, radiance_q20);
 }
 
 /* ---- Triangles --------------------------------------------------------------------------------------------------- */
 
-/* Whether every pixel is shaded for itself. */
-GN_HOT static int is_exact(const gn_shading *s)
-{
-    const gn_picture *picture = &s->frame->picture;
-    if (!GN_INTERPOLATES || GN_K(s->frame, persp_step) == 1) return 1;
-    return GN_RAW_VIEWS && picture->format == GN_FORMAT_RAW32 && picture->view != GN_VIEW_SHADOW;
-}
-
-GN_HOT static void shade_run_exactly(gn_shading *s, int32_t x, int32_t y, int32_t n_px)
-{
-    for (; n_px > 0; n_px--, x++) gn_exact_pixel(s, x, y);
-}
-
-#if GN_INTERPOLATES
 /* The shadow view shows what is left of one light whose colour is 1. */
 GN_HOT static void show_one_light(gn_surface *surface, uint32_t light_idx)
 {
@@ -62,6 +49,15 @@ GN_HOT static void show_one_light(gn_surface *surface, uint32_t light_idx)
     for (int c = 0; c < 3; c++) surface->light[0].radiance_uq16[c] = 65536;
 }
 
+/* Raw views have no light but that of the shadow view. */
+GN_HOT static GN_NOINLINE void show_raw(gn_shading *s)
+{
+    gn_surface *surface = &s->surface;
+    if (s->frame->picture.view == GN_VIEW_SHADOW) show_one_light(surface, s->frame->picture.view_light);
+    else surface->n_lights = surface->n_punctual = surface->shadowed = surface->specular = 0;
+}
+
+#if GN_INTERPOLATES
 GN_HOT static inline void shade_those(gn_shading *s, int32_t n_spans)
 {
     gn_lattice *l = &s->lattice;
@@ -77,8 +73,7 @@ GN_HOT static void shade_spans(gn_shading *s, gn_run_taker *taker)
     gn_lattice *l = &s->lattice;
     const uint32_t stride = (uint32_t)GN_K(s->frame, tile_width);
     gn_part_begin(s); /* the views of shadows are drawn as the picture is */
-    if (GN_RAW_VIEWS && s->frame->picture.format == GN_FORMAT_RAW32)
-        show_one_light(&s->surface, s->frame->picture.view_light);
+    if (GN_RAW_VIEWS && s->frame->picture.format == GN_FORMAT_RAW32) show_raw(s);
     gn_run_span *span, *const end = l->span + GN_SPANS;
     int more;
     do {
@@ -106,15 +101,19 @@ GN_HOT static inline void shade_runs(gn_shading *s, gn_run_taker *taker, int con
     const uint32_t stride = (uint32_t)GN_K(s->frame, tile_width);
     uint32_t packed = 0;
     if (constant) packed = constant_pixel(s);
-    else gn_surface_use_bary(s->frame, &s->surface);
+    else {
+        if (GN_RAW_VIEWS && s->frame->picture.format == GN_FORMAT_RAW32) show_raw(s);
+        gn_corner_begin_pixels(&s->lattice, s->frame, &s->surface);
+    }
     do {
-        const int32_t x = s->rect.x0 + (int32_t)(taker->first % stride),
-                      y = s->rect.y0 + (int32_t)(taker->first / stride), n_px = taker->n_px;
+        const int32_t x = s->rect.x0 + (int32_t)(taker->first % stride), n_px = taker->n_px,
+                      y = s->rect.y0 + (int32_t)(taker->first / stride);
         GN_COUNT(runs, 1);
         if (constant) {
             GN_COUNT(filled, n_px);
             gn_pixel_fill(s->frame, &s->rows, x, y, n_px, packed);
-        } else shade_run_exactly(s, x, y, n_px);
+        } else
+            for (int32_t i = 0; i < n_px; i++) gn_corner_pixel(s, x + i, y);
         if (GN_MIXES(s)) gn_mix_run(s, x, y, n_px);
     } while (gn_runs_take(taker, stride));
 }
@@ -170,7 +169,7 @@ GN_HOT static void shade_triangle(gn_shading *s, const char *sources, uint32_t a
         return;
     }
 #endif
-    if (is_exact(s)) gn_surface_place(frame, s->scratch, &s->cache, &s->surface, s->tri);
+    if (gn_shades_pixels(frame)) gn_surface_place(frame, s->scratch, &s->cache, &s->surface, s->tri);
     else join(s, sources, at, end);
     gn_surface_begin(frame, s->scratch, &s->cache, &s->surface, s->tri);
     if (GN_INTERPOLATES) { /* with those that were joined */
@@ -178,7 +177,7 @@ GN_HOT static void shade_triangle(gn_shading *s, const char *sources, uint32_t a
         if (!gn_runs_take(&taker, stride)) return; /* does not happen: it has some */
     }
     const int constant = gn_surface_is_constant(&s->surface) && frame->picture.format != GN_FORMAT_RAW32;
-    if (constant || is_exact(s)) shade_runs(s, &taker, constant);
+    if (constant || gn_shades_pixels(frame)) shade_runs(s, &taker, constant);
     else shade_spans(s, &taker);
 }
 
@@ -311,40 +310,7 @@ GN_HOT void gn_shade_tile(const gn_frame *frame, gn_scratch *scratch, uint32_t t
     if (GN_LAYERS(frame) && coloured) shade_layers(s, tile_idx);
 }
 
-/* ---- Pixels, each for itself ------------------------------------------------------------------------------------- */
-
-/* Q1.30 to 10 bits, offset 512 */
-GN_HOT static uint32_t pack_axis(int64_t v_q30)
-{
-    return (uint32_t)(512 + gn_clamp64(gn_shr64(v_q30 * 511, 30), -511, 511));
-}
-
-GN_HOT static uint32_t raw_normal(const gn_shading *s, int32_t x, int32_t y)
-{
-    int32_t n[3], unit[3];
-    gn_sample_normal(s->frame, &s->surface, x, y, n);
-    int64_t wide[3] = {n[0], n[1], n[2]};
-    if (!gn_normalise_q30(unit, wide)) return 512U << 20 | 512U << 10 | 512U;
-    return pack_axis(unit[0]) << 20 | pack_axis(unit[1]) << 10 | pack_axis(unit[2]);
-}
-
-/* A raw view's value of the surface. [A6] */
-GN_HOT static uint32_t raw_value(const gn_shading *s, int32_t x, int32_t y)
-{
-    const gn_picture *picture = &s->frame->picture;
-    switch (picture->view) {
-    case GN_VIEW_SHADOW:
-        return gn_light_shadow(s->frame, &s->surface, &s->sample, picture->view_light);
-    case GN_VIEW_DEPTH:
-        return (uint32_t)s->sample.value[GN_VALUE_Z];
-    case GN_VIEW_CASCADE:
-        return gn_sample_cascade(s->frame, &s->surface, x, y);
-    case GN_VIEW_NORMAL:
-        return raw_normal(s, x, y);
-    default:
-        return (uint32_t)s->tri->object_idx << 16 | s->tri->triangle_idx;
-    }
-}
+/* ---- Colours of pixels ------------------------------------------------------------------------------------------- */
 
 GN_HOT uint32_t gn_exact_pack(gn_shading *s, const uint32_t q20[3])
 {
@@ -357,23 +323,6 @@ GN_HOT uint32_t gn_exact_pack(gn_shading *s, const uint32_t q20[3])
         s->last_pixel = gn_pixel_pack(s->frame, q20);
     }
     return s->last_pixel;
-}
-
-GN_HOT void gn_exact_pixel(gn_shading *s, int32_t x, int32_t y)
-{
-    gn_sample *sample = &s->sample;
-    gn_sample_at(s->frame, &s->surface, x, y, sample);
-    if (GN_PUNCTUAL_LIGHTS) gn_arrivals_at(s->frame, &s->surface, sample);
-    sample->x = x;
-    sample->y = y;
-    if (GN_RAW_VIEWS && s->frame->picture.format == GN_FORMAT_RAW32) {
-        s->scratch->pixel.raw[(y - s->rect.y0) * s->rows.width + x - s->rect.x0] = raw_value(s, x, y);
-        return;
-    }
-    uint32_t radiance_q20[3];
-    GN_COUNT(shaded, 1);
-    gn_light_radiance(s->frame, &s->surface, sample, radiance_q20);
-    gn_pixel_store(s->frame, &s->rows, x, y, gn_exact_pack(s, radiance_q20));
 }
 
 /* ---- Pixels between two colours ---------------------------------------------------------------------------------- */

@@ -226,7 +226,6 @@ static void attributes(const gn_frame *frame, gn_scratch *scratch, const gn_surf
     s->specular =
         GN_SPECULAR && (specular[0] | specular[1] | specular[2]) != 0 && !(s->object->flags & GN_OBJECT_UNLIT);
     s->has_bary = s->smooth | s->coloured | s->textured | s->masked | s->baked;
-    s->first_value = s->textured | s->masked | s->baked ? 0 : GN_VALUE_Z;
 }
 
 /* ---- Once per triangle: light ------------------------------------------------------------------------------------ */
@@ -260,10 +259,8 @@ static void begin_lighting(const gn_frame *frame, gn_surface *s)
     emitted_light(frame, s);
     s->shadowed = 0;
     s->n_lights = s->n_punctual = 0;
-    s->n_values = GN_VALUE_LIGHT;
     if (unlit) return;
     gn_surface_list_lights(frame, s);
-    s->n_values = (int16_t)(GN_VALUE_LIGHT + GN_VALUES_PER_LIGHT * s->n_lights);
     for (uint32_t i = 0; i < s->n_lights; i++)
         for (int c = 0; c < 3; c++)
             s->light[i].radiance_uq16[c] = gn_mul_uq16(s->light[i].state->colour_uq16[c], albedo[c]);
@@ -294,19 +291,8 @@ static void flat_plane(const gn_frame *frame, gn_surface *s, int32_t (*v)[3])
     plane->back = s->screen.back;
     plane->det = s->screen.det;
     gn_bary_setup(&s->bary, &s->screen, flat[0], flat[1], flat[2]);
-    s->has_bary = 1;
 }
 #endif
-
-/* Depth and barycentrics of pixels. */
-static void find_depth(const gn_frame *frame, gn_surface *s, int32_t (*v)[3])
-{
-    if (GN_FLAT_Q16(frame)) return;
-    if (s->plane.det > 0)
-        s->depth_scale = gn_bf_mul(gn_bf_from_u64((uint64_t)s->plane.det), gn_bf_from_u64(frame->cam.focal2_px_q16));
-    if (GN_HAS_BARY(s)) gn_bary_setup(&s->bary, &s->plane, v[0], v[1], v[2]);
-    (void)v;
-}
 
 void gn_surface_place(const gn_frame *frame, gn_scratch *scratch, gn_surface_cache *cache, gn_surface *s,
                       const gn_tri_source *tri)
@@ -329,9 +315,7 @@ void gn_surface_place(const gn_frame *frame, gn_scratch *scratch, gn_surface_cac
             s->hi_q16[k] = i ? gn_max32(s->hi_q16[k], v[k]) : v[k];
         }
     }
-#if GN_INTERPOLATES
     s->joined = 0;
-#endif
 }
 
 #if GN_INTERPOLATES
@@ -360,7 +344,6 @@ void gn_surface_begin(const gn_frame *frame, gn_scratch *scratch, const gn_surfa
     s->glow = NULL;
 #endif
     s->smooth = s->has_bary = s->textured = s->masked = s->baked = s->specular = 0;
-    s->first_value = GN_VALUE_Z;
     vertex_colours(s, idx);
     gn_plane_setup(&s->plane, v[0], v[1], v[2]);
     s->z_min_q16 = gn_max32(s->lo_q16[2], frame->cam.near_q16);
@@ -369,15 +352,5 @@ void gn_surface_begin(const gn_frame *frame, gn_scratch *scratch, const gn_surfa
     if (frame->cam.flat_q16) flat_plane(frame, s, v);
 #endif
     attributes(frame, scratch, cache, s, idx);
-#if !GN_INTERPOLATES
-    find_depth(frame, s, v);
-#endif
     begin_lighting(frame, s);
 }
-
-#if GN_INTERPOLATES
-void gn_surface_use_bary(const gn_frame *frame, gn_surface *s)
-{
-    find_depth(frame, s, s->v_q16);
-}
-#endif

@@ -22,15 +22,8 @@ void gn_surface_extend(gn_scratch *scratch, const gn_surface_cache *cache, gn_su
 void gn_surface_begin(const gn_frame *frame, gn_scratch *scratch, const gn_surface_cache *cache, gn_surface *surface,
                       const gn_tri_source *tri);
 
-#if GN_INTERPOLATES
-/* Sets up depth and barycentrics of pixels, for all but small triangles. */
+/* Sets up depth and barycentrics of pixels, of all but surfaces of one colour. */
 void gn_surface_use_bary(const gn_frame *frame, gn_surface *surface);
-#else
-GN_HOT static inline void gn_surface_use_bary(const gn_frame *frame, gn_surface *surface)
-{
-    (void)frame, (void)surface;
-}
-#endif
 
 /* The face's normal in the world, towards the viewer. */
 void gn_surface_face(const gn_frame *frame, const gn_surface *surface, int32_t out_q30[3]);
@@ -64,81 +57,18 @@ gn_join gn_join_find(const gn_frame *frame, const gn_tri_source *tri);
 
 #endif
 
-/* ---- A surface at a pixel's centre ------------------------------------------------------------------------------- */
-
-/* Everything that shading interpolates. */
-
-/* Everything at the centre of pixel (x, y), exactly: the perspective divide happens here. */
-void gn_sample_at(const gn_frame *frame, const gn_surface *surface, int32_t x, int32_t y, gn_sample *sample);
-
-/* The same, from a perspective camera, on the surface's plane, which may lie outside of the triangle, without places in
- * directional views. Returns 0 where the plane is seen at less than half or more than twice the triangle's depths, or
- * its barycentrics are beyond -1 .. 2. */
-int gn_sample_on_plane(const gn_frame *frame, const gn_surface *surface, int32_t x, int32_t y, gn_sample *sample);
-
-/* Tile coordinates in one view of a directional light, texels, Q16, of the point at a pixel's centre and that depth,
- * moved by the receiver's offset. */
-void gn_sample_in_view(const gn_frame *frame, const gn_surface *surface, uint32_t slot, const gn_light_view *view,
-                       int32_t x, int32_t y, int32_t z_q16, const int32_t n_q30[3], int32_t coord_q16[3]);
-
-/* The cascade of the surface point at a pixel's centre, GN_CASCADE_NONE: none. */
-uint32_t gn_sample_cascade(const gn_frame *frame, const gn_surface *surface, int32_t x, int32_t y);
-
-/* Interpolated normal, not renormalised, Q1.30, towards the viewer's side; at the pixel's centre. */
-void gn_sample_normal(const gn_frame *frame, const gn_surface *surface, int32_t x, int32_t y, int32_t normal_q30[3]);
-
-/* The receiver's offset in that view, texels, Q16. */
-void gn_sample_offset(const gn_frame *frame, const gn_surface *surface, uint32_t slot, const gn_light_view *view,
-                      const int32_t n_q30[3], int32_t offset_q16[3]);
-
-/* By how much the square of a cascade's radius exceeds that of the distance from its centre, of such a point. */
-int64_t gn_sample_inside_q32(const gn_frame *frame, int32_t x, int32_t y, int32_t z_q16, int32_t cascade_idx);
-
-/* The cascade, its fade factor and the reach of shadows, of a point at view depth z on a pixel's ray. */
-void gn_sample_find_cascade(const gn_frame *frame, int32_t px, int32_t py, int32_t z_q16, gn_sample *sample);
-
-/* ---- Lighting of one surface point (MODEL 3) --------------------------------------------------------------------- */
-
-/* Shadow factor of a light at a sample: 0..65536, 65536 where it casts none; 0 where the surface faces away or no light
- * arrives. */
-uint32_t gn_light_shadow(const gn_frame *frame, const gn_surface *surface, const gn_sample *sample, uint32_t light_idx);
-
-/* Radiance towards the viewer, Q20 per channel, not clamped to 1. */
-void gn_light_radiance(const gn_frame *frame, const gn_surface *surface, const gn_sample *sample,
-                       uint32_t radiance_q20[3]);
-
-/* Times the colours of vertices and texture, with what the surface emits: of a sample's values, Q20. */
-void gn_light_modulate(const gn_frame *frame, const gn_surface *surface, const gn_sample *sample, uint64_t sum_q20[3]);
-
-/* The highlight of the light in a slot of the surface's list, Q24, if its specular colour is 1; and the half vector
- * minus the normal. */
-uint32_t gn_light_highlight(const gn_frame *frame, const gn_surface *surface, const gn_sample *sample, uint32_t slot,
-                            int32_t lobe_q30[3]);
-
-/* ---- What arrives at a surface point from spot and point lights -------------------------------------------------- */
-
-/* And where their shadow maps see it (P2-P6, B6, MODEL 6, 8). */
-
-#define GN_FACE_NONE 6 /* nearer to the light than its near plane: lit */
-
-/* Of all the surface's spot and point lights. */
-void gn_arrivals_at(const gn_frame *frame, const gn_surface *surface, gn_sample *sample);
-
-/* Irradiance of one, of a light whose colour is 1; `value` is its slot of a sample. *arrives: GN_ARRIVES_... */
-uint32_t gn_arrival_irradiance_q24(const gn_frame *frame, const gn_light_state *light, const int32_t *value,
-                                   int *arrives);
-
-/* Where a view sees a point: from the light, and the receiver's offset, which B6 on flat surfaces replaces. Returns 0
- * if it is nearer than the near plane, GN_SEEN_OUTSIDE if B6 goes along the ray there instead of along the normal. */
-int gn_arrival_place(const gn_frame *frame, const gn_surface *surface, const gn_light_view *view, int32_t z_q16,
-                     const int32_t from_q16[3], const int32_t offset_q16[3], gn_arrival *out);
-
 /* ---- Pixels, each for itself ------------------------------------------------------------------------------------- */
 
-/* The exact end of shading. */
+/* Whether every pixel is a corner of its own: the exact end of shading, and raw views that nothing interpolates. */
+GN_HOT static inline int gn_shades_pixels(const gn_frame *frame)
+{
+    const gn_picture *picture = &frame->picture;
+    if (!GN_INTERPOLATES || GN_K(frame, persp_step) == 1) return 1;
+    return GN_RAW_VIEWS && picture->format == GN_FORMAT_RAW32 && picture->view != GN_VIEW_SHADOW;
+}
 
-/* Shades pixel (x, y) of the surface at hand. */
-void gn_exact_pixel(gn_shading *s, int32_t x, int32_t y);
+/* Shades pixel (x, y) of the surface at hand, after gn_corner_begin() or gn_corner_begin_pixels(). */
+void gn_corner_pixel(gn_shading *s, int32_t x, int32_t y);
 
 /* A colour in the picture's format; the last one is remembered. */
 uint32_t gn_exact_pack(gn_shading *s, const uint32_t linear_q20[3]);
@@ -154,24 +84,19 @@ void gn_mix_begin(gn_shading *s);
 /* Mixes pixels of the triangle at hand, shaded into the layer, into those of the tile. MODEL 2. */
 void gn_mix_run(gn_shading *s, int32_t x, int32_t y, int32_t n);
 
-/* ---- Shadow of one light at a sample ----------------------------------------------------------------------------- */
-
-/* Lookup, blending of cascades, mixing with baked masks (MODEL 4, 7, 9). */
+/* ---- Shadow of one light ----------------------------------------------------------------------------------------- */
 
 /* 65536 up to the start of the fade at view depth z > 0, 0 from the largest distance on; 65536 where distance is not
  * depth. [D5] */
 uint32_t gn_shadow_distance_fade(const gn_frame *frame, int32_t z_q16);
 
-/* g of MODEL 4: the strength of realtime shadows at this distance, 0..65536; the same for every light. */
-uint32_t gn_shadow_distance(const gn_frame *frame, const gn_surface *surface, const gn_sample *sample);
+/* Shadows at the point at view depth z on a pixel's ray. [D4] [D5] [D6] [D11] */
+void gn_cascade_at(const gn_frame *frame, int32_t x, int32_t y, int32_t z_q16, gn_cascade_point *out);
 
-/* Shadow factor of the light in a slot of the surface's list, 0..65536; 65536: it casts none. */
-uint32_t gn_shadow_factor(const gn_frame *frame, const gn_surface *surface, const gn_sample *sample, uint32_t slot,
-                          uint32_t g_uq16);
+/* By how much the square of a cascade's radius exceeds that of the distance from its centre, of such a point. */
+int64_t gn_cascade_inside_q32(const gn_frame *frame, int32_t x, int32_t y, int32_t z_q16, int32_t cascade_idx);
 
-/* Parts of it: the baked mask of a light's channel at a sample, 65536: lit, or none [M5]; a mask alone, by the light's
- * strength; and realtime shadow and mask, by the mixing mode. */
-uint32_t gn_shadow_mask(const gn_surface *surface, const gn_sample *sample, int32_t channel);
+/* A mask by the light's strength; and realtime shadow and mask, by the mixing mode (MODEL 9). */
 uint32_t gn_shadow_baked(const gn_light_state *light, uint32_t mask_uq16);
 uint32_t gn_shadow_mixed(const gn_frame *frame, const gn_light_state *light, uint32_t mask_uq16, uint32_t g_uq16,
                          uint32_t realtime_uq16);
@@ -192,12 +117,8 @@ GN_HOT static inline int gn_shadow_has_plane(const gn_frame *frame, const gn_lig
     return (GN_RECEIVER_PLANE && frame->scene->lights[view->light_idx].receiver_plane) || GN_VIEW_EDGE(frame, view);
 }
 
-/* Slopes of depth over a texel of the view, 0 without B5 and F7; `from` is a point of the face from the light, spots
- * and points only. */
-void gn_shadow_slopes(const gn_frame *frame, const gn_surface *surface, const gn_light_view *view,
-                      const int32_t from_q16[3], int32_t slope_q28[2]);
-
-/* The same of any face, whatever the bias. */
+/* Slopes of depth over a texel of the view of a face, whatever the bias; `from` is a point of it from the light, of
+ * spots and points only. [B5] */
 void gn_shadow_plane_slopes(const gn_light_view *view, const int32_t face_q30[3], const int32_t from_q16[3],
                             int32_t slope_q28[2]);
 

@@ -1,4 +1,4 @@
-/* Surfaces, and exact samples of them. */
+/* Surfaces, and small triangles that are shaded from their records. */
 #ifndef GN_SURFACE_TYPES_H
 #define GN_SURFACE_TYPES_H
 
@@ -35,14 +35,11 @@ typedef struct {
     uint8_t glows; /* its own light is not part of base_q20: colours of vertices or a texture, which would dim it, come
                       between */
 #endif
-    uint8_t smooth;   /* its vertices' normals differ */
-    uint8_t shadowed; /* some light's shadow may fall on it */
-#if GN_INTERPOLATES
-    uint8_t joined; /* several triangles */
-#endif
+    uint8_t smooth;                /* its vertices' normals differ */
+    uint8_t shadowed;              /* some light's shadow may fall on it */
+    uint8_t joined;                /* several triangles */
     uint16_t n_lights, n_punctual; /* not bytes: the compiler would reload those after every store */
-    int16_t first_value, n_values;
-    uint32_t albedo_uq16[3]; /* times the vertices' colours, where all three are equal; at most 2^16 */
+    uint32_t albedo_uq16[3];       /* times the vertices' colours, where all three are equal; at most 2^16 */
     uint32_t base_q20[3]; /* albedo times ambient, its own light: with the lights' radiance_uq16, weighted, it sums up
                              to radiance */
     gn_plane plane;
@@ -82,11 +79,7 @@ typedef struct {
 } gn_surface;
 
 /* Properties of a surface: 0 in builds that cannot have them. */
-#if GN_INTERPOLATES
-#define GN_JOINED(s) ((s)->joined)
-#else
-#define GN_JOINED(s) ((void)(s), 0)
-#endif
+#define GN_JOINED(s)   (GN_INTERPOLATES && (s)->joined)
 #define GN_SMOOTH(s)   (GN_VERTEX_NORMALS && (s)->smooth)
 #define GN_COLOURED(s) (GN_VERTEX_COLOURS && (s)->coloured)
 #if GN_GLOW_APART
@@ -119,59 +112,17 @@ typedef struct {
     int32_t to_world_q30[9]; /* of normals */
 } gn_surface_cache;
 
-/* Values sampled at a pixel. The first groups only where a surface has them. */
-enum {
-    GN_VALUE_UV = 0,                                     /* 2: texture coordinates, Q20 */
-    GN_VALUE_MASK = GN_VALUE_UV + (GN_TEXTURES ? 2 : 0), /* 4: shadow masks, Q16; or 2: coordinates of the mask image */
-    GN_VALUE_BAKED = GN_VALUE_MASK + (GN_MASKS ? 4 : 0), /* 3: irradiance, Q16 */
-    GN_VALUE_Z = GN_VALUE_BAKED + (GN_BAKED_LIGHT ? 3 : 0), /* view depth, Q16 */
-    GN_VALUE_FADE,                                          /* fade factor of the last cascade, Q16 */
-    GN_VALUE_RGB,                                           /* 3: interpolated vertex colour, Q16 */
-    GN_VALUE_LIGHT = GN_VALUE_RGB + 3,                      /* the lights of the surface's list */
-    GN_VALUES_PER_LIGHT = (GN_SHADOWS && GN_BLENDED_CASCADES) || GN_PUNCTUAL_LIGHTS ? 7
-                          : GN_SHADOWS                                              ? 4
-                                                                                    : 1,
-    GN_VALUE_COUNT = GN_VALUE_LIGHT + GN_VALUES_PER_LIGHT * GN_SURFACE_LIGHTS
-};
-
-/* Values of a light. Directional: n . L in Q24, tile coordinates U, V, D in Q16 texels, and those of the next cascade.
- * Spot and point: n . (light - point), the point from the light, and the receiver's offset, all in world axes and Q16
- * units. */
-enum { GN_LIGHT_FACING, GN_LIGHT_POINT_AT, GN_LIGHT_OFFSET = 4 };
-
-/* How a light arrives at a point: not at all; through the rim of a cone; fully. */
-enum { GN_ARRIVES_NOT, GN_ARRIVES_RIM, GN_ARRIVES_FULLY };
-
-/* Incident light of a spot or point light at a sample: gn_surface.h. */
-typedef struct {
-    uint32_t irradiance_q24; /* of a light whose colour is 1 */
-#if GN_SHADOWS
-    int32_t u_q16, v_q16;
-    uint32_t depth_q32;
-#endif
-    uint8_t reaches; /* 0: no light arrives, the other fields are undefined */
-#if GN_SHADOWS
-    uint8_t face; /* of the light's views */
-#endif
-} gn_arrival;
-
 /* How a view sees a point: automatic bias along the normal leaves the tile there. */
 #define GN_SEEN_OUTSIDE 2
 
 #define GN_CASCADE_NONE 4
 
+/* Shadows at a point. */
 typedef struct {
-    int32_t cascade;  /* of the surface point, GN_CASCADE_NONE: none */
-    int32_t in_reach; /* near enough to the camera for shadows */
-    int32_t x, y;     /* the pixel */
-    int32_t value[GN_VALUE_COUNT];
-#if GN_PUNCTUAL_LIGHTS
-    gn_arrival arrival[GN_SURFACE_LIGHTS]; /* of spot and point lights */
-#endif
-#if GN_SPECULAR
-    int32_t normal_q30[3], to_eye_q30[3]; /* unit; surfaces with highlights only */
-#endif
-} gn_sample;
+    int32_t cascade;    /* GN_CASCADE_NONE: none */
+    uint32_t fade_uq16; /* the fade factor of that cascade, D6 */
+    uint32_t g_uq16;    /* g of MODEL 4, what distance leaves of shadows, 65536: all; the same for every light */
+} gn_cascade_point;
 
 /* ---- Patches ----------------------------------------------------------------------------------------------------- */
 

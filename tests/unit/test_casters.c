@@ -491,7 +491,7 @@ int main(int argc, char **argv)
                 check_lamp(step, GN_LIGHT_POINT, cut);
             }
         }
-        report_stages(table, step == 1 ? "accurate" : "other presets");
+        report_stages(table, step == 1 ? "accurate" : "other presets", STAGE_COUNT);
     }
     return table ? (check_n_failed ? 1 : 0) : check_report();
 }

@@ -18,9 +18,9 @@ enum {
     STAGE_POINT,
     STAGE_ORTHO,
     STAGE_ORTHO_DEPTH,
-    STAGE_ORTHO_UV,
     STAGE_PERSP,
     STAGE_PERSP_DEPTH,
+    STAGE_ORTHO_UV,
     STAGE_QUADRATIC,
     STAGE_COUNT
 };
@@ -34,9 +34,9 @@ static const char *const stage_name[STAGE_COUNT] = {
     "corners: irradiance of a point light, share of 1 / d^2, LSB of Q24",
     "corners: place in a directional view, LSB of Q16 texels",
     "corners: depth in a directional view, LSB of Q16 texels",
-    "corners: place in a directional view, of a part, LSB of Q16 texels",
     "corners: place in a spot's or point light's view, LSB of Q16 texels",
     "corners: depth in a spot's or point light's view, LSB of Q30",
+    "corners: place in a directional view, of a part, LSB of Q16 texels",
     "cells: texture coordinates between corners, LSB of Q17 texels",
 };
 
@@ -146,7 +146,6 @@ static int begin(const gn_knobs *knobs)
     gn_picture picture = {WIDTH, HEIGHT, GN_FORMAT_RGB565, GN_VIEW_COLOUR, 0};
     gn_init(&renderer, &picture);
     renderer.frame.knobs = *knobs;
-    if (renderer.frame.knobs.persp_step == 1) renderer.frame.knobs.persp_step = 4; /* the finest that has cells */
     renderer.frame.knobs.vertex_light = 0;
     renderer.frame.knobs.atlas_size = 128;
     renderer.frame.knobs.other_atlas_size = 256;
@@ -231,7 +230,7 @@ static void check_attributes(const gn_surface *s, const known_point *k, const gn
     double off;
     record(STAGE_Z, fabs(c->z_q16 * LSB16 - k->at.z), k->z_off, LSB16);
     for (int i = 0; s->baked && i < 3; i++) /* baked darkness is none */
-        CHECK_EQ_INT(c->base_q24[i], (int)(s->base_q20[i] < 1U << 23 ? s->base_q20[i] : 1U << 23) << 4);
+        CHECK_EQ_INT(c->base_q20[i], (int)(s->base_q20[i] < 1U << 23 ? s->base_q20[i] : 1U << 23));
     for (int i = 0; s->coloured && i < 3; i++) {
         const int n = GN_ATTRIBUTE_RGB + i;
         const double want = value_at(k, s->attribute_q16[0][n] * LSB16, s->attribute_q16[1][n] * LSB16,
@@ -298,15 +297,13 @@ typedef struct {
 static cell_case *cell_at(const gn_lattice *from, const gn_surface *s, int x, int y, int size_log2)
 {
     static cell_case c;
-    static gn_sample sample;
     c.shading.frame = &renderer.frame;
     c.shading.surface = *s;
     c.shading.lattice = *from;
     gn_lattice *l = &c.shading.lattice;
     for (int i = 0; i < 4; i++) {
         c.corners[i] = &c.corner[i];
-        gn_corner_find(l, &renderer.frame, s, x + ((i & 1) << size_log2), y + ((i >> 1) << size_log2), &sample,
-                       c.corners[i]);
+        gn_corner_find(l, &renderer.frame, s, x + ((i & 1) << size_log2), y + ((i >> 1) << size_log2), 0, c.corners[i]);
         if (c.corner[i].state != GN_CORNER_KNOWN) return NULL;
     }
     c.cell = (gn_lattice_cell){.lattice = l,
@@ -510,9 +507,9 @@ static void check_ortho(gn_lattice *l, const gn_surface *s, const known_point *k
         off += (s->smooth ? 4 : 1) * LSB16 + (i == 2 ? range * LSB30 : 0);
         record(i == 2 ? STAGE_ORTHO_DEPTH : STAGE_ORTHO, fabs(got - want), off, LSB16);
     }
-    if (s->smooth || c->z_q16 > s->z_max_q16) return;
+    if (s->smooth || c->z_q16 > s->z_max_q16 || !l->plane.fits) return;
     int32_t offset[3], coord[2];
-    gn_sample_offset(frame, s, slot, view, s->normal_q30[0], offset);
+    gn_corner_offset(frame, s, slot, view, s->normal_q30[0], offset);
     gn_corner_uv(l, frame, s, view, c->x, c->y, offset, coord);
     for (int i = 0; i < 2; i++) {
         double off;
@@ -536,11 +533,11 @@ static double form_at(const gn_lattice *l, const gn_slope *form, const gn_corner
 static long n_flat, n_not_flat, n_wide_places;
 
 /* The receiver moves along its normal by a share of the light-plane distance; products whose lower half is dropped cut
- * up to 6 LSB off each component. Of flat surfaces that distance is along the view's axis, whatever face the point lies
+ * up to 5 LSB off each component. Of flat surfaces that distance is along the view's axis, whatever face the point lies
  * in, and forms on the screen say where it is: with the depth that find_point() rounds, and a matrix of 27 bits. */
 static void check_persp(gn_lattice *l, const gn_surface *s, gn_corner *c, uint32_t slot)
 {
-    enum { OFF = 6, OFF_FLAT = 4 };
+    enum { OFF = 5, OFF_FLAT = 4 };
     const gn_frame *frame = &renderer.frame;
     gn_corner_light *at = &c->light[slot], probe;
     const gn_light_state *from = s->light[slot].state;
@@ -580,7 +577,7 @@ static void check_persp(gn_lattice *l, const gn_surface *s, gn_corner *c, uint32
     const int seen_there = gn_corner_place(l, frame, s, c, slot, view_idx) != 0;
     CHECK(at->placed == (view_idx | (flat ? GN_BY_FORMS : 0U)));
     n_flat += flat;
-    n_not_flat += !orthographic && !s->smooth && !flat;
+    n_not_flat += !orthographic && !s->smooth && !flat && GN_K(frame, persp_step) > 1;
     if (fabs(in[2] - near) > off + fabs(in[2]) * (z_form_off + near_form_off + (flat ? divide : 0)))
         CHECK_EQ_INT(seen_there, in[2] > near);
     if (!seen_there || in[2] < 2 * off || fmax(fabs(in[0]), fabs(in[1])) > 50 * in[2]) return;
@@ -677,34 +674,33 @@ static void check_rim(gn_lattice *l, const gn_surface *s, const gn_corner *corne
 static long n_certain, n_uncertain;
 
 /* A cascade that is certain for a surface, or a part of it, must be that of each of its pixels, and nothing fades. */
-static void check_cascade(const gn_surface *s, int32_t cascade, int x, int y)
+static void check_cascade(int32_t cascade, int x, int y, int32_t z_q16)
 {
-    gn_sample sample;
+    gn_cascade_point at;
     n_certain += cascade >= 0;
     n_uncertain += cascade < 0;
     if (cascade < 0) return;
-    gn_sample_at(&renderer.frame, s, x, y, &sample);
-    CHECK_EQ_INT(sample.cascade, cascade);
-    if (fixed.shadow.blend != GN_BLEND_HARD) CHECK_EQ_INT(sample.value[GN_VALUE_FADE], 65536);
-    CHECK_EQ_INT(gn_shadow_distance(&renderer.frame, s, &sample), 65536);
+    gn_cascade_at(&renderer.frame, x, y, z_q16, &at);
+    CHECK_EQ_INT(at.cascade, cascade);
+    if (fixed.shadow.blend != GN_BLEND_HARD) CHECK_EQ_INT((int)at.fade_uq16, 65536);
+    CHECK_EQ_INT((int)at.g_uq16, 65536);
 }
 
 static long n_several, n_fading;
 
 /* Views that a part, or a box of pixels, may look into must be those of each of its pixels, and whether shadows fade
  * there. */
-static void check_pixel_views(const gn_lattice *l, const gn_surface *s, int x, int y)
+static void check_pixel_views(const gn_lattice *l, int x, int y, int32_t z_q16)
 {
     const gn_frame *frame = &renderer.frame;
     const uint32_t views = l->views & (GN_VIEWS_FADE - 1U);
-    gn_sample sample;
-    gn_sample_at(frame, s, x, y, &sample);
-    if (gn_shadow_distance(frame, s, &sample) < 65536) CHECK(l->views & GN_VIEWS_FADE);
-    if (sample.cascade != GN_CASCADE_NONE) {
-        CHECK(views >> sample.cascade & 1U);
-        if (fixed.shadow.blend != GN_BLEND_HARD && sample.value[GN_VALUE_FADE] < 65536 &&
-            sample.cascade != GN_LAST_CASCADE(frame))
-            CHECK(views >> frame->cascade[sample.cascade].next & 1U);
+    gn_cascade_point at;
+    gn_cascade_at(frame, x, y, z_q16, &at);
+    if (at.g_uq16 < 65536) CHECK(l->views & GN_VIEWS_FADE);
+    if (at.cascade != GN_CASCADE_NONE) {
+        CHECK(views >> at.cascade & 1U);
+        if (fixed.shadow.blend != GN_BLEND_HARD && at.fade_uq16 < 65536 && at.cascade != GN_LAST_CASCADE(frame))
+            CHECK(views >> frame->cascade[at.cascade].next & 1U);
     }
 }
 
@@ -720,19 +716,20 @@ static void check_region(const gn_surface *s, const known_point *k, int x, int y
     if (!frame->has_cascades || fixed.shadow.distance_mode != GN_DISTANCE_DEPTH) return;
     const int32_t all = gn_cascade_of_object(frame, (uint32_t)(s->object - frame->scene->objects));
     n_whole += all >= 0;
-    check_cascade(s, all, x, y);
+    check_cascade(all, x, y, z);
     if (gn_shadow_distance_fade(frame, z + 2) < 65536) return;
     const int32_t lo = z - (int32_t)uniform(2, z / 8 + 3), hi = z + (int32_t)uniform(2, z / 8 + 3);
     const int32_t region = gn_cascade_of_region(frame, lo, hi, &px);
     n_regions += region >= 0;
-    check_cascade(s, region, x, y);
+    check_cascade(region, x, y, z);
 }
 
 static void check_part(gn_lattice *l, const gn_surface *s, const gn_rect *r, const known_point *k, int x, int y)
 {
     if (x < r->x0 || x >= r->x1 || y < r->y0 || y >= r->y1) return;
     if (!k->at.inside || k->at.kappa > 100 || k->at.z < fixed.camera.near_q16 * LSB16) return;
-    check_cascade(s, l->surface_cascade, x, y);
+    const int32_t z = (int32_t)(k->at.z * 65536);
+    check_cascade(l->surface_cascade, x, y, z);
     const int32_t rows = (int32_t)uniform(2, 17);
     l->block.x0 = r->x0 > x - 30 ? r->x0 : x - 30;
     l->block.y0 = r->y0 > y - rows + 1 ? r->y0 : y - rows + 1;
@@ -740,11 +737,11 @@ static void check_part(gn_lattice *l, const gn_surface *s, const gn_rect *r, con
     l->block.y1 = r->y1 < l->block.y0 + rows ? r->y1 : l->block.y0 + rows;
     gn_corner_begin_part(l, &renderer.frame, s);
     l->block = *r;
-    check_cascade(s, l->cascade, x, y);
+    check_cascade(l->cascade, x, y, z);
     const uint32_t views = l->views & (GN_VIEWS_FADE - 1U);
     n_several += (views & (views - 1)) != 0;
     n_fading += l->views & GN_VIEWS_FADE ? 1 : 0;
-    if (l->cascade < 0) check_pixel_views(l, s, x, y);
+    if (l->cascade < 0) check_pixel_views(l, x, y, z);
     l->cascade = l->surface_cascade;
     check_region(s, k, x, y);
 }
@@ -755,13 +752,12 @@ static long n_light, n_split;
 
 static void check_light_inside(gn_lattice_cell *cell, uint32_t slot, double bound)
 {
-    static gn_sample sample;
     static gn_corner at;
     const gn_corner *first = cell->corner[0];
     const int size = 1 << cell->size_log2;
     for (int y = 0; y <= size; y += size / 4)
         for (int x = 0; x <= size; x += size / 4) {
-            gn_corner_find(cell->lattice, cell->frame, cell->s, first->x + x, first->y + y, &sample, &at);
+            gn_corner_find(cell->lattice, cell->frame, cell->s, first->x + x, first->y + y, 0, &at);
             if (at.state != GN_CORNER_KNOWN) continue;
             const double right = (double)x / size, down = (double)y / size;
             double between = 0;
@@ -817,7 +813,6 @@ static long n_fades;
  * most: depths in the cell lie between those of its corners. */
 static void check_fade(const gn_lattice *from, const gn_surface *s, int x, int y, int size_log2)
 {
-    static gn_sample sample;
     static gn_corner at;
     const int size = 1 << size_log2;
     cell_case *c = cell_at(from, s, x, y, size_log2);
@@ -833,7 +828,7 @@ static void check_fade(const gn_lattice *from, const gn_surface *s, int x, int y
     if (least == most || (least && most < 65536) || (cascades && fade != 65536)) return;
     for (int j = 0; j <= size; j += size / 2)
         for (int i = 0; i <= size; i += size / 2) {
-            gn_corner_find(&c->shading.lattice, &renderer.frame, s, x + i, y + j, &sample, &at);
+            gn_corner_find(&c->shading.lattice, &renderer.frame, s, x + i, y + j, 0, &at);
             if (at.state != GN_CORNER_KNOWN || (cascades && at.fade_uq16 != 65536)) continue;
             double between = 0;
             for (int k = 0; k < 4; k++)
@@ -869,14 +864,59 @@ static int should_be_known(const gn_surface *s, const known_point *k)
     return k->at.z > 0.51 * lo && k->at.z < 1.99 * hi;
 }
 
+/* Its lights. */
+static void check_lights(gn_lattice *l, const gn_surface *s, const known_point *k, gn_corner *c)
+{
+    for (uint32_t slot = 0; slot < s->n_lights; slot++) {
+        const gn_surface_light *from = &s->light[slot];
+        gn_corner_light *at = &c->light[slot];
+        CHECK(at->irradiance_q24 >= 0 && (at->arrives > 0 || !at->irradiance_q24));
+        if (from->state->kind == GN_LIGHT_DIRECTIONAL) {
+            check_cosine(s, k, from, at);
+            check_ortho(l, s, k, c, slot);
+            continue;
+        }
+        check_from(k, from->state, c);
+        check_irradiance(s, from, c, at);
+        check_persp(l, s, c, slot);
+        if (!l->plane.fits) continue; /* what forms tell */
+        check_auto(l, s, c, slot);
+        check_rim(l, s, c, slot);
+    }
+}
+
+static long n_lone;
+
+/* A pixel in 64 bits, as where no plane of a block is known: NUMERICS 4.3. */
+static void check_lone(gn_lattice *l, const gn_surface *s, const plane *p, int x, int y)
+{
+    static gn_corner corner;
+    known_point k = {.px = 2 * x + 1 - WIDTH, .py = HEIGHT - 1 - 2 * y};
+    const double divide = GN_RECIP_STEPS(&renderer.frame) == 1 && !orthographic ? ldexp(1, -17) : ldexp(1, -28);
+    const int fits = l->plane.fits;
+    if (orthographic) k.w = cross_flat(&k.at, p, x, y);
+    else cross_at(&k.at, p, x, y);
+    if (!k.at.inside || !(k.at.kappa < 1000) || !(orthographic || p->kappa0 < 1000)) return;
+    if (k.at.z < fixed.camera.near_q16 * LSB16) return;
+    k.b_off = ldexp(k.at.kappa_b + k.at.kappa, -29) + divide + ldexp(5, -29);
+    k.z_off = LSB16 / 2 + k.at.z * (ldexp(k.at.kappa + p->kappa0, -29) + divide);
+    if (orthographic) k.z_off = LSB16 + (fabs(p->v[1][2] - p->v[0][2]) + fabs(p->v[2][2] - p->v[0][2])) * k.b_off;
+    l->plane.fits = 0;
+    gn_corner_find(l, &renderer.frame, s, x, y, 1, &corner);
+    CHECK_EQ_INT(corner.state, GN_CORNER_KNOWN);
+    check_attributes(s, &k, &corner);
+    check_lights(l, s, &k, &corner);
+    l->plane.fits = fits;
+    n_lone++;
+}
+
 static void check_corner(gn_lattice *l, const gn_surface *s, const plane *p, const gn_rect *r, int x, int y)
 {
     static gn_corner corner;
-    static gn_sample sample;
     known_point k;
     find_known(&k, l, p, x, y);
     memset(&corner, 0xA5, sizeof corner);
-    gn_corner_find(l, &renderer.frame, s, x, y, &sample, &corner);
+    gn_corner_find(l, &renderer.frame, s, x, y, 0, &corner);
     if (corner.state != GN_CORNER_KNOWN) {
         n_unseen++;
         CHECK(corner.state == GN_CORNER_UNSEEN && !should_be_known(s, &k));
@@ -887,21 +927,7 @@ static void check_corner(gn_lattice *l, const gn_surface *s, const plane *p, con
     CHECK(corner.x == x && corner.y == y);
     n_wide += !k.at.inside;
     check_attributes(s, &k, &corner);
-    for (uint32_t slot = 0; slot < s->n_lights; slot++) {
-        const gn_surface_light *from = &s->light[slot];
-        gn_corner_light *at = &corner.light[slot];
-        CHECK(at->irradiance_q24 >= 0 && (at->arrives > 0 || !at->irradiance_q24));
-        if (from->state->kind == GN_LIGHT_DIRECTIONAL) {
-            check_cosine(s, &k, from, at);
-            check_ortho(l, s, &k, &corner, slot);
-            continue;
-        }
-        check_from(&k, from->state, &corner);
-        check_irradiance(s, from, &corner, at);
-        check_persp(l, s, &corner, slot);
-        check_auto(l, s, &corner, slot);
-        check_rim(l, s, &corner, slot);
-    }
+    check_lights(l, s, &k, &corner);
     if (s->n_lights) check_part(l, s, r, &k, x, y);
 }
 
@@ -944,25 +970,30 @@ static void check_scene(const gn_knobs *knobs)
         gn_surface_begin(&renderer.frame, scratch, &cache, &surface, &tri->source);
         gn_surface_use_bary(&renderer.frame, &surface);
         const gn_rect r = gn_setup_bounds(&renderer.frame, tri);
-        const int reached = gn_corner_begin_lights(&lattice, &renderer.frame, &surface);
+        gn_corner_begin_lights(&lattice, &renderer.frame, &surface);
         const gn_rect wide = {r.x0 - 15, r.y0 - 15, r.x1 + 15, r.y1 + 15};
         lattice.block = r;
-        const int has_plane = reached && gn_corner_begin(&lattice, &renderer.frame, &surface, &wide);
+        const int has_plane = gn_corner_begin(&lattice, &renderer.frame, &surface, &wide);
 #if GN_SHADOWS
         gn_corner_begin_cascade(&lattice, &renderer.frame, &surface);
 #endif
+        const int by_cells = GN_K(&renderer.frame, persp_step) > 1;
         n_planes += has_plane;
         if (has_plane && !orthographic) check_scale(&lattice.plane, &surface);
         n_no_plane += !has_plane;
-        for (int y = r.y0 - 6; has_plane && y < r.y1 + 14; y += 5)
+        for (int y = r.y0 - 6; has_plane && by_cells && y < r.y1 + 14; y += 5)
             for (int x = r.x0 - 6; x < r.x1 + 14; x += 7) check_corner(&lattice, &surface, &p, &r, x, y);
-        for (int i = 0; has_plane && surface.n_punctual && i < 6; i++)
+        gn_corner_begin_pixels(&lattice, &renderer.frame, &surface);
+        for (int y = r.y0; y < r.y1; y += 5)
+            for (int x = r.x0; x < r.x1; x += 7) check_lone(&lattice, &surface, &p, x, y);
+        if (has_plane) gn_corner_begin(&lattice, &renderer.frame, &surface, &wide);
+        for (int i = 0; has_plane && by_cells && surface.n_punctual && i < 6; i++)
             check_light(&lattice, &surface, (int)uniform(r.x0 - 12, r.x1 + 2), (int)uniform(r.y0 - 12, r.y1 + 2),
                         3 + i % 2);
-        for (int i = 0; has_plane && surface.shadowed && i < 15; i++)
+        for (int i = 0; has_plane && by_cells && surface.shadowed && i < 15; i++)
             check_fade(&lattice, &surface, (int)uniform(r.x0 - 12, r.x1 + 2), (int)uniform(r.y0 - 12, r.y1 + 2),
                        2 + i % 3);
-        for (int i = 0; has_plane && surface.textured && i < 6; i++)
+        for (int i = 0; has_plane && by_cells && surface.textured && i < 6; i++)
             check_cell(&lattice, &surface, &p, (int)uniform(r.x0 - 6, r.x1 + 2), (int)uniform(r.y0 - 6, r.y1 + 2),
                        2 + i % 3);
     }
@@ -971,11 +1002,13 @@ static void check_scene(const gn_knobs *knobs)
 int main(int argc, char **argv)
 {
     int table = argc > 1 && strcmp(argv[1], "--table") == 0;
-    for (int preset = 0; preset < 3; preset++) {
+    for (int preset = 0; preset < N_PRESETS; preset++) {
         const gn_knobs knobs = preset_knobs(preset);
         for (orthographic = 0; orthographic < 2; orthographic++) {
             for (int i = 0; i < N_SCENES / 3; i++) check_scene(&knobs);
-            report_stages(table, orthographic ? "the same, orthographic" : preset_name[preset]);
+            /* with persp_step 1 there are no parts and no cells, whose stages are the last */
+            report_stages(table, orthographic ? "the same, orthographic" : preset_name[preset],
+                          knobs.persp_step > 1 ? STAGE_COUNT : STAGE_ORTHO_UV);
         }
     }
     CHECK(n_known > n_unseen && n_unseen > 100 && n_wide > 1000);
@@ -989,7 +1022,7 @@ int main(int argc, char **argv)
         n_light, worst_light, n_split);
     CHECK(n_light > 5000 && worst_light > 0.3 && n_split > 10);
     CHECK(n_bent_rows > 300 && n_bent_columns > 300 && n_straight > 100);
-    CHECK(n_planes > 2 * n_no_plane);
+    CHECK(n_planes > 2 * n_no_plane && n_lone > 1000);
     CHECK(n_flat > 1000 && n_flat > 2 * n_not_flat);
     CHECK(n_wide_places > 1000);
     CHECK(n_certain > 1000 && n_uncertain > 100 && n_several > 100 && n_fading > 100);

@@ -3,6 +3,7 @@
  * the largest error seen, per stage. */
 #include "../lib/shadow/gn_texel.h"
 #include "../lib/shadow/gn_filter.h"
+#include "../lib/shade/gn_corner.h"
 #include "../lib/shade/gn_surface.h"
 #include "../lib/light/gn_lights.h"
 #include "../lib/scene/gn_scene.h"
@@ -137,66 +138,38 @@ static double lerp1(double x, double k) /* lerp(1, x, k) */
     return 1 - k * (1 - x);
 }
 
-static void check_mixing(gn_surface *surface, gn_sample *sample)
+static void check_mixing(uint32_t realtime_uq16)
 {
-    gn_frame *frame = &renderer.frame;
-    const gn_mixing mixing = (gn_mixing)uniform(0, 3);
+    const gn_frame *frame = &renderer.frame;
+    gn_light_state *at = &renderer.frame.light[0];
     const uint32_t strength = one_in(4) ? 65536 : (uint32_t)uniform(1, 65536),
-                   g = one_in(4) ? 65536 : (uint32_t)uniform(0, 65537);
-    frame->light[0].strength_uq16 = 65536;
-    fixed.shadow.mixing = GN_MIXING_NONE;
-    const double realtime = gn_shadow_factor(frame, surface, sample, 0, 65536) * LSB16;
-    const double s = strength * LSB16, d = g * LSB16, baked = sample->value[GN_VALUE_MASK] * LSB16;
-    double want = mixing == GN_MIXING_ALWAYS     ? lerp1(fmin(baked, lerp1(realtime, d)), s)
-                  : mixing == GN_MIXING_DISTANCE ? lerp1(baked + d * (realtime - baked), s)
-                                                 : lerp1(realtime, s * d);
-    frame->light[0].strength_uq16 = strength;
-    fixed.shadow.mixing = mixing;
-    const double got = gn_shadow_factor(frame, surface, sample, 0, g) * LSB16;
-    if (s * d < LSB16) return; /* no shadow of today's: the mask alone */
-    record(STAGE_ATTENUATION + (int)mixing, fabs(got - want), (mixing == GN_MIXING_DISTANCE ? 1.5 : 1) * LSB16, LSB16);
+                   g = one_in(4) ? 65536 : (uint32_t)uniform(0, 65537),
+                   mask = one_in(4) ? 65536 : (uint32_t)uniform(0, 65537);
+    fixed.shadow.mixing = (gn_mixing)uniform(0, 3);
+    at->strength_uq16 = strength;
+    const double realtime = realtime_uq16 * LSB16, s = strength * LSB16, d = g * LSB16, baked = mask * LSB16;
+    double want = fixed.shadow.mixing == GN_MIXING_ALWAYS     ? lerp1(fmin(baked, lerp1(realtime, d)), s)
+                  : fixed.shadow.mixing == GN_MIXING_DISTANCE ? lerp1(baked + d * (realtime - baked), s)
+                                                              : lerp1(realtime, s * d);
+    const double got = gn_shadow_mixed(frame, at, mask, g, realtime_uq16) * LSB16;
+    record(STAGE_ATTENUATION + (int)fixed.shadow.mixing, fabs(got - want),
+           (fixed.shadow.mixing == GN_MIXING_DISTANCE ? 1.5 : 1) * LSB16, LSB16);
 }
 
 /* Strength, distance and mask together. [M4] [M6] */
 static void check_attenuation(const gn_knobs *knobs)
 {
-    static gn_surface surface;
-    static gn_sample sample;
-    static uint8_t lit[64 * 64];
     random_scene();
-    fixed.shadow.filter = GN_FILTER_7X7;
     fixed.shadow.distance_fade_uq16 = (uint32_t)uniform(66, 65536);
-    light.mode = GN_LIGHT_MIXED;
-    light.mask_channel = 0;
-    const int ok = begin(knobs);
-    light.mode = GN_LIGHT_REALTIME;
-    if (!ok) return;
-    gn_frame *frame = &renderer.frame;
-    fill_texels(&frame->view[0], lit);
-    gn_blocks_build(&frame->view[0]);
-#if GN_CHANGES
-    surface.squares = &renderer.scratch.squares;
-#endif
-    surface.object = &object;
-    surface.shadowed = surface.masked = 1;
-    surface.n_lights = 1;
-    surface.light[0].state = &frame->light[0];
+    if (!begin(knobs)) return;
     const double far = fixed.shadow.max_distance_q16 * LSB16, fade = fixed.shadow.distance_fade_uq16 * LSB16;
     for (int i = 0; i < 60; i++) {
-        sample.cascade = 0;
-        sample.in_reach = 1;
-        sample.value[GN_VALUE_MASK] = one_in(4) ? 65536 : (int32_t)uniform(0, 65537);
-        sample.value[GN_VALUE_FADE] = 65536;
-        sample.value[GN_VALUE_Z] = (int32_t)(uniform(one_in(2) ? 0 : 1 - fade, 1.05) * far * 65536);
-        for (int k = 0; k < 2; k++)
-            sample.value[GN_VALUE_LIGHT + 1 + k] = (int32_t)(uniform(8, frame->view[0].tile_texels - 8) * 65536);
-        sample.value[GN_VALUE_LIGHT + 3] = frame->view[0].tile_texels * 32768;
-        check_mixing(&surface, &sample);
-        const double want = (1 - sample.value[GN_VALUE_Z] * LSB16 / far) / fade,
-                     got = gn_shadow_distance(frame, &surface, &sample) * LSB16;
+        const int32_t z_q16 = (int32_t)(uniform(one_in(2) ? 0 : 1 - fade, 1.05) * far * 65536);
+        check_mixing(one_in(4) ? 65536U * (uint32_t)one_in(2) : (uint32_t)uniform(0, 65537));
+        const double want = (1 - z_q16 * LSB16 / far) / fade,
+                     got = gn_shadow_distance_fade(&renderer.frame, z_q16) * LSB16;
         record(STAGE_DISTANCE, fabs(got - fmin(1, fmax(0, want))), LSB16, LSB16);
     }
-    light.mask_channel = -1;
     fixed.shadow.mixing = GN_MIXING_NONE;
     fixed.shadow.distance_fade_uq16 = 6554;
 }
@@ -247,7 +220,7 @@ static double corner_cosine(const gn_surface *s, const crossing *c, const double
     return at[0] + c->b[0] * (at[1] - at[0]) + c->b[1] * (at[2] - at[0]);
 }
 
-static void shade_at(const gn_frame *frame, const gn_surface *s, const crossing *c, shade *out)
+static void shade_at(const gn_frame *frame, const gn_surface *s, const crossing *c, double bary_off, shade *out)
 {
     double n[3], change = normal_at(s, c, n), length = sqrt(dot(n, n));
     for (int k = 0; k < 3; k++) {
@@ -256,9 +229,8 @@ static void shade_at(const gn_frame *frame, const gn_surface *s, const crossing 
         for (uint32_t l = 0; l < fixed.n_lights; l++) {
             double to_light[3], colour = albedo * lamps[l].colour_uq16[k] * LSB16;
             axis_of(frame->light[l].to_light_q30, to_light);
-            double cosine = fmax(0, dot(n, to_light) / length), cosine_off = cosine_bound(frame, c, n, change);
-            if (frame->knobs.vertex_light && s->smooth)
-                cosine = corner_cosine(s, c, to_light, bary_bound(frame, c), &cosine_off);
+            double cosine = fmax(0, dot(n, to_light) / length), cosine_off = cosine_bound(frame, bary_off, n, change);
+            if (frame->knobs.vertex_light && s->smooth) cosine = corner_cosine(s, c, to_light, bary_off, &cosine_off);
             sum += colour * cosine;
             off += cosine * LSB16 / 2 + (colour + LSB16 / 2) * cosine_off + LSB20 / 2;
         }
@@ -267,7 +239,7 @@ static void shade_at(const gn_frame *frame, const gn_surface *s, const crossing 
             const int32_t *at[3] = {s->attribute_q16[0] + GN_ATTRIBUTE_RGB, s->attribute_q16[1] + GN_ATTRIBUTE_RGB,
                                     s->attribute_q16[2] + GN_ATTRIBUTE_RGB};
             tint = (at[0][k] + c->b[0] * at[1][k] + c->b[1] * at[2][k]) * LSB16;
-            tint_off = LSB16 + (fabs((double)at[1][k]) + fabs((double)at[2][k])) * LSB16 * bary_bound(frame, c);
+            tint_off = LSB16 + (fabs((double)at[1][k]) + fabs((double)at[2][k])) * LSB16 * bary_off;
         }
         out->want[k] = sum * tint;
         out->bound[k] = off * (tint + tint_off) + sum * tint_off + LSB20 / 2;
@@ -280,20 +252,21 @@ static int is_seen(const crossing *c, const plane *p)
     return c->inside && c->kappa < 1000 && p->kappa0 < 1000 && c->z >= fixed.camera.near_q16 * LSB16;
 }
 
-static void check_samples(const gn_surface *s, const plane *p, const gn_rect *r)
+static void check_pixels(gn_shading *shading, const plane *p, const gn_rect *r)
 {
     const gn_frame *frame = &renderer.frame;
+    gn_surface *s = &shading->surface;
+    gn_lattice *l = &shading->lattice;
     for (int y = r->y0; y < r->y1; y += 3)
         for (int x = r->x0; x < r->x1; x += 5) {
             crossing c;
-            gn_sample sample;
             shade want;
             uint32_t got[3];
             cross_at(&c, p, x, y);
             if (!is_seen(&c, p)) continue;
-            gn_sample_at(frame, s, x, y, &sample);
-            gn_light_radiance(frame, s, &sample, got);
-            shade_at(frame, s, &c, &want);
+            gn_corner_find(l, frame, s, x, y, 1, &l->corner);
+            gn_corner_radiance(shading, &l->corner, got);
+            shade_at(frame, s, &c, bary_bound(frame, &c), &want);
             for (int k = 0; k < 3; k++)
                 record(STAGE_RADIANCE, fabs(got[k] * LSB20 - want.want[k]), want.bound[k], LSB20);
         }
@@ -302,7 +275,8 @@ static void check_samples(const gn_surface *s, const plane *p, const gn_rect *r)
 static void check_radiance(const gn_knobs *knobs)
 {
     static int32_t view[3 * N_TRIANGLES][3];
-    static gn_surface surface;
+    static gn_shading shading;
+    gn_surface *surface = &shading.surface;
     gn_surface_cache cache = {.object = NULL};
     gn_scratch *scratch = &renderer.scratch;
     gn_knobs mine = *knobs;
@@ -316,11 +290,13 @@ static void check_radiance(const gn_knobs *knobs)
             const gn_tri *tri = &renderer.frame.records.tri[t];
             plane p;
             plane_of(&p, view, tri->source.triangle_idx);
-            gn_surface_place(&renderer.frame, scratch, &cache, &surface, &tri->source);
-            gn_surface_begin(&renderer.frame, scratch, &cache, &surface, &tri->source);
-            gn_surface_use_bary(&renderer.frame, &surface);
+            shading.frame = &renderer.frame;
+            shading.scratch = scratch;
+            gn_surface_place(&renderer.frame, scratch, &cache, surface, &tri->source);
+            gn_surface_begin(&renderer.frame, scratch, &cache, surface, &tri->source);
+            gn_corner_begin_pixels(&shading.lattice, &renderer.frame, surface);
             const gn_rect r = gn_setup_bounds(&renderer.frame, tri);
-            check_samples(&surface, &p, &r);
+            check_pixels(&shading, &p, &r);
         }
     }
     mesh.rgb_uq16 = NULL;
@@ -549,7 +525,7 @@ int main(int argc, char **argv)
             check_radiance(&knobs);
             check_offsets(&knobs, i & 1 ? GN_LIGHT_POINT : GN_LIGHT_SPOT);
         }
-        report_stages(table, preset_name[preset]);
+        report_stages(table, preset_name[preset], STAGE_COUNT);
     }
     return table ? (check_n_failed ? 1 : 0) : check_report();
 }

@@ -8,29 +8,16 @@
 #include "../lib/geometry/gn_xform.h"
 #include "../lib/base/gn_q.h"
 #include "../lib/gn_internal.h"
+#include "../lib/shade/gn_corner.h"
 #include "../lib/shade/gn_surface.h"
 #include "../lib/geometry/gn_walk.h"
 #include "../lib/visible/gn_setup.h"
 
-enum {
-    STAGE_VIEW,
-    STAGE_SCREEN,
-    STAGE_DEPTH,
-    STAGE_Z,
-    STAGE_COSINE,
-    STAGE_LIGHT_UV,
-    STAGE_PLACE,
-    STAGE_EDGE,
-    STAGE_PACK,
-    STAGE_COUNT
-};
+enum { STAGE_VIEW, STAGE_SCREEN, STAGE_DEPTH, STAGE_PLACE, STAGE_EDGE, STAGE_PACK, STAGE_COUNT };
 static const char *const stage_name[STAGE_COUNT] = {
     "transform to view space, LSB of Q15.16",
     "projection, LSB of the subpixel grid",
     "near / Z at a covered centre, LSB of Q0.32",
-    "view depth of a sample, LSB of Q15.16",
-    "n . L of a sample, LSB of Q24",
-    "light coordinates of a sample, LSB of Q16 texels",
     "bias: a receiver off its plane, all stages before it, LSB of length",
     "edge setup: pixels on the other side of an edge, LSB of the subpixel grid",
     "packing, LSB of 8 bits",
@@ -128,53 +115,6 @@ static void check_depth(const gn_frame *frame, const gn_tri *tri, const plane *p
     record(STAGE_DEPTH, fabs((double)got - want), bound, 1);
 }
 
-static double depth_bound(const gn_frame *frame, const plane *p, const crossing *c)
-{
-    double divide = GN_RECIP_STEPS(frame) == 1 ? ldexp(1, -17) : ldexp(1, -28);
-    return 0.5 * LSB16 + c->z * (ldexp(c->kappa + p->kappa0, -29) + divide);
-}
-
-/* NUMERICS 4.5 */
-static void check_cosine(const gn_frame *frame, const gn_surface *s, const gn_sample *sample, const crossing *c)
-{
-    double n[3], to_light[3], change = normal_at(s, c, n);
-    axis_of(frame->light[0].to_light_q30, to_light);
-    double got = ldexp(sample->value[GN_VALUE_LIGHT], -24);
-    record(STAGE_COSINE, fabs(got - dot(n, to_light) / sqrt(dot(n, n))), cosine_bound(frame, c, n, change),
-           ldexp(1, -24));
-}
-
-/* NUMERICS 4.4 */
-static void check_light_coords(const gn_frame *frame, const gn_surface *s, const gn_sample *sample, const crossing *c)
-{
-    const gn_light_view *view = &frame->view[0];
-    double texel = 1 / ldexp(view->fit.ortho.inv_texel.mant, view->fit.ortho.inv_texel.exp), n[3],
-           z_got = sample->value[GN_VALUE_Z] * LSB16;
-    int px = (int)floor(c->ray[0] * renderer.frame.cam.focal2_px_q16 * LSB16 + 0.5);
-    int py = (int)floor(c->ray[1] * renderer.frame.cam.focal2_px_q16 * LSB16 + 0.5);
-    if (sample->cascade == GN_CASCADE_NONE) return; /* beyond the shadowed slice: no coordinates */
-    for (int k = 0; k < 3; k++)
-        n[k] = ldexp(s->normal_q30[0][k] + c->b[0] * s->normal_q30[1][k] + c->b[1] * s->normal_q30[2][k], -30);
-    for (int i = 0; i < 3; i++) {
-        double axis[3], eye = 0, along = 0, point = 0;
-        axis_of(view->axis_q30[i], axis);
-        for (int k = 0; k < 3; k++) {
-            double cam_axis[3];
-            axis_of(frame->cam.axis_q30[k], cam_axis);
-            along += c->ray[k] * dot(cam_axis, axis);
-            eye += frame->cam.eye_q16[k] * LSB16 * axis[k];
-            point += n[k] * axis[k];
-        }
-        double want = (z_got * along + eye) / texel - view->fit.ortho.origin[i] + point * view->offset_q16 * LSB16;
-        double bound =
-            3 * LSB16 + z_got * ldexp(1 + 0.5 * (abs(px) + abs(py)), -view->fit.ortho.ray_shift) +
-            ldexp(fabs(z_got * along / texel) + fabs(eye / texel) + fabs((double)view->fit.ortho.origin[i]), -27) +
-            view->offset_q16 * LSB16 *
-                (ldexp(c->kappa_b + c->kappa, -27) + (GN_RECIP_STEPS(frame) == 1 ? ldexp(1, -14) : ldexp(1, -26)));
-        record(STAGE_LIGHT_UV, fabs(sample->value[GN_VALUE_LIGHT + 1 + i] * LSB16 - want), bound, LSB16);
-    }
-}
-
 /* The sum of the stages that B6 counts on (NUMERICS 4.11): how far off its plane a receiver lies. Corners, depth and
  * ray err on their own; the light's coordinates add what 4.4 says of them. */
 static double place_bound(const gn_frame *frame, double z)
@@ -184,13 +124,15 @@ static double place_bound(const gn_frame *frame, double z)
     return z * sqrt(1 + half_diagonal * half_diagonal) * relative + 8 * LSB16;
 }
 
-static void check_place(const gn_frame *frame, const gn_surface *s, const gn_sample *sample, const plane *p,
-                        const crossing *c)
+static void check_place(const gn_frame *frame, gn_lattice *l, const gn_surface *s, const gn_corner *corner,
+                        const plane *p, const crossing *c)
 {
     const gn_light_view *view = &frame->view[0];
     double texel = 1 / ldexp(view->fit.ortho.inv_texel.mant, view->fit.ortho.inv_texel.exp), off = 0, sum = 0, n[3],
            length = sqrt(dot(p->n, p->n));
-    if (sample->cascade == GN_CASCADE_NONE) return;
+    int32_t coord_q16[3];
+    if (corner->cascade == GN_CASCADE_NONE) return;
+    gn_corner_coords(l, frame, s, corner, 0, view, coord_q16);
     for (int k = 0; k < 3; k++)
         n[k] = ldexp(s->normal_q30[0][k] + c->b[0] * s->normal_q30[1][k] + c->b[1] * s->normal_q30[2][k], -30);
     for (int i = 0; i < 3; i++) {
@@ -205,7 +147,7 @@ static void check_place(const gn_frame *frame, const gn_surface *s, const gn_sam
             moved += n[k] * axis[k];
         }
         double want = (c->z * along + eye) / texel - view->fit.ortho.origin[i] + moved * view->offset_q16 * LSB16;
-        off += (sample->value[GN_VALUE_LIGHT + 1 + i] * LSB16 - want) * facing;
+        off += (coord_q16[i] * LSB16 - want) * facing;
         sum += fabs(facing);
     }
     record(STAGE_PLACE, fabs(off) * texel, place_bound(frame, c->z) + 3 * sum * texel * LSB16, LSB16);
@@ -219,26 +161,24 @@ static void check_samples(const gn_frame *frame, int32_t view[][3])
     for (uint32_t t = 0; t < frame->stats.n_triangles; t++) {
         const gn_tri *tri = &frame->records.tri[t];
         plane p;
-        gn_surface surface;
+        static gn_surface surface;
+        static gn_lattice lattice;
+        static gn_corner corner;
         plane_of(&p, view, tri->source.triangle_idx);
         gn_surface_place(frame, scratch, &cache, &surface, &tri->source);
         gn_surface_begin(frame, scratch, &cache, &surface, &tri->source);
-        gn_surface_use_bary(frame, &surface);
+        gn_corner_begin_pixels(&lattice, frame, &surface);
         gn_rect r = gn_setup_bounds(frame, tri);
         for (int y = r.y0; y < r.y1; y += 3) {
             for (int x = r.x0; x < r.x1; x += 5) {
                 crossing c;
-                gn_sample sample;
                 cross_at(&c, &p, x, y);
                 /* edge-on planes are stood for by their nearest point (NUMERICS 4.3): not part of the bound */
                 if (!c.inside || !(c.kappa < 1000) || !(p.kappa0 < 1000)) continue;
                 if (c.z < fixed.camera.near_q16 * LSB16) continue; /* clipped away */
-                gn_sample_at(frame, &surface, x, y, &sample);
                 check_depth(frame, tri, &p, &c, x, y);
-                record(STAGE_Z, fabs(sample.value[GN_VALUE_Z] * LSB16 - c.z), depth_bound(frame, &p, &c), LSB16);
-                check_cosine(frame, &surface, &sample, &c);
-                check_light_coords(frame, &surface, &sample, &c);
-                check_place(frame, &surface, &sample, &p, &c);
+                gn_corner_find(&lattice, frame, &surface, x, y, 1, &corner);
+                if (surface.n_lights) check_place(frame, &lattice, &surface, &corner, &p, &c);
             }
         }
     }
@@ -387,7 +327,7 @@ int main(int argc, char **argv)
             renderer.frame.picture.format = GN_FORMAT_RGB888;
             check_packing(&renderer.frame);
         }
-        report_stages(table, preset_name[preset]);
+        report_stages(table, preset_name[preset], STAGE_COUNT);
     }
 
     /* two of a hundred axes at most: the centre errs by some 2^-15 texel, so thresholds are met about once in ten

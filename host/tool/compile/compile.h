@@ -46,7 +46,7 @@ typedef struct {
     int peak_triangles, peak_tile_refs; /* the frames that took most, from 0 */
     size_t culled;                      /* casters left out by D8 */
     size_t caster_triangles;
-    double instructions, lookups; /* by the model of cost; of shadows */
+    double instructions; /* by the model of cost */
     casters casters;
 } compile_run;
 

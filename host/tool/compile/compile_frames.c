@@ -147,7 +147,6 @@ static void take_frame(compile_run *run, const compile_stage *st, int i)
     run->culled += stats->n_casters_culled;
     run->caster_triangles += stats->n_caster_triangles;
     run->instructions += cost_instructions(&counts);
-    run->lookups += (double)(counts.n[GN_COUNT_lookups] + counts.n[GN_COUNT_lookups_persp]);
     if (st->lib == &library_general) casters_add(&run->casters, st->renderer);
 }
 

@@ -105,7 +105,7 @@ static long corner_bytes(const settings *s)
     }
     put(&light, s->feature.shadows ? 4 : 1, 1, 1);
     pad(&light, 4);
-    put(&all, 8, 4, 4); /* state to base_q24 */
+    put(&all, 8, 4, 4); /* state to base_q20 */
     if (s->feature.vertex_values >= 2) put(&all, 3, 4, 4);
     if (s->feature.texture_formats) put(&all, 2, 4, 4);
     if (s->feature.materials & 8) put(&all, 2, 4, 4);
@@ -168,19 +168,20 @@ static long drawing_bytes(const settings *s)
 static long lattice_bytes(const settings *s)
 {
     layout all = {0, 4};
-    put(&all, 1, 256, 4);                                                       /* span to plane */
+    put(&all, 1, corner_bytes(s), 4);
+    if (s->feature.shadows && (s->feature.biases >= 2 || s->quality.edge))
+        put(&all, 3, 4, 4); /* slope_view, slope_q28 */
+    if (s->quality.persp_step == 1) return all.size;
+    put(&all, 1, 260, 4);                                                       /* span to plane */
     if (s->feature.shadows && s->feature.other_lights % 2) put(&all, 8, 68, 4); /* forms */
     put(&all, s->capacity.surface_lights, 12, 4);                               /* light */
     put(&all, 1, 276, 4);                                                       /* anchor to bits */
-    if (s->feature.shadows && (s->feature.biases >= 2 || s->quality.edge))
-        put(&all, 3, 4, 4); /* slope_view, slope_q28 */
     const long corners = 12 * corner_bytes(s), patch = patch_bytes(s);
     put(&all, 1, corners > patch ? corners : patch, 4); /* from */
     put(&all, 1, 196, 4);                               /* corner_key to cell_corner */
     if (s->feature.shadows)
         put(&all, n_views(s) >= 5 ? 5 : n_views(s) >= 1 ? n_views(s) : 1, has_changes(s) ? 384 : 376, 8); /* windows */
-    put(&all, 1, corner_bytes(s), 4);
-    put(&all, 1, 568, 4);                  /* look */
+    put(&all, 1, 568, 4);                                                                                 /* look */
     if (has_levels(s)) put(&all, 1, 4, 4); /* of that: level and level_ends */
     put(&all, 1, drawing_bytes(s), 4);
     put(&all, 1, s->feature.shadows ? 224 : 192, 8);        /* by */
@@ -195,11 +196,6 @@ static long lattice_bytes(const settings *s)
 static void put_work(layout *out, const settings *s)
 {
     layout surface = {0, 8}, all = {0, 8};
-    int per_light = (s->feature.shadows && s->feature.many_cascades > 1) || s->feature.other_lights % 2 ? 7
-                    : s->feature.shadows                                                                ? 4
-                                                                                                        : 1;
-    long values = (s->feature.texture_formats ? 2 : 0) + (s->feature.materials & 8 ? 4 : 0) +
-                  (s->feature.materials & 8 ? 3 : 0) + 5 + (long)per_light * s->capacity.surface_lights;
     put(&surface, 1, s->feature.pictures & 4 ? 244 : 200, 8); /* object to the colours of attribute_q16 */
     put(&surface, 15, 4, 4);                                  /* v_q16 to hi_q16 */
     if (s->feature.materials & 8) put(&surface, 12, 4, 4);
@@ -215,15 +211,10 @@ static void put_work(layout *out, const settings *s)
     put(&all, 1, 40, 4);  /* frame to rows */
     put(&all, 1, 120, 4); /* cache */
     put(&all, 1, surface.size, 8);
-    put(&all, s->quality.persp_step > 1 ? 6 : 5, 4, 4); /* tri to last_pixel */
-    long incident = s->feature.other_lights % 2 ? s->capacity.surface_lights : 0;
-    incident *= s->feature.shadows ? 20 : 8;
-    put(&all, 1, 16 + 4 * values + incident + (s->feature.materials % 2 ? 24 : 0), 4); /* sample */
-    if (s->quality.transparent_layers) put(&all, 4, 4, 4);                             /* mixture */
-    if (s->quality.persp_step > 1) {
-        put(&all, 1, patch_shared_bytes(s), 4);
-        put(&all, 1, lattice_bytes(s), 8);
-    }
+    put(&all, s->quality.persp_step > 1 ? 6 : 5, 4, 4);    /* tri to last_pixel */
+    if (s->quality.transparent_layers) put(&all, 4, 4, 4); /* mixture */
+    if (s->quality.persp_step > 1) put(&all, 1, patch_shared_bytes(s), 4);
+    put(&all, 1, lattice_bytes(s), s->quality.persp_step > 1 ? 8 : 4);
     pad(&all, all.align);
     const long casting = casting_bytes(s), clipping = 264, seen = s->feature.other_lights % 2 ? 784 : 764;
     long largest = casting > clipping ? casting : clipping;
