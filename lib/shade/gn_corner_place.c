@@ -185,9 +185,7 @@ GN_HOT const int32_t *gn_corner_flat_offset(gn_lattice *l, const gn_frame *frame
     return l->offset_q16;
 }
 
-/* View depth of the plane at a pixel, up to its largest on the triangle. */
-GN_HOT static inline int32_t plane_depth(const gn_lattice *l, const gn_frame *frame, const gn_surface *s, int32_t x,
-                                         int32_t y)
+GN_HOT int32_t gn_corner_depth(const gn_lattice *l, const gn_frame *frame, const gn_surface *s, int32_t x, int32_t y)
 {
     const gn_screen_plane *p = &l->plane;
 #if GN_ORTHOGRAPHIC
@@ -200,11 +198,6 @@ GN_HOT static inline int32_t plane_depth(const gn_lattice *l, const gn_frame *fr
     if (shift < 1) return s->z_max_q16;
     z = shift > 31 ? 0 : ((z >> (shift - 1)) + 1) >> 1;
     return gn_max32(1, gn_min32((int32_t)(z & INT32_MAX), s->z_max_q16));
-}
-
-GN_HOT int32_t gn_corner_depth(const gn_lattice *l, const gn_frame *frame, const gn_surface *s, int32_t x, int32_t y)
-{
-    return plane_depth(l, frame, s, x, y);
 }
 
 GN_HOT int32_t gn_corner_uv(const gn_lattice *l, const gn_frame *frame, const gn_surface *s, const gn_light_view *view,

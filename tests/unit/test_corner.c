@@ -840,7 +840,7 @@ static void check_fade(const gn_lattice *from, const gn_surface *s, int x, int y
 
 /* ---- Tests ------------------------------------------------------------------------------------------------------- */
 
-static long n_known, n_unseen, n_wide;
+static long n_known, n_unseen, n_wide, n_faces[6];
 
 /* Corners far outside of triangles that bend much have no normal. */
 static int has_normal(const gn_surface *s, const known_point *k)
@@ -864,6 +864,27 @@ static int should_be_known(const gn_surface *s, const known_point *k)
     return k->at.z > 0.51 * lo && k->at.z < 1.99 * hi;
 }
 
+/* The view that a pixel is looked up in: of a spot its only one, of a point light the face of the largest coordinate.
+ */
+static void check_own_view(const gn_corner *c, const gn_light_state *from, const gn_corner_light *at)
+{
+    int32_t from_q16[3];
+    double p[3], axis[3], most = 0;
+    if (at->view == GN_VIEW_NONE) return;
+    if (from->kind == GN_LIGHT_SPOT) {
+        CHECK_EQ_INT(at->view, 0);
+        return;
+    }
+    gn_corner_from(c, from, from_q16);
+    for (int i = 0; i < 3; i++) {
+        p[i] = from_q16[i] * LSB16;
+        most = fmax(most, fabs(p[i]));
+    }
+    axis_of(renderer.frame.view[from->view_idx + at->view].axis_q30[2], axis);
+    n_faces[at->view]++;
+    CHECK(dot(p, axis) == most);
+}
+
 /* Its lights. */
 static void check_lights(gn_lattice *l, const gn_surface *s, const known_point *k, gn_corner *c)
 {
@@ -877,6 +898,7 @@ static void check_lights(gn_lattice *l, const gn_surface *s, const known_point *
             continue;
         }
         check_from(k, from->state, c);
+        check_own_view(c, from->state, at);
         check_irradiance(s, from, c, at);
         check_persp(l, s, c, slot);
         if (!l->plane.fits) continue; /* what forms tell */
@@ -1025,6 +1047,7 @@ int main(int argc, char **argv)
     CHECK(n_planes > 2 * n_no_plane && n_lone > 1000);
     CHECK(n_flat > 1000 && n_flat > 2 * n_not_flat);
     CHECK(n_wide_places > 1000);
+    for (int i = 0; i < 6; i++) CHECK(n_faces[i] > 1000);
     CHECK(n_certain > 1000 && n_uncertain > 100 && n_several > 100 && n_fading > 100);
     printf("cells: shadows that begin or end to fade at %ld places\n", n_fades);
     CHECK(n_fades > 200 && n_whole > 50 && n_regions > 1000);

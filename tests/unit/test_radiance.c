@@ -29,7 +29,7 @@ static const char *const stage_name[STAGE_COUNT] = {
     "attenuation: strength and distance, LSB of Q16",
     "attenuation: with a mask, always, LSB of Q16",
     "attenuation: with a mask, by distance, LSB of Q16",
-    "shading, samples: radiance in linear light, LSB of Q20",
+    "shading, pixels: radiance in linear light, LSB of Q20",
     "bias, spot: offset by B2 and B3, LSB of Q15.16",
     "bias, point: offset by B2 and B3, LSB of Q15.16",
     "bias, spot: automatic, along the face's normal, LSB of Q15.16",
@@ -138,36 +138,65 @@ static double lerp1(double x, double k) /* lerp(1, x, k) */
     return 1 - k * (1 - x);
 }
 
-static void check_mixing(uint32_t realtime_uq16)
+/* What a pixel's corner, which the first view of the light sees at a place, keeps of the light. */
+static double share_at(gn_shading *s, uint32_t strength_uq16, gn_mixing mixing, uint32_t g_uq16)
 {
-    const gn_frame *frame = &renderer.frame;
-    gn_light_state *at = &renderer.frame.light[0];
+    renderer.frame.light[0].strength_uq16 = strength_uq16;
+    fixed.shadow.mixing = mixing;
+    s->lattice.corner.g_uq16 = g_uq16;
+    return gn_corner_share(s, &s->lattice.corner, 0) * LSB16;
+}
+
+static void check_mixing(gn_shading *shading)
+{
+    const gn_mixing mixing = (gn_mixing)uniform(0, 3);
     const uint32_t strength = one_in(4) ? 65536 : (uint32_t)uniform(1, 65536),
-                   g = one_in(4) ? 65536 : (uint32_t)uniform(0, 65537),
-                   mask = one_in(4) ? 65536 : (uint32_t)uniform(0, 65537);
-    fixed.shadow.mixing = (gn_mixing)uniform(0, 3);
-    at->strength_uq16 = strength;
-    const double realtime = realtime_uq16 * LSB16, s = strength * LSB16, d = g * LSB16, baked = mask * LSB16;
-    double want = fixed.shadow.mixing == GN_MIXING_ALWAYS     ? lerp1(fmin(baked, lerp1(realtime, d)), s)
-                  : fixed.shadow.mixing == GN_MIXING_DISTANCE ? lerp1(baked + d * (realtime - baked), s)
-                                                              : lerp1(realtime, s * d);
-    const double got = gn_shadow_mixed(frame, at, mask, g, realtime_uq16) * LSB16;
-    record(STAGE_ATTENUATION + (int)fixed.shadow.mixing, fabs(got - want),
-           (fixed.shadow.mixing == GN_MIXING_DISTANCE ? 1.5 : 1) * LSB16, LSB16);
+                   g = one_in(4) ? 65536U * (uint32_t)one_in(2) : (uint32_t)uniform(0, 65537);
+    const double realtime = share_at(shading, 65536, GN_MIXING_NONE, 65536), s = strength * LSB16, d = g * LSB16,
+                 baked = shading->lattice.corner.light[0].mask_q16 * LSB16;
+    double want = mixing == GN_MIXING_ALWAYS     ? lerp1(fmin(baked, lerp1(realtime, d)), s)
+                  : mixing == GN_MIXING_DISTANCE ? lerp1(baked + d * (realtime - baked), s)
+                                                 : lerp1(realtime, s * d);
+    const double got = share_at(shading, strength, mixing, g);
+    if (s * d < LSB16) want = lerp1(baked, s); /* no shadow of today's: the mask alone */
+    record(STAGE_ATTENUATION + (int)mixing, fabs(got - want), (mixing == GN_MIXING_DISTANCE ? 1.5 : 1) * LSB16, LSB16);
 }
 
 /* Strength, distance and mask together. [M4] [M6] */
 static void check_attenuation(const gn_knobs *knobs)
 {
+    static gn_shading shading;
+    static uint8_t lit[64 * 64];
     random_scene();
+    fixed.shadow.filter = GN_FILTER_7X7;
     fixed.shadow.distance_fade_uq16 = (uint32_t)uniform(66, 65536);
-    if (!begin(knobs)) return;
+    light.mode = GN_LIGHT_MIXED;
+    light.mask_channel = 0;
+    const int ok = begin(knobs);
+    light.mode = GN_LIGHT_REALTIME;
+    light.mask_channel = -1;
+    if (!ok) return;
+    gn_frame *frame = &renderer.frame;
+    gn_light_view *view = &frame->view[0];
+    gn_corner *corner = &shading.lattice.corner;
+    fill_texels(view, lit);
+    gn_blocks_build(view);
+    shading.frame = frame;
+    shading.scratch = &renderer.scratch;
+    shading.surface.object = &object;
+    shading.surface.shadowed = shading.surface.masked = 1;
+    shading.surface.light[0].state = &frame->light[0];
+    corner->fade_uq16 = 65536;
     const double far = fixed.shadow.max_distance_q16 * LSB16, fade = fixed.shadow.distance_fade_uq16 * LSB16;
     for (int i = 0; i < 60; i++) {
         const int32_t z_q16 = (int32_t)(uniform(one_in(2) ? 0 : 1 - fade, 1.05) * far * 65536);
-        check_mixing(one_in(4) ? 65536U * (uint32_t)one_in(2) : (uint32_t)uniform(0, 65537));
-        const double want = (1 - z_q16 * LSB16 / far) / fade,
-                     got = gn_shadow_distance_fade(&renderer.frame, z_q16) * LSB16;
+        gn_corner_light at = {.seen = 1, .depth_q30 = 1 << 29};
+        at.u_q16 = (int32_t)(uniform(8, view->tile_texels - 8) * 65536);
+        at.v_q16 = (int32_t)(uniform(8, view->tile_texels - 8) * 65536);
+        at.mask_q16 = one_in(4) ? 65536 : (int32_t)uniform(0, 65537);
+        corner->light[0] = at;
+        check_mixing(&shading);
+        const double want = (1 - z_q16 * LSB16 / far) / fade, got = gn_shadow_distance_fade(frame, z_q16) * LSB16;
         record(STAGE_DISTANCE, fabs(got - fmin(1, fmax(0, want))), LSB16, LSB16);
     }
     fixed.shadow.mixing = GN_MIXING_NONE;
