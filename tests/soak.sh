@@ -3,6 +3,7 @@
 # goes to build/soak.log: date, commit, campaign, seed, scenes, result. usage: [SEED=n] [SCENES=n] [MODELS="a.obj b.glb"] [MINUTES=n] [CAMPAIGNS="random census"] soak.sh
 #
 # random    10^6 random scenes: nothing undefined, nothing changed that was kept (tests/property/test_random.c), some minutes
+# fine      10^5 random scenes of fine meshes, by other screen tiles and orders the same (tests/property/test_fine.c), twenty minutes
 # unchanged 10^6 frames in which little changes, against fresh renderers (tests/property/test_unchanged.c), an hour
 # shipped   10^5 random scenes of each configuration that ships, and with poisoned gaps in the state (tests/property/test_shipped.sh), half an hour
 # fuzz      scenes and files by coverage, where Clang has libFuzzer (tests/property/test_random.c, tests/tool/test_fuzz.c), MINUTES=60 each
@@ -20,7 +21,7 @@
 # suite     make test with THOROUGH=1: also the combinations whose parts it tests each, and every program under the sanitizers of both compilers, an hour
 cd "$(dirname "$0")/.." || exit 1
 build=build/soak
-: "${SEED:=$(date +%Y%m%d)}" "${CAMPAIGNS:=random unchanged shipped fuzz files panels math culling fit valley census accuracy rows seams views machines suite ${MODELS:+models }extremes}"
+: "${SEED:=$(date +%Y%m%d)}" "${CAMPAIGNS:=random fine unchanged shipped fuzz files panels math culling fit valley census accuracy rows seams views machines suite ${MODELS:+models }extremes}"
 asked=$SCENES
 passed=0 failed=0
 
@@ -120,6 +121,7 @@ for name in $CAMPAIGNS; do
     case $name in
     random | unchanged) campaign $name 1000000 ;;
     files | panels) campaign $name 1000000 ;;
+    fine) campaign fine 100000 ;;
     extremes) campaign extremes 20000 ;;
     fit) campaign fit 1000 ;;
     shipped) shipped ;;

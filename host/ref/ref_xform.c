@@ -36,15 +36,27 @@ static vec3 to_view(const ref_camera *camera, vec3 world)
     return (vec3){vec3_dot(p, camera->right), vec3_dot(p, camera->up), vec3_dot(p, camera->forward)};
 }
 
-/* Inverse transpose = cofactors / determinant. Only the determinant's sign survives the renormalisation, and a
- * flattened object (determinant 0) keeps the normals of the plane it lies in. */
-static vec3 transform_normal(const scene_affine *a, vec3 n)
+/* Inverse transpose = cofactors / determinant: here the cofactors, with the determinant's sign, over the root of the
+ * sum of their squares. A flattened object (determinant 0) keeps the normals of the plane it lies in. */
+static vec3 turn_normal(const scene_affine *a, vec3 n)
 {
     const vec3 c0 = column(a, 0), c1 = column(a, 1), c2 = column(a, 2);
     const vec3 k0 = vec3_cross(c1, c2), k1 = vec3_cross(c2, c0), k2 = vec3_cross(c0, c1);
     const double sign = vec3_dot(c0, k0) < 0.0 ? -1.0 : 1.0;
-    const double f[3] = {sign * n.x, sign * n.y, sign * n.z};
-    return vec3_unit(vec3_mix(f, k0, k1, k2));
+    const double length = sqrt(vec3_dot(k0, k0) + vec3_dot(k1, k1) + vec3_dot(k2, k2)), by = sign / length;
+    if (!(length > 0.0)) return (vec3){0.0, 0.0, 0.0};
+    const double f[3] = {by * n.x, by * n.y, by * n.z};
+    return vec3_mix(f, k0, k1, k2);
+}
+
+/* The weighted mean of what the vertex's joints make of its normal. [R12] */
+static vec3 skinned_normal(const scene_object *object, const scene_mesh *mesh, size_t vertex_idx, vec3 n)
+{
+    vec3 sum = {0.0, 0.0, 0.0};
+    for (size_t i = 4 * vertex_idx; i < 4 * vertex_idx + 4; i++)
+        if (mesh->weight[i])
+            sum = vec3_add(sum, vec3_scale(turn_normal(&object->joints[mesh->joint[i]].now, n), mesh->weight[i]));
+    return sum;
 }
 
 /* The weighted mean of the transforms of a vertex's joints, then the object's: what a skinned vertex is transformed by
@@ -77,7 +89,10 @@ static bool transform_object(ref_instance *out, const scene_object *object, cons
         const scene_affine by = object->n_joints ? skinned(object, mesh, i) : object->to_world;
         out->world[i] = transform_point(&by, vec3_load(mesh->pos + 3 * i));
         out->view[i] = to_view(camera, out->world[i]);
-        if (mesh->nrm) out->normal[i] = transform_normal(&by, vec3_load(mesh->nrm + 3 * i));
+        if (!mesh->nrm) continue;
+        const vec3 nrm = vec3_load(mesh->nrm + 3 * i);
+        out->normal[i] =
+            vec3_unit(turn_normal(&object->to_world, object->n_joints ? skinned_normal(object, mesh, i, nrm) : nrm));
     }
     return true;
 }

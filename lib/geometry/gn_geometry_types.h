@@ -131,6 +131,28 @@ typedef struct {
     int64_t uv_q16[3][2];
 } gn_texture_triangle;
 
+/* ---- Normals of vertices ----------------------------------------------------------------------------------------- */
+
+/* Whether joints turn normals. */
+#define GN_POSED_NORMALS (GN_VERTEX_JOINTS && GN_VERTEX_NORMALS)
+
+/* How normals of what one joint moves go to the world, up to a factor that all joints have in common. */
+typedef struct {
+    uint16_t tag; /* the joint's index + 1; 0: none */
+    int16_t m_q14[9];
+} gn_joint_normals;
+
+enum { GN_JOINT_NORMALS = 8 };
+
+/* How those of an object's vertices do. */
+typedef struct {
+    const gn_object *object; /* NULL: none yet */
+    int32_t to_world_q30[9];
+#if GN_POSED_NORMALS
+    gn_joint_normals joint[GN_JOINT_NORMALS]; /* the last ones, by index */
+#endif
+} gn_normals;
+
 /* ---- Triangles that alpha cuts ----------------------------------------------------------------------------------- */
 
 /* What is linear on the screen, of rays in half pixels: at + x px + y py */

@@ -4,6 +4,7 @@
 
 #include "base/gn_base_types.h"
 #include "base/gn_math.h"
+#include "geometry/gn_geometry_types.h"
 #include "gnomon.h"
 
 /* The object's skin; NULL: it has none. */
@@ -18,10 +19,13 @@
  * gn_position_ok(). */
 void gn_skin_position(int32_t out_q16[3], const gn_object *object, uint32_t vertex_idx);
 
-/* A vertex's unit world normal, Q1.30: by the inverse transposes of its joints' weighted mean and of the object's
- * transform, which is `matrix_q30`, of gn_xform_normal_matrix(). Zero where the mesh's is, or the mean flattens to a
- * line. NUMERICS 4.17. */
-void gn_skin_normal(int32_t out_q30[3], const gn_object *object, const int32_t matrix_q30[9], uint32_t vertex_idx);
+/* Begins with an object whose mesh has normals, if it is another one. */
+void gn_normals_use(gn_normals *by, const gn_object *object);
+
+/* A vertex's unit normal in the world, Q1.30, by the inverse transpose of the object's transform: within 2^-13 along
+ * each axis. Of a skin, also by those of its joints, to the weighted mean (MODEL 2): within 1/500 (NUMERICS 4.17). Zero
+ * where the mesh's is, or joints cancel out. */
+void gn_normals_find(int32_t out_q30[3], gn_normals *by, uint32_t vertex_idx);
 
 /* The joints of a vertex and their weights, n of each. */
 typedef struct {

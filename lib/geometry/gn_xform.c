@@ -128,21 +128,6 @@ void gn_xform_normal_matrix(int32_t out_q30[9], const int32_t m[3][3])
         out_q30[k] = turn * (int32_t)gn_clamp64(gn_scale64(cofactor[k], e), -(1 << 30), 1 << 30);
 }
 
-/* To length 1, of 15 bits. Thin objects have rows of few bits: sums are exact. */
-static void turn_normal(int32_t out_q30[3], const int32_t matrix_q30[9], const int32_t n[3])
-{
-    int64_t sum[3];
-    for (int i = 0; i < 3; i++) sum[i] = gn_dot64(matrix_q30 + 3 * i, n); /* 3 * 2^30 * 2^15 */
-    gn_norm_vec(out_q30, sum);
-    gn_normalise_15(out_q30);
-}
-
-void gn_xform_normal(int32_t out_q30[3], const int32_t matrix_q30[9], const gn_normal nrm_q15[3])
-{
-    const int32_t n[3] = {nrm_q15[0], nrm_q15[1], nrm_q15[2]};
-    turn_normal(out_q30, matrix_q30, n);
-}
-
 /* ---- Skins ------------------------------------------------------------------------------------------------------- */
 
 /* Vertices where up to four joints take them. [R12] */
@@ -245,45 +230,89 @@ void gn_skin_position(int32_t out_q16[3], const gn_object *object, uint32_t vert
 }
 #undef GN_ROW_
 
-/* The weighted mean of the joints' matrices, up to a positive factor: 14 bits. */
-static void mean_matrix(int32_t mean[9], const gn_vertex_joints *of)
-{
-    int32_t most = 0;
-    for (uint32_t i = 0; i < of->n; i++)
-        if (of->weight_u8[i]) most = gn_max32(most, of->joint[of->idx[i]].exp);
-    for (int k = 0; k < 9; k++) mean[k] = 0;
-    for (uint32_t i = 0; i < of->n; i++) {
-        const gn_affine *joint = &of->joint[of->idx[i]];
-        const int32_t weight = of->weight_u8[i], down = gn_min32(8 + most - joint->exp, 31), *m = joint->m_q30[0];
-        if (!weight) continue;
-        GN_UNROLL
-        for (int k = 0; k < 9; k++) mean[k] += (m[k] >> down) * weight; /* 2^22 * 255 in all */
-    }
-    gn_to_bits(mean, 9, 14);
-}
+#endif
 
-void gn_skin_normal(int32_t out_q30[3], const gn_object *object, const int32_t matrix_q30[9], uint32_t vertex_idx)
+#if GN_POSED_NORMALS
+/* Normals of what a joint alone moves, in the world: by the cofactors of its matrix over the root of the sum of their
+ * squares, turned where it mirrors. Entries up to 2^14; after the object's, sqrt(3) times that. MODEL 2. */
+static void find_joint_normals(gn_joint_normals *out, const gn_affine *joint, const int32_t to_world_q30[9])
 {
-    const gn_vertex_joints of = gn_skin_joints(object->skin, vertex_idx);
-    const gn_normal *nrm = object->mesh->nrm_q15 + 3 * (size_t)vertex_idx;
-    int32_t mean[9], cofactor[9], posed[3];
-    mean_matrix(mean, &of);
+    int32_t m[9], k[9];
+    for (int r = 0; r < 3; r++)
+        for (int c = 0; c < 3; c++) m[3 * r + c] = joint->m_q30[r][c];
+    gn_to_bits(m, 9, 14);
     GN_UNROLL
     for (int r = 0; r < 3; r++) {
-        const int32_t *a = mean + 3 * (r == 2 ? 0 : r + 1), *b = mean + 3 * (r ? r - 1 : 2);
-        cofactor[3 * r] = a[1] * b[2] - a[2] * b[1]; /* 2^29 */
-        cofactor[3 * r + 1] = a[2] * b[0] - a[0] * b[2];
-        cofactor[3 * r + 2] = a[0] * b[1] - a[1] * b[0];
+        const int32_t *a = m + 3 * (r == 2 ? 0 : r + 1), *b = m + 3 * (r ? r - 1 : 2);
+        k[3 * r] = a[1] * b[2] - a[2] * b[1]; /* 2^29 */
+        k[3 * r + 1] = a[2] * b[0] - a[0] * b[2];
+        k[3 * r + 2] = a[0] * b[1] - a[1] * b[0];
     }
-    gn_to_bits(cofactor, 9, 14);
+    gn_to_bits(k, 9, 14);
+    uint32_t sum = 1; /* 9 * 2^28 */
+    for (int i = 0; i < 9; i++) sum += (uint32_t)(k[i] * k[i]);
     /* 12 * 2^14 is rounding: it flattens and has no side */
-    const int32_t det = mean[0] * cofactor[0] + mean[1] * cofactor[1] + mean[2] * cofactor[2],
-                  turn = det < -(1 << 18) ? -1 : 1;
-    GN_UNROLL
-    for (int r = 0; r < 3; r++) { /* 3 * 2^29 */
-        const int32_t *row = cofactor + 3 * r;
-        posed[r] = turn * (row[0] * nrm[0] + row[1] * nrm[1] + row[2] * nrm[2]);
+    const int32_t det = m[0] * k[0] + m[1] * k[1] + m[2] * k[2], up = gn_clz32(sum) & ~1, more = up / 2;
+    int32_t root = (int32_t)(gn_rsqrt_norm(sum << up, 1) >> 1); /* 2^(46 - more) / length */
+    if (det < -(1 << 18)) root = -root;
+    for (int i = 0; i < 9; i++) k[i] = gn_mul_high(k[i] * (1 << (14 + more)), root) >> 14;
+    int16_t *to = out->m_q14;
+    for (int r = 0; r < 3; r++, to_world_q30 += 3)
+        for (int c = 0; c < 3; c++) { /* rows of at most sqrt(3) and columns of 1 */
+            int32_t at = 0;
+            for (int j = 0; j < 3; j++) at += (to_world_q30[j] >> 16) * k[3 * j + c];
+            *to++ = (int16_t)(at >> 14);
+        }
+}
+
+/* The weighted mean of what the vertex's joints make of its normal, of any length. */
+static void skin_normal(int32_t out[3], gn_normals *by, uint32_t vertex_idx)
+{
+    const gn_vertex_joints of = gn_skin_joints(by->object->skin, vertex_idx);
+    const gn_normal *n = by->object->mesh->nrm_q15 + 3 * (size_t)vertex_idx;
+    out[0] = out[1] = out[2] = 0;
+    GN_COUNT(posed_normals, 1);
+    for (uint32_t i = 0; i < of.n; i++) {
+        const int32_t weight = of.weight_u8[i];
+        gn_joint_normals *joint = &by->joint[of.idx[i] % GN_JOINT_NORMALS];
+        if (!weight) continue;
+        if (joint->tag != of.idx[i] + 1U) {
+            find_joint_normals(joint, &of.joint[of.idx[i]], by->to_world_q30);
+            joint->tag = (uint16_t)(of.idx[i] + 1U);
+        }
+        GN_UNROLL
+        for (int r = 0; r < 3; r++) { /* 3 * 2^29, then 255 * 3 * 2^21 in all */
+            const int16_t *row = joint->m_q14 + 3 * r;
+            out[r] += ((row[0] * n[0] + row[1] * n[1] + row[2] * n[2]) >> 8) * weight;
+        }
     }
-    turn_normal(out_q30, matrix_q30, posed);
 }
 #endif
+
+/* ---- Normals ----------------------------------------------------------------------------------------------------- */
+
+void gn_normals_use(gn_normals *by, const gn_object *object)
+{
+    if (by->object == object) return;
+    by->object = object;
+    gn_xform_normal_matrix(by->to_world_q30, object->to_world.m_q30);
+#if GN_POSED_NORMALS
+    for (int i = 0; i < GN_JOINT_NORMALS; i++) by->joint[i].tag = 0;
+#endif
+}
+
+void gn_normals_find(int32_t out_q30[3], gn_normals *by, uint32_t vertex_idx)
+{
+#if GN_POSED_NORMALS
+    if (by->object->skin) skin_normal(out_q30, by, vertex_idx);
+    else
+#endif
+    {
+        const gn_normal *nrm = by->object->mesh->nrm_q15 + 3 * (size_t)vertex_idx;
+        const int32_t n[3] = {nrm[0], nrm[1], nrm[2]};
+        int64_t sum[3]; /* thin objects have rows of few bits: sums are exact */
+        for (int i = 0; i < 3; i++) sum[i] = gn_dot64(by->to_world_q30 + 3 * i, n); /* 3 * 2^30 * 2^15 */
+        gn_norm_vec(out_q30, sum);
+    }
+    gn_normalise_15(out_q30);
+}

@@ -61,9 +61,6 @@ GN_INLINE int gn_xform_fast_inline(int32_t out_q16[3], const gn_xform_fast *fast
  * near 1.0 in Q1.30. */
 void gn_xform_normal_matrix(int32_t out_q30[9], const int32_t m[3][3]);
 
-/* A vertex's unit world normal, Q1.30, within 2^-13 along each axis; zero where the mesh's normal is zero. */
-void gn_xform_normal(int32_t out_q30[3], const int32_t matrix_q30[9], const gn_normal nrm_q15[3]);
-
 /* Number of bits that view coordinates may use: |v| < 2^30, i.e. +-16384 units. */
 #define GN_VIEW_LIMIT_Q16 ((int64_t)1 << 30)
 

@@ -107,15 +107,19 @@ GN_HOT static int32_t slope_q12(int32_t n_q30, uint32_t recip, int32_t clz)
     return n_q30 < 0 ? -(int32_t)slope : (int32_t)slope;
 }
 
+GN_HOT void gn_bias_slopes(int32_t n[3])
+{
+    const uint32_t w = (uint32_t)gn_max32((int32_t)gn_abs32(n[2]), 1);
+    const int32_t clz = gn_clz32(w), turn = n[2] < 0 ? 1 : -1;
+    const uint32_t recip = gn_recip_norm(w << clz, 1);
+    for (int i = 0; i < 2; i++) n[i] = turn * slope_q12(n[i], recip, clz);
+}
+
 GN_HOT void gn_bias_auto_face(const gn_light_view *view, gn_auto_bias form, const int32_t face_q30[3], int32_t out[3])
 {
     GN_UNROLL
     for (int i = 0; i < 3; i++) out[i] = gn_sat32(gn_dot_q30(face_q30, view->axis_q30[i]));
-    if (form == GN_AUTO_BIAS_NORMAL) return;
-    const uint32_t w = (uint32_t)gn_max32((int32_t)gn_abs32(out[2]), 1);
-    const int32_t clz = gn_clz32(w), turn = out[2] < 0 ? 1 : -1;
-    const uint32_t recip = gn_recip_norm(w << clz, 1);
-    for (int i = 0; i < 2; i++) out[i] = turn * slope_q12(out[i], recip, clz);
+    if (form != GN_AUTO_BIAS_NORMAL) gn_bias_slopes(out);
 }
 
 GN_HOT void gn_bias_auto_ortho(const gn_light_view *view, gn_auto_bias form, const int32_t face[3], int32_t out_q16[3])

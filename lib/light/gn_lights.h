@@ -145,6 +145,10 @@ int32_t gn_bias_auto_reach_q16(const gn_frame *frame, const gn_light_view *view,
 /* Position error of a spot or point light's receiver, world units, Q16. */
 int64_t gn_bias_auto_place_q16(const gn_light_view *view, int32_t depth_q16);
 
+/* A plane's normal along three axes, of any length, becomes its slopes: n[0], n[1] what the third coordinate changes by
+ * over the first and the second, Q12, to 2^-17 of them and 2^-12, within +-2^30. */
+void gn_bias_slopes(int32_t n[3]);
+
 /* Once per triangle and directional light: the input of gn_bias_auto_ortho. face_q30: the face's normal in the world,
  * towards the viewer. Normal: its parts along the light's axes, Q30; depth: dD/dU, dD/dV, Q12, to 2^-17 of them and
  * 2^-12, within +-2^30. */

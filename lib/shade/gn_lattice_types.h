@@ -5,11 +5,6 @@
 #include "shade/gn_surface_types.h"
 #include "shadow/gn_shadow_types.h"
 
-/* Linear on the screen: the value at a pixel, and its change per pixel to the right and down. */
-typedef struct {
-    int32_t at, dx, dy;
-} gn_slope;
-
 /* ---- Cells: gn_lattice.h --------------------------------------------------------------------------------------------
  */
 
@@ -382,6 +377,7 @@ typedef struct gn_shading {
     gn_rect rect;
     gn_pixel_rows rows;
     gn_surface_cache cache;
+    gn_normals normals; /* of the object at hand */
     gn_surface surface;
     const gn_tri_source *tri;
 #if GN_INTERPOLATES

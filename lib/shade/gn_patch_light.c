@@ -5,11 +5,9 @@
 #include "base/gn_math.h"
 #include "base/gn_q.h"
 #include "geometry/gn_skin.h"
-#include "geometry/gn_xform.h"
 #include "light/gn_lights.h"
 #include "shade/gn_corner.h"
 #include "shade/gn_patch.h"
-#include "visible/gn_runs.h"
 
 #if GN_INTERPOLATES
 
@@ -56,6 +54,9 @@ GN_HOT void gn_patch_use_object(gn_shading *s, const gn_object *object)
     gn_patch_object *of = &s->patches.of;
     const int unlit = (object->flags & GN_OBJECT_UNLIT) != 0;
     of->object = object;
+#if GN_VERTEX_NORMALS
+    for (int i = 0; i < GN_PATCH_NORMALS; i++) s->patches.normal[i].tag = 0;
+#endif
     of->patched = (uint8_t)(is_patched(s->frame, object) && find_base(s->frame, of));
     if (GN_MASKS && s->frame->scene->shadow.mixing != GN_MIXING_NONE && (object->mask_u8 || object->mask_image))
         of->patched = 0;
@@ -67,17 +68,23 @@ GN_HOT void gn_patch_use_object(gn_shading *s, const gn_object *object)
     if (of->patched && of->receives)
         of->cascade = (int8_t)gn_cascade_of_object(s->frame, (uint32_t)(object - s->frame->scene->objects));
 #endif
-    if ((!of->patched && !GN_SKIN(object)) || !GN_VERTEX_NORMALS || !object->mesh->nrm_q15) return;
-    gn_xform_normal_matrix(of->to_world_q30, object->to_world.m_q30);
 }
 
 /* ---- Normals ----------------------------------------------------------------------------------------------------- */
+
+GN_HOT const int32_t *gn_patch_view_face(gn_shading *s)
+{
+    gn_patch *p = &s->lattice.from.patch;
+    if (!p->has_view_face) gn_record_face(&p->record, s->frame, p->view_q14);
+    p->has_view_face = 1;
+    return p->view_q14;
+}
 
 GN_HOT const int32_t *gn_patch_face(gn_shading *s)
 {
     gn_patch *p = &s->lattice.from.patch;
     if (p->has_face) return p->face_q30;
-    gn_record_face(&p->record, s->frame, p->view_q14);
+    gn_patch_view_face(s);
     for (int i = 0; i < 3; i++) {
         int32_t sum = 0; /* 3 * 2^28 */
         for (int k = 0; k < 3; k++) sum += p->view_q14[k] * (s->frame->cam.axis_q30[k][i] >> 16);
@@ -88,47 +95,26 @@ GN_HOT const int32_t *gn_patch_face(gn_shading *s)
 }
 
 #if GN_VERTEX_NORMALS
-/* A vertex's normal in the world, before the triangle's back is turned. */
-GN_HOT static GN_NOINLINE uint32_t make_patch_normal(gn_shading *s, uint32_t vertex_idx)
+GN_HOT static GN_NOINLINE void find_patch_normal(gn_shading *s, uint32_t vertex_idx, gn_patch_normal *out)
 {
-    const gn_patch_object *of = &s->patches.of;
     int32_t n_q30[3];
-#if GN_VERTEX_JOINTS
-    if (of->object->skin) gn_skin_normal(n_q30, of->object, of->to_world_q30, vertex_idx);
-    else
-#endif
-        gn_xform_normal(n_q30, of->to_world_q30, of->object->mesh->nrm_q15 + 3 * (size_t)vertex_idx);
-    uint32_t packed = 0;
-    for (int i = 0; i < 3; i++)
-        packed = packed << 10 | ((uint32_t)gn_min32(n_q30[i] + (1 << 20), (1 << 30) - 1) >> 21 & 1023U);
-    return packed;
-}
-
-GN_HOT static inline void kept_normal(gn_shading *s, uint32_t object_idx, uint32_t vertex_idx, int32_t turn,
-                                      int32_t out_q14[3])
-{
-    const uint32_t tag = gn_vertex_tag(object_idx, vertex_idx);
-    gn_patch_normal *entry = &s->patches.normal[vertex_idx & (GN_PATCH_NORMALS - 1)];
-    if (entry->tag != tag) {
-        GN_COUNT(patch_normals, 1);
-        entry->packed = make_patch_normal(s, vertex_idx);
-        entry->tag = tag;
-    }
-    out_q14[0] = turn * ((int32_t)(entry->packed << 2) >> 22) * 32;
-    out_q14[1] = turn * ((int32_t)(entry->packed << 12) >> 22) * 32;
-    out_q14[2] = turn * ((int32_t)(entry->packed << 22) >> 22) * 32;
-}
-
-GN_HOT void gn_patch_vertex_normal(gn_shading *s, uint32_t object_idx, uint32_t vertex_idx, int32_t out_q14[3])
-{
-    kept_normal(s, object_idx, vertex_idx, 1, out_q14);
+    GN_COUNT(patch_normals, 1);
+    gn_normals_use(&s->normals, s->patches.of.object);
+    gn_normals_find(n_q30, &s->normals, vertex_idx);
+    for (int i = 0; i < 3; i++) out->n_q14[i] = (int16_t)(n_q30[i] >> 16);
 }
 
 /* Corner k's normal, Q14, on the side that is seen. */
 GN_HOT static inline void patch_normal(gn_shading *s, int k, int32_t out_q14[3])
 {
     const gn_patch_record *r = &s->lattice.from.patch.record;
-    kept_normal(s, r->tri->source.object_idx, r->vertex[k], r->back ? -1 : 1, out_q14);
+    const uint32_t vertex_idx = r->vertex[k], tag = vertex_idx + 1; /* below 65536 */
+    gn_patch_normal *entry = &s->patches.normal[vertex_idx & (GN_PATCH_NORMALS - 1)];
+    if (entry->tag != tag) {
+        find_patch_normal(s, vertex_idx, entry);
+        entry->tag = (uint16_t)tag;
+    }
+    for (int i = 0; i < 3; i++) out_q14[i] = r->back ? -entry->n_q14[i] : entry->n_q14[i];
 }
 #endif
 
@@ -221,12 +207,11 @@ GN_HOT static int lamp_irradiance(gn_shading *s, const gn_light_state *light, co
     if (GN_K(s->frame, vertex_light) && s->lattice.from.patch.smooth && normals_turn(&s->lattice.from.patch, n))
         return 0;
 #endif
-    gn_record_find_depths(&s->lattice.from.patch.record, s->frame);
+    const gn_patch_record *r = &s->lattice.from.patch.record;
     for (int i = 0; i < 3; i++) {
-        int32_t at[3];
-        if (!gn_record_places(&s->lattice.from.patch.record, s->frame, &light->from_light[i], light->ray_shift, at))
-            return 0;
-        for (int k = 0; k < 3; k++) from[k][i] = at[k];
+        gn_slope at;
+        if (!gn_record_place(r, s->frame, &light->from_light[i], light->ray_shift, &at)) return 0;
+        for (int k = 0; k < 3; k++) from[k][i] = gn_record_at_corner(r, s->frame, &at, k);
     }
     int64_t facing[3];
     for (int k = 0; k < 3; k++) {
@@ -269,8 +254,8 @@ GN_HOT static int add_patch_light(gn_patch *p, const uint32_t colour_uq16[3], co
 }
 
 /* Light that they do: irradiance becomes 15 bits, colours 16. */
-GN_HOT static int keep_patch_light(gn_patch *p, gn_patch_light *light, const uint32_t colour_uq16[3],
-                                   const int32_t e_q24[3])
+GN_HOT static int keep_patch_light(const gn_frame *frame, gn_patch *p, gn_patch_light *light,
+                                   const uint32_t colour_uq16[3], const int32_t e_q24[3])
 {
     const uint32_t any = gn_abs32(e_q24[0]) | gn_abs32(e_q24[1]) | gn_abs32(e_q24[2]) | 1U,
                    bright = colour_uq16[0] | colour_uq16[1] | colour_uq16[2] | 1U;
@@ -280,7 +265,7 @@ GN_HOT static int keep_patch_light(gn_patch *p, gn_patch_light *light, const uin
     for (int c = 0; c < 3; c++) light->colour[c] = colour_uq16[c] >> colour_down;
     light->down = 16 - e_down - colour_down;           /* Q24 * Q16 >> 16 */
     if (light->down < 4 || light->down > 31) return 0; /* brighter than 8, or far darker than a level */
-    gn_patch_set(&light->irradiance_q15, e[0], e[1], e[2]);
+    gn_record_slope(&p->record, frame, e[0], e[1], e[2], &light->irradiance_q15);
     p->n_lights++;
     return 1;
 }
@@ -314,7 +299,7 @@ GN_HOT static int find_patch_light(gn_shading *s, uint32_t light_idx, const int3
     if (said == GN_PATCH_UNEVEN) return 0;
     if (said == GN_PATCH_DARK) return 1;
     if (!light->view && !ends) return add_patch_light(p, colour, e);
-    return keep_patch_light(p, light, colour, e);
+    return keep_patch_light(frame, p, light, colour, e);
 }
 
 #if GN_PUNCTUAL_LIGHTS
@@ -342,6 +327,7 @@ GN_HOT int gn_patch_find_lights(gn_shading *s)
     for (int c = 0; c < 3; c++)
         for (int k = 0; k < 3; k++) p->colour_q24[c][k] = p->shared->of.base_q24[c];
     if (!p->shared->of.lit) return 1;
+    if (!p->record.deep) gn_record_find_depth(&p->record, frame); /* of deep ones it is known */
     if (!find_patch_normals(s, n)) return 0;
     for (uint32_t l = 0; l < frame->scene->n_lights; l++)
         if (frame->light[l].kind == GN_LIGHT_DIRECTIONAL && !find_patch_light(s, l, (const int32_t(*)[3])n)) return 0;

@@ -171,7 +171,7 @@ GN_HOT static void shade_triangle(gn_shading *s, const char *sources, uint32_t a
 #endif
     if (gn_shades_pixels(frame)) gn_surface_place(frame, s->scratch, &s->cache, &s->surface, s->tri);
     else join(s, sources, at, end);
-    gn_surface_begin(frame, s->scratch, &s->cache, &s->surface, s->tri);
+    gn_surface_begin(frame, &s->normals, &s->surface, s->tri);
     if (GN_INTERPOLATES) { /* with those that were joined */
         gn_runs_begin(&taker, s->scratch, id);
         if (!gn_runs_take(&taker, stride)) return; /* does not happen: it has some */
@@ -301,6 +301,7 @@ GN_HOT void gn_shade_tile(const gn_frame *frame, gn_scratch *scratch, uint32_t t
     const int links = link_runs(s, s->rect.y1 - s->rect.y0);
     if (!links && !(GN_LAYERS(frame) && coloured && gn_layers_count(scratch))) return;
     s->cache.object = NULL;
+    s->normals.object = NULL;
 #if GN_INTERPOLATES
     gn_patch_begin_tile(s);
     gn_lattice_begin_tile(s);

@@ -10,7 +10,6 @@
 #include "geometry/gn_xform.h"
 #include "light/gn_lights.h"
 #include "scene/gn_scene.h"
-#include "shade/gn_patch.h"
 #include "shade/gn_surface.h"
 #include "visible/gn_setup.h"
 
@@ -45,29 +44,8 @@ void gn_surface_face(const gn_frame *frame, const gn_surface *s, int32_t out_q30
         for (int i = 0; i < 3; i++) out_q30[i] = s->normal_q30[0][i];
 }
 
-/* A vertex's normal in the world. Of skins the exact formula is for pixels each of which is exact. */
-static void vertex_normal(int32_t out_q30[3], const gn_frame *frame, gn_scratch *scratch, const gn_surface_cache *cache,
-                          const gn_object *object, uint32_t object_idx, uint32_t vertex_idx)
-{
-#if GN_INTERPOLATES && GN_VERTEX_JOINTS && GN_VERTEX_NORMALS
-    if (GN_SKIN(object) && GN_K(frame, persp_step) != 1) {
-        gn_patch_vertex_normal(&scratch->work.shading, object_idx, vertex_idx, out_q30);
-        for (int i = 0; i < 3; i++) out_q30[i] *= 1 << 16;
-        return;
-    }
-#endif
-    (void)frame, (void)scratch, (void)object_idx;
-    if (GN_VERTEX_JOINTS && GN_SKIN(object)) {
-        GN_COUNT(posed_normals, 1);
-        gn_skin_normal(out_q30, object, cache->to_world_q30, vertex_idx);
-        return;
-    }
-    gn_xform_normal(out_q30, cache->to_world_q30, object->mesh->nrm_q15 + 3 * (size_t)vertex_idx);
-}
-
 /* Of the vertices, or of the face where they have none. [M3] */
-static void normals(const gn_frame *frame, gn_scratch *scratch, const gn_surface_cache *cache, gn_surface *s,
-                    const uint16_t *idx)
+static void normals(const gn_frame *frame, gn_normals *by, gn_surface *s, const uint16_t *idx)
 {
     const gn_mesh *mesh = s->object->mesh;
     const int unlit = s->object->flags & GN_OBJECT_UNLIT && !GN_RAW_VIEWS;
@@ -78,11 +56,12 @@ static void normals(const gn_frame *frame, gn_scratch *scratch, const gn_surface
         return;
     }
     int32_t n[3][3];
+    gn_normals_use(by, s->object);
     uint32_t object_idx = (uint32_t)(s->object - frame->scene->objects);
     const int mirrored = (frame->flags[object_idx] & GN_OBJECT_MIRRORED) != 0;
     GN_UNROLL
     for (int k = 0; k < 3; k++) {
-        vertex_normal(n[k], frame, scratch, cache, s->object, object_idx, idx[k]);
+        gn_normals_find(n[k], by, idx[k]);
         if (s->plane.back != mirrored)
             for (int i = 0; i < 3; i++) n[k][i] = -n[k][i];
     }
@@ -214,12 +193,11 @@ static void baked_light(gn_surface *s, const uint16_t *idx)
     }
 }
 
-static void attributes(const gn_frame *frame, gn_scratch *scratch, const gn_surface_cache *cache, gn_surface *s,
-                       const uint16_t *idx)
+static void attributes(const gn_frame *frame, gn_normals *by, gn_surface *s, const uint16_t *idx)
 {
     texture_coords(frame, s, idx);
     texture_levels(frame, s);
-    normals(frame, scratch, cache, s, idx);
+    normals(frame, by, s, idx);
     masks(frame, s, idx);
     baked_light(s, idx);
     const uint32_t *specular = s->object->specular_uq16;
@@ -272,7 +250,6 @@ static void use_object(const gn_frame *frame, gn_surface_cache *cache, const gn_
     if (cache->object == object) return;
     cache->object = object;
     gn_xform_compose(&cache->to_view, frame->cam.axis_q30, frame->cam.eye_q16, object);
-    if (GN_VERTEX_NORMALS && object->mesh->nrm_q15) gn_xform_normal_matrix(cache->to_world_q30, object->to_world.m_q30);
 }
 
 #if GN_ORTHOGRAPHIC
@@ -335,8 +312,7 @@ void gn_surface_extend(gn_scratch *scratch, const gn_surface_cache *cache, gn_su
 }
 #endif
 
-void gn_surface_begin(const gn_frame *frame, gn_scratch *scratch, const gn_surface_cache *cache, gn_surface *s,
-                      const gn_tri_source *tri)
+void gn_surface_begin(const gn_frame *frame, gn_normals *by, gn_surface *s, const gn_tri_source *tri)
 {
     const uint16_t *idx = s->object->mesh->idx + 3 * (size_t)tri->triangle_idx;
     int32_t(*v)[3] = s->v_q16;
@@ -351,6 +327,6 @@ void gn_surface_begin(const gn_frame *frame, gn_scratch *scratch, const gn_surfa
 #if GN_ORTHOGRAPHIC
     if (frame->cam.flat_q16) flat_plane(frame, s, v);
 #endif
-    attributes(frame, scratch, cache, s, idx);
+    attributes(frame, by, s, idx);
     begin_lighting(frame, s);
 }

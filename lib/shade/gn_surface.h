@@ -18,9 +18,8 @@ void gn_surface_place(const gn_frame *frame, gn_scratch *scratch, gn_surface_cac
 void gn_surface_extend(gn_scratch *scratch, const gn_surface_cache *cache, gn_surface *surface, uint32_t object_idx,
                        uint32_t triangle_idx);
 
-/* All that shading needs of it, then. */
-void gn_surface_begin(const gn_frame *frame, gn_scratch *scratch, const gn_surface_cache *cache, gn_surface *surface,
-                      const gn_tri_source *tri);
+/* All that shading needs of it, then. `normals`: of the object at hand, or another one. */
+void gn_surface_begin(const gn_frame *frame, gn_normals *normals, gn_surface *surface, const gn_tri_source *tri);
 
 /* Sets up depth and barycentrics of pixels, of all but surfaces of one colour. */
 void gn_surface_use_bary(const gn_frame *frame, gn_surface *surface);

@@ -109,7 +109,6 @@ typedef struct {
 typedef struct {
     const gn_object *object;
     gn_xform to_view;
-    int32_t to_world_q30[9]; /* of normals */
 } gn_surface_cache;
 
 /* How a view sees a point: automatic bias along the normal leaves the tile there. */
@@ -126,56 +125,44 @@ typedef struct {
 
 /* ---- Patches ----------------------------------------------------------------------------------------------------- */
 
-/* Small triangles, shaded from their records. Values are known at the three corners and linear between them. */
+/* Small triangles, shaded from their records. Values are slopes on the screen. */
 
-enum {
-    GN_PATCH_PX = 32 /* the largest box, each way */,
-    GN_PATCH_ROW_PX = 16 /* pixels that are drawn at a time */,
-    GN_PATCH_COVERS = GN_PATCH_PX + 2 /* pixels of a row at most */
-};
+enum { GN_PATCH_PX = 32 /* the largest box, each way */, GN_PATCH_ROW_PX = 16 /* pixels that are drawn at a time */ };
 
-/* Pixels are interpolated with weights of the corners 1 and 2, Q15, at least 0 and at most 1 in all. */
+/* A value at a pixel, and what it changes by there per pixel to the right and down. */
 typedef struct {
-    int32_t of[2];
-} gn_patch_weights;
-
-/* A row of a triangle: weights at the first and the last pixel whose centre it covers, n from the one to the other.
- * They do not depend on what is visible. `at`: the first pixel that is drawn. */
-typedef struct {
-    gn_patch_weights ends[2];
-    int32_t n, at;
-} gn_patch_span;
-
-/* Linear over the triangle: the value at corner 0, and what it changes by to corners 1 and 2, in units of 2^shift,
- * within +-2^15. */
-typedef struct {
-    int32_t at;
-    int32_t to[2];
-    int32_t shift;
-} gn_patch_value;
+    int32_t at, dx, dy;
+} gn_slope;
 
 /* Linear along a row of pixels. */
 typedef struct {
     int32_t at, step;
 } gn_row_value;
 
+/* A piece of a row of a deep record, between two of its pixels: what slopes count for at both, and 2^31 over the pixels
+ * from the one to the other. */
+typedef struct {
+    int32_t first, last, y;
+    int32_t ratio_q28[2], per_q31;
+} gn_record_row;
+
 /* A record on the screen. */
 typedef struct {
     const gn_tri *tri;
-    uint16_t vertex[3];   /* of the mesh, by corner */
-    uint8_t back;         /* seen from behind */
-    uint8_t deep;         /* weights need the corners' depths, */
-    uint8_t bent;         /* and rows are too far from straight for texels */
-    int32_t x0, y0;       /* the pixel that corner 0 lies in */
-    int32_t off[2];       /* from corner 0 to its centre, right and down, subpixel_bits fraction bits */
-    int32_t a[2], b[2];   /* from corner 0 to corners 1 and 2, likewise */
-    int32_t px;           /* the longer side of its box, pixels, rounded up */
-    uint32_t area;        /* twice its area, 2 subpixel_bits fraction bits */
-    uint32_t recip;       /* 2^47 over that, normalised: 16 bits */
-    int32_t clz;          /* leading zeros of the area */
-    uint32_t iz_q32[3];   /* near / Z at the corners */
-    uint32_t near_q14[2]; /* deep: near / Z of corners 1 and 2 over that of corner 0, at most 2 */
-    int32_t z[3], z_up;   /* view depths at the corners, Q16 times 2^z_up */
+    uint16_t vertex[3];  /* of the mesh, by corner */
+    uint8_t back;        /* seen from behind */
+    uint8_t deep;        /* near / Z differs so much that slopes are not linear on the screen */
+    int32_t x, y;        /* a pixel in the middle of its box: slopes are from its centre on */
+    int32_t at[3][2];    /* from there to the corners, right and down, subpixel_bits fraction bits */
+    int32_t px;          /* the longer side of its box, pixels, rounded up */
+    uint32_t area;       /* twice its area, 2 subpixel_bits fraction bits */
+    int32_t part[2][2];  /* change of the weights of corners 1 and 2 per pixel to the right and down, */
+    int32_t part_shift;  /* times 2^this: 14 bits */
+    uint32_t iz_q32;     /* near / Z at the pixel, */
+    int32_t lean_q30[2]; /* what it changes by per pixel to the right and down, as a part of it; */
+    int32_t z, z_up;     /* view depth there, Q16 times 2^z_up: gn_record_find_depth() */
+    int32_t columns[2];  /* of pixels that it may cover, the first and the last one */
+    gn_record_row row;   /* deep: the one at hand */
 } gn_patch_record;
 
 /* Texels of a view that a triangle's pixels may read, and which of them may keep some pixel from the light: bit i of
@@ -191,20 +178,19 @@ typedef struct {
     const gn_light_view *view; /* NULL: no shadow */
     uint32_t colour[3];        /* of irradiance 1, 16 bits: times irradiance Q15 it is Q24 << down */
     int32_t down;
-    gn_patch_value irradiance_q15;          /* of its own scale; below 0 where it faces away */
-    gn_patch_value u_q16, v_q16, depth_q30; /* the place in the view: texels, and a share of its range */
+    gn_slope irradiance_q15;          /* of its own scale; below 0 where it faces away */
+    gn_slope u_q16, v_q16, depth_q30; /* the place in the view: texels, and a share of its range */
     int32_t has_words;
-    gn_patch_texels texels;      /* if it has */
-    int32_t fades;               /* the shadow is not of full strength: */
-    gn_patch_value strength_q16; /* the light's, less what fades with distance */
+    gn_patch_texels texels; /* if it has */
+    uint32_t strength_uq16; /* of the shadow */
 } gn_patch_light;
 
 enum { GN_PATCH_LIGHTS = 3, GN_PATCH_NORMALS = 32 /* a power of two */ };
 
-/* A vertex's normal in the world, unit length: three axes of 10 bits, the first in the highest. */
+/* A normal in the world, unit length, of a vertex of the object at hand. */
 typedef struct {
-    uint32_t tag; /* gn_vertex_tag(), 0: none */
-    uint32_t packed;
+    uint16_t tag; /* the vertex's index + 1; 0: none */
+    int16_t n_q14[3];
 } gn_patch_normal;
 
 /* What an object's triangles have in common. */
@@ -212,9 +198,8 @@ typedef struct {
     const gn_object *object; /* NULL: none yet */
     uint8_t patched;         /* its small triangles are patches */
     uint8_t receives, lit;
-    int8_t cascade;          /* of all of it, at full strength; -1: it is not certain */
-    int32_t to_world_q30[9]; /* of normals */
-    int32_t base_q24[3];     /* albedo times ambient, and light of its own that nothing dims; at most 2^27 */
+    int8_t cascade;      /* of all of it, at full strength; -1: it is not certain */
+    int32_t base_q24[3]; /* albedo times ambient, and light of its own that nothing dims; at most 2^27 */
 } gn_patch_object;
 
 /* What lasts while a screen tile is shaded. */
@@ -226,7 +211,7 @@ typedef struct {
 #endif
 } gn_patch_shared;
 
-enum { GN_REACH_UNKNOWN, GN_REACH_EVEN, GN_REACH_UNEVEN };
+enum { GN_REACH_UNKNOWN, GN_REACH_EVEN, GN_REACH_UNEVEN, GN_REACH_NONE };
 
 /* The triangle at hand. */
 typedef struct {
@@ -236,20 +221,20 @@ typedef struct {
     gn_tri again; /* of groups: the record, made again */
 #endif
     int32_t view_q14[3], face_q30[3]; /* the face's normal towards the viewer: along the camera's axes, in the world */
-    uint8_t has_face, smooth, tinted, textured, varies;
+    uint8_t has_view_face, has_face, smooth, tinted, textured, varies;
     uint8_t graded; /* colours differ between the corners */
     uint8_t n_lights;
-    uint8_t reach;             /* GN_REACH_*: of shadows, over the triangle */
-    int32_t cascade;           /* of the corners */
-    uint32_t strength_uq16[3]; /* of shadows at the corners */
-    int32_t from_q16[3][3];    /* from the spot or point light at hand to the corners, world axes */
-    int32_t colour_q24[3][3];  /* by channel, at the corners: light that pixels do not ask for */
-    gn_patch_value colour[3];
+    uint8_t reach;            /* GN_REACH_*: of shadows */
+    int32_t cascade;          /* of all of it */
+    uint32_t g_uq16;          /* what distance leaves of shadows, 65536: all */
+    int32_t from_q16[3][3];   /* from the spot or point light at hand to the corners, world axes */
+    int32_t colour_q24[3][3]; /* by channel, at the corners: light that pixels do not ask for */
+    gn_slope colour[3];
     gn_patch_light light[GN_PATCH_LIGHTS];
-    gn_patch_value tint_q16[3]; /* colours of the vertices */
+    gn_slope tint_q16[3]; /* colours of the vertices */
 #if GN_TEXTURES
     const gn_texture *texture; /* or the level of it that the triangle shows */
-    gn_patch_value texel_q17[2];
+    gn_slope texel_q17[2];
 #if GN_MIPMAPS
     gn_texture level;
 #endif

@@ -19,17 +19,11 @@ typedef gn_caster_job caster_job;
 /* ---- Drawing ----------------------------------------------------------------------------------------------------- */
 
 /* World normals of a triangle's corners, or of its face. */
-static void corner_normals(const caster_job *job, const uint16_t idx[3], int64_t corner[3][3], int32_t out_q30[3][3])
+static void corner_normals(caster_job *job, const uint16_t idx[3], int64_t corner[3][3], int32_t out_q30[3][3])
 {
     const gn_mesh *mesh = job->object->mesh;
-    if (GN_VERTEX_JOINTS && GN_VERTEX_NORMALS && mesh->nrm_q15 && GN_SKIN(job->object)) {
-        GN_COUNT(posed_normals, 3);
-        for (int i = 0; i < 3; i++) gn_skin_normal(out_q30[i], job->object, job->by.to_world_q30, idx[i]);
-        return;
-    }
     if (GN_VERTEX_NORMALS && mesh->nrm_q15) {
-        for (int i = 0; i < 3; i++)
-            gn_xform_normal(out_q30[i], job->by.to_world_q30, mesh->nrm_q15 + 3 * (size_t)idx[i]);
+        for (int i = 0; i < 3; i++) gn_normals_find(out_q30[i], &job->by.normals, idx[i]);
         return;
     }
     const int mirrored = (job->frame->flags[job->object_idx] & GN_OBJECT_MIRRORED) != 0;
@@ -52,7 +46,7 @@ static void corner_normals(const caster_job *job, const uint16_t idx[3], int64_t
 }
 
 /* Corners move inwards by a fraction of a texel, whose width grows with distance in perspective views. [B4] */
-GN_COLD static GN_NOINLINE void shrink(const caster_job *job, const uint16_t idx[3], int64_t corner[3][3])
+GN_COLD static GN_NOINLINE void shrink(caster_job *job, const uint16_t idx[3], int64_t corner[3][3])
 {
     int32_t n[3][3];
     corner_normals(job, idx, corner, n);
@@ -82,7 +76,7 @@ static void light_position(int64_t out[3], const caster_job *job, uint32_t verte
 
 /* Corners as the view sees them: in texels for orthographic views, in world units from the light for perspective ones.
  */
-static gn_status transform(const caster_job *job, const uint16_t idx[3], int64_t corner[3][3])
+static gn_status transform(caster_job *job, const uint16_t idx[3], int64_t corner[3][3])
 {
     const gn_mesh *mesh = job->object->mesh;
     for (int i = 0; i < 3; i++) {
@@ -188,7 +182,7 @@ static gn_alpha_cut *alpha_of(gn_casting *casting)
 /* A caster of any size, shrunk by its bias and cut by its alpha. [M1] */
 GN_COLD static GN_NOINLINE gn_status draw_large(gn_casting *casting, const uint16_t idx[3], int32_t *n_texels)
 {
-    const caster_job *job = &casting->job;
+    caster_job *job = &casting->job;
     int64_t(*corner)[3] = casting->of.polygon.p;
     gn_alpha_cut *with = NULL;
     *n_texels = -1;
@@ -246,8 +240,8 @@ static GN_NOINLINE gn_status draw_object(gn_frame *frame, gn_casting *casting, c
     else gn_ortho_compose(&job->to_light, view, job->object);
     job->shrink_q16 = GN_CASTER_BIAS ? frame->scene->lights[view->light_idx].bias_caster_q16 : 0;
     if (GN_CASTER_BIAS && job->shrink_q16) {
-        if (GN_VERTEX_NORMALS && job->object->mesh->nrm_q15)
-            gn_xform_normal_matrix(job->by.to_world_q30, job->object->to_world.m_q30);
+        job->by.normals.object = NULL;
+        if (GN_VERTEX_NORMALS && job->object->mesh->nrm_q15) gn_normals_use(&job->by.normals, job->object);
     } else gn_xform_fast_begin(&job->by.fast, &job->to_light);
     const gn_mesh *mesh = job->object->mesh;
     for (uint32_t t = 0; t < mesh->n_triangles; t++) {

@@ -229,8 +229,8 @@ typedef struct {
     int32_t shrink_q16; /* caster bias, texels */
     gn_xform to_light;
     union {
-        gn_xform_fast fast;      /* of what is not shrunk */
-        int32_t to_world_q30[9]; /* of what is */
+        gn_xform_fast fast; /* of what is not shrunk */
+        gn_normals normals; /* of what is */
     } by;
 } gn_caster_job;
 

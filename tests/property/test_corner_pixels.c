@@ -358,7 +358,7 @@ static int begin_surface(gn_shading *s, const gn_rect *box)
 {
     gn_lattice *l = &s->lattice;
     gn_surface_place(s->frame, s->scratch, &s->cache, &s->surface, s->tri);
-    gn_surface_begin(s->frame, s->scratch, &s->cache, &s->surface, s->tri);
+    gn_surface_begin(s->frame, &s->normals, &s->surface, s->tri);
     gn_corner_begin_lights(l, s->frame, &s->surface);
     gn_surface_use_bary(s->frame, &s->surface);
     const int32_t beyond = one_in(2) ? 0 : 15;

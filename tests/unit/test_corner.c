@@ -979,6 +979,7 @@ static void check_scene(const gn_knobs *knobs)
     static gn_surface surface;
     static gn_lattice lattice;
     gn_surface_cache cache = {.object = NULL};
+    gn_normals normals = {.object = NULL};
     gn_scratch *scratch = &renderer.scratch;
     corner_scene();
     if (!begin(knobs)) return;
@@ -989,7 +990,7 @@ static void check_scene(const gn_knobs *knobs)
         plane p;
         plane_of(&p, view, tri->source.triangle_idx);
         gn_surface_place(&renderer.frame, scratch, &cache, &surface, &tri->source);
-        gn_surface_begin(&renderer.frame, scratch, &cache, &surface, &tri->source);
+        gn_surface_begin(&renderer.frame, &normals, &surface, &tri->source);
         gn_surface_use_bary(&renderer.frame, &surface);
         const gn_rect r = gn_setup_bounds(&renderer.frame, tri);
         gn_corner_begin_lights(&lattice, &renderer.frame, &surface);

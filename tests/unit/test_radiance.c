@@ -307,6 +307,7 @@ static void check_radiance(const gn_knobs *knobs)
     static gn_shading shading;
     gn_surface *surface = &shading.surface;
     gn_surface_cache cache = {.object = NULL};
+    gn_normals normals = {.object = NULL};
     gn_scratch *scratch = &renderer.scratch;
     gn_knobs mine = *knobs;
     lit_scene();
@@ -322,7 +323,7 @@ static void check_radiance(const gn_knobs *knobs)
             shading.frame = &renderer.frame;
             shading.scratch = scratch;
             gn_surface_place(&renderer.frame, scratch, &cache, surface, &tri->source);
-            gn_surface_begin(&renderer.frame, scratch, &cache, surface, &tri->source);
+            gn_surface_begin(&renderer.frame, &normals, surface, &tri->source);
             gn_corner_begin_pixels(&shading.lattice, &renderer.frame, surface);
             const gn_rect r = gn_setup_bounds(&renderer.frame, tri);
             check_pixels(&shading, &p, &r);

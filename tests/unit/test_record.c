@@ -1,5 +1,5 @@
-/* Records as small triangles, against double precision: weights, depths, normals, places, levels of textures, and
- * values between the corners. The bounds follow from the formats of lib/shade/gn_record.c. */
+/* Records as small triangles, against double precision: slopes, depths, normals, places, and levels of textures. The
+ * bounds follow from the formats of lib/shade/gn_record.c. */
 #include <math.h>
 #include <string.h>
 
@@ -110,44 +110,72 @@ static void any_record(gn_patch_record *r)
 
 /* ---- What begins ------------------------------------------------------------------------------------------------- */
 
+/* The pixel of values, corners from there in pixels, and near / Z at its centre. */
+static double column, row, corner[3][2], middle;
+
+static void find_middle(void)
+{
+    const int32_t one = 1 << bits, half_w = (frame.picture.width << bits) / 2,
+                  half_h = (frame.picture.height << bits) / 2;
+    double lo[2] = {HUGE_VAL, HUGE_VAL}, hi[2] = {-HUGE_VAL, -HUGE_VAL};
+    for (int k = 0; k < 3; k++) {
+        lo[0] = fmin(lo[0], tri.x[k]), hi[0] = fmax(hi[0], tri.x[k]);
+        lo[1] = fmin(lo[1], tri.y[k]), hi[1] = fmax(hi[1], tri.y[k]);
+    }
+    column = floor((floor((lo[0] + hi[0]) / 2) + half_w) / one),
+    row = floor((floor((lo[1] + hi[1]) / 2) + half_h) / one);
+    for (int k = 0; k < 3; k++) {
+        corner[k][0] = (tri.x[k] + half_w) / (double)one - column - 0.5;
+        corner[k][1] = (tri.y[k] + half_h) / (double)one - row - 0.5;
+    }
+    middle = tri.iz_ref + tri.iz_dx * (column - floor((tri.x[0] + half_w) / (double)one)) +
+             tri.iz_dy * (row - floor((tri.y[0] + half_h) / (double)one));
+}
+
 /* Which vertices the corners are, how large the box is, near / Z; and what is refused. */
 static void test_begin(void)
 {
     static const int vertex[7][3] = {{0, 0, 0}, {0, 1, 2}, {1, 2, 0}, {2, 0, 1}, {0, 2, 1}, {2, 1, 0}, {1, 0, 2}};
     gn_patch_record r;
-    tally t = {0}, near = {0}, refused = {0};
+    tally t = {0}, refused = {0};
+    long n_small = 0, n_deep = 0;
     for (int i = 0; i < CASES; i++) {
         any_picture();
         if (!any_corners(40) || !any_plane(13, 1.5)) continue;
+        find_middle();
         const int small = gn_record_begin(&r, &frame, &tri), order = (int)gn_tri_order(&tri);
-        double most = 0, least = HUGE_VAL, lo[2] = {HUGE_VAL, HUGE_VAL}, hi[2] = {-HUGE_VAL, -HUGE_VAL};
-        for (int k = 0; k < 3; k++) {
-            most = fmax(most, nearness(k)), least = fmin(least, nearness(k));
-            lo[0] = fmin(lo[0], tri.x[k]), hi[0] = fmax(hi[0], tri.x[k]);
-            lo[1] = fmin(lo[1], tri.y[k]), hi[1] = fmax(hi[1], tri.y[k]);
-        }
-        const int px = (int)ceil(fmax(hi[0] - lo[0], hi[1] - lo[1]) / (1 << bits));
-        /* two roundings down */
-        const double lost = 2, ratio = most / least;
+        double w = 0, h = 0;
+        for (int k = 0; k < 3; k++)
+            for (int j = 0; j < 3; j++)
+                w = fmax(w, corner[k][0] - corner[j][0]), h = fmax(h, corner[k][1] - corner[j][1]);
+        const double w_px = ceil(w), h_px = ceil(h), px = fmax(w_px, h_px), dx = fabs((double)tri.iz_dx),
+                     dy = fabs((double)tri.iz_dy), change = dx * w_px + dy * h_px,
+                     area = fabs((corner[1][0] - corner[0][0]) * (corner[2][1] - corner[0][1]) -
+                                 (corner[2][0] - corner[0][0]) * (corner[1][1] - corner[0][1])),
+                     limit = GN_K(&frame, persp_step) == 16  ? 2
+                             : GN_K(&frame, persp_step) == 8 ? 4
+                                                             : 8;
+        /* a quarter of the change, as a part of near / Z, times the box: by how many pixels what is linear is off */
+        const double bend = change / middle * px / 4 * limit, near_one = 64 * px / middle * px / 4 * limit;
         const int wide = frame.picture.width >= 64 && frame.picture.height >= 64;
-        const double units = least / (frame.cam.focal2_px_q16 / 8192.0); /* of near / Z, of 16 for a pixel */
-        if (fabs(ratio - 1.5) > 16 / least && fabs(units - 1) > 16 / least)
-            HOLDS(&refused, small == (wide && px <= GN_PATCH_PX && ratio < 1.5 && units > 1),
-                  "%d pixels, near / Z changes by %g, from %g units on", px, ratio, units);
+        const int holds = wide && px <= GN_PATCH_PX && fmax(dx, dy) < 1 << 26 && change <= floor(middle / 2) &&
+                          middle >= frame.cam.focal2_px_q16 / 8192 && area >= px / 8 &&
+                          (area >= px * px / 8 || bend <= 1) && middle < 4294967296.0;
+        if (fabs(bend - 1) <= near_one + 0.01 && area < px * px / 8) continue; /* deep or not: 6 bits less */
+        HOLDS(&refused, small == holds, "%g pixels, near / Z changes by %g, area %g", px, change / middle, area);
         if (!small) continue;
-        /* pieces of rows, a q-th of an eighth of their length off, of what is not so even that all weights are straight
-         */
-        const int fine = GN_K(&frame, persp_step) < 16, across = (int)(hi[0] - lo[0]) >> bits;
-        const double piece = across < 16 ? across : 16,
-                     off = fabs((double)tri.iz_dx) * piece * piece / least * (1 + fine);
-        if (fabs(off - 1) > 0.001) HOLDS(&refused, r.bent == (r.deep && off > 1), "%g of the limit", off);
-        HOLDS(&t, r.px == px && r.back == (order > 3), "%d pixels, not %d", (int)r.px, px);
-        for (int k = 0; k < 3; k++) {
-            HOLDS(&t, r.vertex[k] == 10 + vertex[order][k], "corner %d of order %d is vertex %d", k, order,
-                  r.vertex[k]);
-            const double e = r.iz_q32[k] - nearness(k);
-            HOLDS(&near, e <= 0 && e > -lost, "off by %g, %d bits", e, (int)bits);
-        }
+        n_small++;
+        n_deep += r.deep;
+        if (fabs(bend - 1) > near_one + 0.01) /* 6 bits less */
+            HOLDS(&refused, r.deep == (bend > 1), "bent by %g pixels, %d", bend / limit, (int)r.deep);
+        HOLDS(&t, r.px == px && r.back == (order > 3) && r.x == column && r.y == row, "%d pixels, not %g", (int)r.px,
+              px);
+        HOLDS(&t, r.iz_q32 == middle, "near / Z %u, not %g", (unsigned)r.iz_q32, middle);
+        for (int k = 0; k < 3; k++)
+            HOLDS(&t,
+                  r.vertex[k] == 10 + vertex[order][k] && r.at[k][0] == corner[k][0] * (1 << bits) &&
+                      r.at[k][1] == corner[k][1] * (1 << bits),
+                  "corner %d of order %d is vertex %d", k, order, r.vertex[k]);
         tri.iz_ref &= ~7U;
         HOLDS(&refused, !gn_record_begin(&r, &frame, &tri), "cut");
         tri.iz_ref |= GN_TRI_STEEP;
@@ -156,60 +184,150 @@ static void test_begin(void)
         HOLDS(&refused, !gn_record_begin(&r, &frame, &tri), "bounded");
     }
     CHECK_TALLY(t, "corners and box");
-    CHECK_TALLY(near, "near / Z at corners");
     CHECK_TALLY(refused, "what is a patch");
+    CHECK(n_small > CASES / 20 && n_deep > n_small / 20 && n_deep < n_small);
 }
 
-/* ---- Weights ----------------------------------------------------------------------------------------------------- */
-
-static void compare_weights(const gn_patch_record *r, int32_t px, int32_t py, const int32_t x[3], const int32_t y[3],
-                            tally *flat, tally *deep)
+/* Near / Z that leaves its 32 bits beside the triangle: none is a patch whose middle would have gone round. */
+static void test_round(void)
 {
-    const double one = 1 << bits, qx = (px + 0.5) * one, qy = (py + 0.5) * one, area = (double)-exact_area(x, y);
-    const double e1 = (x[2] - x[0]) * (qy - y[0]) - (y[2] - y[0]) * (qx - x[0]),
-                 e2 = (y[1] - y[0]) * (qx - x[0]) - (x[1] - x[0]) * (qy - y[0]);
-    const double w1 = e1 / area, w2 = e2 / area, n0 = r->iz_q32[0], n1 = r->iz_q32[1], n2 = r->iz_q32[2],
-                 all = (1 - w1 - w2) * n0 + w1 * n1 + w2 * n2, p1 = w1 * n1 / all, p2 = w2 * n2 / all;
-    const gn_patch_weights w = gn_record_weights(r, &frame, px, py);
-    const double most = fmax(n0, fmax(n1, n2)), least = fmin(n0, fmin(n1, n2));
-    HOLDS(flat, w.of[0] >= 0 && w.of[1] >= 0 && w.of[0] + w.of[1] <= 32768, "%d, %d", (int)w.of[0], (int)w.of[1]);
-    if (!r->deep) {
-        /* the edge function and the product are rounded down by a unit each; the reciprocal is off by 2^-15: a unit */
-        const double d1 = w.of[0] - 32768 * w1, d2 = w.of[1] - 32768 * w2;
-        HOLDS(flat, d1 > -3 && d1 <= 1 && d2 > -3 && d2 <= 1, "weights off by %g, %g", d1, d2);
-        /* straight instead of bent: a quarter of the change, which is at most 1/2 or 1/4 over the box, less what the
-         * comparison's six bits lose */
-        const int32_t down = 7 + (GN_K(&frame, persp_step) < 16);
-        const double change = 64 * (least / (1 << down) / r->px + 1);
-        HOLDS(flat, most - least <= change, "near / Z changes by %g, %d pixels", most / least - 1, (int)r->px);
-        HOLDS(flat, fabs(w.of[0] / 32768.0 - p1) <= change / least / 4 + 3 / 32768.0, "bent by %g",
-              w.of[0] / 32768.0 - p1);
-        return;
+    tally t = {0};
+    for (int i = 0; i < CASES; i++) {
+        gn_patch_record r;
+        any_picture();
+        if (!any_corners(32)) continue;
+        find_middle();
+        const double i0 = uniform(0, 1) < 0.5 ? uniform(8, 2000) : 4294967295.0 - uniform(8, 2000);
+        tri.iz_ref = ((uint32_t)i0 & ~7U) | 1U;
+        tri.iz_dx = rng_range(&random_state, -300, 300), tri.iz_dy = rng_range(&random_state, -300, 300);
+        gn_tri_set_walk(&tri, GN_TRI_EXACT);
+        find_middle();
+        const double least = fmin(nearness(0), fmin(nearness(1), nearness(2))),
+                     largest = fmax(nearness(0), fmax(nearness(1), nearness(2)));
+        if (least > 0 && largest < 4294967296.0 && gn_record_begin(&r, &frame, &tri))
+            HOLDS(&t, r.iz_q32 == middle, "near / Z %u, not %g", (unsigned)r.iz_q32, middle);
     }
-    /* weights 3, near / Z over corner 0's 2.75 / 2^14 (half, reciprocal, product), products 1: 8.3 in all of a sum of
-     * at least 2/3; its reciprocal and the product 2 more */
-    const double d1 = w.of[0] - 32768 * p1, d2 = w.of[1] - 32768 * p2;
-    HOLDS(deep, fabs(d1) < 14.5 && fabs(d2) < 14.5, "weights off by %g, %g; near / Z changes by %g", d1, d2,
-          most / least);
+    CHECK_TALLY(t, "near / Z beside triangles");
 }
 
-static void test_weights(void)
+/* ---- Slopes ------------------------------------------------------------------------------------------------------ */
+
+/* What weights of corners 1 and 2 change by per pixel. */
+static void exact_parts(double part[2][2])
+{
+    const double ax = corner[1][0] - corner[0][0], ay = corner[1][1] - corner[0][1], bx = corner[2][0] - corner[0][0],
+                 by = corner[2][1] - corner[0][1], area = bx * ay - ax * by;
+    part[0][0] = -by / area, part[0][1] = bx / area, part[1][0] = ay / area, part[1][1] = -ax / area;
+}
+
+/* near / Z over that in the middle, so far from there. */
+static double ratio_at(double x, double y)
+{
+    return 1 + (tri.iz_dx * x + tri.iz_dy * y) / middle;
+}
+
+/* Perspective's value so far from the middle; of what is not deep, a plane's. */
+static double exact_value(const gn_patch_record *r, const int32_t v[3], double x, double y)
+{
+    double part[2][2], sum = 0, to_x = x - corner[0][0], to_y = y - corner[0][1];
+    exact_parts(part);
+    for (int k = 0; k < 2; k++) {
+        const double near = r->deep ? ratio_at(corner[k + 1][0], corner[k + 1][1]) / ratio_at(x, y) : 1;
+        sum += ((double)v[k + 1] - v[0]) * near * (part[k][0] * to_x + part[k][1] * to_y);
+    }
+    return v[0] + sum;
+}
+
+/* A piece of a row: between the exact values at both ends. */
+static double exact_piece(const gn_patch_record *r, const int32_t v[3], int32_t px, int32_t py)
+{
+    if (!r->deep) return exact_value(r, v, px - r->x, py - r->y);
+    const double first = exact_value(r, v, r->row.first - r->x, py - r->y), n = r->row.last - r->row.first,
+                 last = exact_value(r, v, r->row.last - r->x, py - r->y);
+    return first + (n ? (last - first) * (px - r->row.first) / n : 0);
+}
+
+static void compare_slope(gn_patch_record *r, const gn_slope *slope, const int32_t v[3], const int32_t x[3],
+                          const int32_t y[3], tally *t)
+{
+    double part[2][2], off[2];
+    const double d1 = fabs((double)v[1] - v[0]), d2 = fabs((double)v[2] - v[0]),
+                 unit = fmax(1, ldexp(fmax(d1, d2), -14)), step = ldexp(1, -r->part_shift);
+    exact_parts(part);
+    for (int i = 0; i < 2; i++) /* differences lose less than a unit each; parts a step, and 2^-14.9 of themselves; the
+                                   result 1; of deep ones, near / Z 2^-15, too, the difference and the result another */
+        off[i] = (r->deep ? 4 : 1) * (unit * (fabs(part[0][i]) + fabs(part[1][i]) + 2 * step) + (d1 + d2) * step +
+                                      (d1 * fabs(part[0][i]) + d2 * fabs(part[1][i])) * ldexp(1.1, -15) + 1);
+    for (int32_t py = r->y - r->px; py <= r->y + r->px; py++)
+        for (int32_t px = r->x - r->px; px <= r->x + r->px; px++) {
+            if (!exact_covers(x, y, bits, px, py)) continue;
+            if (r->deep) gn_record_begin_row(r, px, py);
+            const double exact = exact_piece(r, v, px, py), got = gn_record_row_of(r, slope, px, py).at;
+            const double far_x = fabs(px - r->x - corner[0][0]) + fabs((double)px - r->x) + (r->deep ? 32 : 0),
+                         far_y = fabs(py - r->y - corner[0][1]) + fabs((double)py - r->y);
+            /* deep: up to twice that, 16 units and the reciprocal's 2^-17 of what is added at both ends, and 16 per
+             * pixel */
+            const double bound = r->deep ? 2 * (off[0] * far_x + off[1] * far_y) + 600 + ldexp(d1 + d2, -14)
+                                         : off[0] * far_x + off[1] * far_y + 2;
+            HOLDS(t, fabs(got - exact) <= bound, "%g, not %g +- %g: %d, %d, %d; %d pixels, deep %d", got, exact, bound,
+                  (int)v[0], (int)v[1], (int)v[2], (int)r->px, r->deep);
+        }
+    for (int k = 0; k < 3; k++) {
+        const double to_x = fabs(corner[k][0] - corner[0][0]) + fabs(corner[k][0]),
+                     to_y = fabs(corner[k][1] - corner[0][1]) + fabs(corner[k][1]),
+                     got = gn_record_at_corner(r, &frame, slope, k),
+                     bound = (r->deep ? 2 : 1) * (off[0] * to_x + off[1] * to_y) +
+                             (r->deep ? 100 + ldexp(d1 + d2, -14) : 6);
+        HOLDS(t, fabs(got - v[k]) <= bound, "corner %d: %g, not %d +- %g", k, got, (int)v[k], bound);
+    }
+}
+
+/* Pieces of rows between exact ends: off by an eighth of the square of their length times the bend. */
+static void compare_pieces(gn_patch_record *r, const int32_t x[3], const int32_t y[3], tally *t)
+{
+    const int32_t v[3] = {0, 1 << 20, -(1 << 20)};
+    for (int32_t py = r->y - r->px; r->deep && py <= r->y + r->px; py++)
+        for (int32_t px = r->x - r->px; px <= r->x + r->px; px++) {
+            if (!exact_covers(x, y, bits, px, py)) continue;
+            const int32_t n = gn_record_begin_row(r, px, py);
+            HOLDS(t,
+                  n > 0 && r->row.first <= px && px <= r->row.last && px + n == r->row.first + 16 &&
+                      r->row.last - r->row.first <= 16,
+                  "pixel %d in a piece from %d to %d", (int)px, (int)r->row.first, (int)r->row.last);
+            const double length = r->row.last - r->row.first, lean = fabs(tri.iz_dx / middle),
+                         a = ratio_at(r->row.first - r->x, py - r->y), b = ratio_at(r->row.last - r->x, py - r->y),
+                         least = fmin(a, b), first = exact_value(r, v, r->row.first - r->x, py - r->y),
+                         last = exact_value(r, v, r->row.last - r->x, py - r->y);
+            HOLDS(t, least > 0.25, "near / Z is %g of the middle", least);
+            HOLDS(t,
+                  fabs(exact_piece(r, v, px, py) - exact_value(r, v, px - r->x, py - r->y)) <=
+                      fabs(last - first) * length * lean / least / 4 * 1.6 + 1e-6,
+                  "bent by %g", exact_piece(r, v, px, py) - exact_value(r, v, px - r->x, py - r->y));
+        }
+}
+
+static void test_slopes(void)
 {
     gn_patch_record r;
-    tally flat = {0}, deep = {0};
-    for (int i = 0; i < CASES / 4; i++) {
-        int32_t x[3], y[3];
+    tally t = {0}, pieces = {0};
+    for (int i = 0; i < CASES; i++) {
+        int32_t x[3], y[3], v[3];
+        gn_slope slope;
         any_record(&r);
+        find_middle();
+        const int32_t half = 1 << rng_range(&random_state, 0, 26),
+                      about = rng_range(&random_state, -(1 << 29), 1 << 29);
         for (int k = 0; k < 3; k++) {
             x[k] = tri.x[k] + ((frame.picture.width << bits) >> 1);
             y[k] = tri.y[k] + ((frame.picture.height << bits) >> 1);
+            v[k] = about + rng_range(&random_state, -half, half);
         }
-        for (int32_t py = r.y0; py <= r.y0 + r.px; py++)
-            for (int32_t px = r.x0 - r.px - 1; px <= r.x0 + r.px + 1; px++)
-                if (exact_covers(x, y, bits, px, py)) compare_weights(&r, px, py, x, y, &flat, &deep);
+        gn_record_slope(&r, &frame, v[0], v[1], v[2], &slope);
+        compare_slope(&r, &slope, v, x, y, &t);
+        compare_pieces(&r, x, y, &pieces);
     }
-    CHECK_TALLY(flat, "weights, hardly any depth");
-    CHECK_TALLY(deep, "weights, with depth");
+    CHECK_TALLY(t, "slopes through corners");
+    CHECK_TALLY(pieces, "pieces of rows");
 }
 
 /* ---- Depths, normals, places ------------------------------------------------------------------------------------- */
@@ -220,26 +338,41 @@ static void test_depths(void)
     tally t = {0};
     for (int i = 0; i < CASES; i++) {
         any_record(&r);
-        gn_record_find_depths(&r, &frame);
+        find_middle();
+        gn_record_find_depth(&r, &frame);
+        const double z = ldexp(frame.cam.near_q16, 32) / middle, share = ldexp(1, -17) + ldexp(1, -25);
+        /* a reciprocal of one Newton step, 2^-17, and bits below the 28th; then below Q16 */
+        HOLDS(&t, fabs(ldexp(r.z, -r.z_up) / z - 1) < share, "depth %g of %g", ldexp(r.z, -r.z_up), z);
+        HOLDS(&t,
+              fabs(r.lean_q30[0] - ldexp(tri.iz_dx / middle, 30)) < fabs(ldexp(tri.iz_dx / middle, 13)) + 2 &&
+                  fabs(r.lean_q30[1] - ldexp(tri.iz_dy / middle, 30)) < fabs(ldexp(tri.iz_dy / middle, 13)) + 2,
+              "leans by %d, %d", (int)r.lean_q30[0], (int)r.lean_q30[1]);
+        if (z >= 1073741823.0) continue;
+        int32_t lo, hi;
+        const double at = gn_record_depth(&r);
+        gn_record_depths(&r, &frame, &lo, &hi);
+        HOLDS(&t, fabs(at - z) < z * share + 1, "depth %g of %g", at, z);
+        double farthest = 0, nearest = HUGE_VAL, off = 0;
         for (int k = 0; k < 3; k++) {
-            const double z = ldexp(frame.cam.near_q16, 32) / r.iz_q32[k];
-            if (z >= 2147483647.0) continue;
-            /* a reciprocal of one Newton step, 2^-17, and bits below the 28th; then below Q16 */
-            HOLDS(&t, fabs(ldexp(r.z[k], -r.z_up) / z - 1) < ldexp(1, -17) + ldexp(1, -25), "depth %g of %g",
-                  ldexp(r.z[k], -r.z_up), z);
-            HOLDS(&t, fabs(gn_record_depth(&r, k) - z) < z * (ldexp(1, -17) + ldexp(1, -25)) + 1, "depth %d of %g",
-                  (int)gn_record_depth(&r, k), z);
+            const double zk = ldexp(frame.cam.near_q16, 32) / nearness(k);
+            HOLDS(&t, lo < zk * (1 + share) && hi > zk * (1 - share), "corner %d: %g, not in %d .. %d", k, zk, (int)lo,
+                  (int)hi);
+            farthest = fmax(farthest, zk), nearest = fmin(nearest, zk);
+            off = fmax(off, fabs(corner[k][0] * tri.iz_dx) + fabs(corner[k][1] * tri.iz_dy));
         }
+        off /= middle; /* each axis for itself, so up to twice what one corner has of both */
+        HOLDS(&t, lo > z * (1 - 2.01 * off - share) - 4 && hi < z * (1 + 2.01 * off * (1 + 4.1 * off) + share) + 4,
+              "%g .. %g between %d and %d", nearest, farthest, (int)lo, (int)hi);
     }
-    CHECK_TALLY(t, "depths at corners");
+    CHECK_TALLY(t, "depths");
 }
 
 /* The face's normal by the plane of near / Z: near / Z at a ray is n . ray, and it points away from the viewer. */
-static void exact_face(const gn_patch_record *r, double n[3])
+static void exact_face(double n[3])
 {
-    const double f = frame.cam.focal2_px_q16 / 131072.0, x = r->x0 + 0.5 - frame.picture.width / 2.0,
-                 y = r->y0 + 0.5 - frame.picture.height / 2.0;
-    n[0] = -tri.iz_dx * f, n[1] = tri.iz_dy * f, n[2] = -(tri.iz_ref - tri.iz_dx * x - tri.iz_dy * y);
+    const double f = frame.cam.focal2_px_q16 / 131072.0, x = column + 0.5 - frame.picture.width / 2.0,
+                 y = row + 0.5 - frame.picture.height / 2.0;
+    n[0] = -tri.iz_dx * f, n[1] = tri.iz_dy * f, n[2] = -(middle - tri.iz_dx * x - tri.iz_dy * y);
     const double length = sqrt(n[0] * n[0] + n[1] * n[1] + n[2] * n[2]);
     for (int i = 0; i < 3; i++) n[i] /= length;
 }
@@ -252,8 +385,9 @@ static void test_faces(void)
         int32_t view_q14[3];
         double n[3];
         any_record(&r);
+        find_middle();
         gn_record_face(&r, &frame, view_q14);
-        exact_face(&r, n);
+        exact_face(n);
         /* axes lose less than a bit of 15: sqrt(3) of a length of at least 2^14; results another, the root 2^-15 */
         for (int k = 0; k < 3; k++)
             HOLDS(&t, fabs(view_q14[k] - 16384 * n[k]) < sqrt(3) + 1.5, "axis %d: %d, not %g", k, (int)view_q14[k],
@@ -280,39 +414,47 @@ static void test_places(void)
     gn_ray_plane plane;
     tally t = {0};
     for (int i = 0; i < CASES; i++) {
-        int32_t at[3];
-        double one, exact[3], off[3], most = 0;
+        gn_slope got;
         any_record(&r);
+        find_middle();
         any_ray_plane(&plane);
-        gn_record_find_depths(&r, &frame);
-        one = 1 << bits;
+        gn_record_find_depth(&r, &frame);
         const int32_t ray_shift = rng_range(&random_state, 4, 30), up = 32 - ray_shift - r.z_up;
-        for (int k = 0; k < 3; k++) {
-            const double z = ldexp(r.z[k], -r.z_up), x = 2 * tri.x[k] / one, y = -2 * tri.y[k] / one;
-            const double cx = (frame.picture.width << bits >> 1) * 2 / one - frame.picture.width,
-                         cy = frame.picture.height - (frame.picture.height << bits >> 1) * 2 / one;
-            exact[k] = ldexp(z * (plane.a0 + plane.ax * (x + cx) + plane.ay * (y + cy)), -ray_shift);
-            /* a ray loses a unit for each step of the subpixel grid, on both axes; the product one, then one of Q16 */
-            off[k] = ldexp(z * 2 * (r.px + 1) * one, -ray_shift) + ldexp(1, up) + 1;
-            most = fmax(most, fabs(exact[k]));
+        const double px = 2 * column + 1 - frame.picture.width, py = frame.picture.height - 1 - 2 * row,
+                     z = ldexp(r.z, -r.z_up - ray_shift), lean[2] = {tri.iz_dx / middle, tri.iz_dy / middle},
+                     v = z * (plane.a0 + plane.ax * px + plane.ay * py), dx = 2 * z * plane.ax - v * lean[0],
+                     dy = -2 * z * plane.ay - v * lean[1], most = fabs(v) + 32 * (fabs(dx) + fabs(dy)),
+                     lost = ldexp(1, up) + 1; /* a unit of the product, one of Q16 */
+        const int fits = gn_record_place(&r, &frame, &plane, ray_shift, &got);
+        HOLDS(&t,
+              fits || most > 1 << 28 || fmax(fabs(dx), fabs(dy)) > ldexp(1, 23 + up) || up > 28 ||
+                  fabs((double)plane.d_q16) > 1 << 29,
+              "%g does not fit", most);
+        if (!fits) continue;
+        /* lean is off by 2^-17 of itself and 2^-30; four products */
+        HOLDS(&t, fabs(got.at - v - (double)plane.d_q16) <= lost, "%d, not %g", (int)got.at, v + (double)plane.d_q16);
+        HOLDS(&t,
+              fabs(got.dx - dx) <= fabs(v) * (fabs(lean[0]) * ldexp(1, -17) + ldexp(2, -30)) + 5 * lost &&
+                  fabs(got.dy - dy) <= fabs(v) * (fabs(lean[1]) * ldexp(1, -17) + ldexp(2, -30)) + 5 * lost,
+              "%d, %d, not %g, %g", (int)got.dx, (int)got.dy, dx, dy);
+        for (int k = 0; k < 3; k++) { /* straight in place of bent: by the change of near / Z of what there is */
+            const double x = corner[k][0], y = corner[k][1], bent = lean[0] * x + lean[1] * y,
+                         exact = z * (plane.a0 + plane.ax * (px + 2 * x) + plane.ay * (py - 2 * y)) / (1 + bent);
+            HOLDS(&t, fabs(v + dx * x + dy * y - exact) <= fabs((dx * x + dy * y) * bent / (1 + bent)) * 1.0001 + 1e-3,
+                  "corner %d is %g off, leans by %g", k, v + dx * x + dy * y - exact, bent);
         }
-        if (most > 1 << 29) continue;
-        gn_record_places(&r, &frame, &plane, ray_shift, at);
-        for (int k = 0; k < 3; k++)
-            HOLDS(&t, fabs(at[k] - exact[k] - (double)plane.d_q16) <= off[k], "corner %d: %d, not %g +- %g", k,
-                  (int)at[k], exact[k] + (double)plane.d_q16, off[k]);
     }
-    CHECK_TALLY(t, "places of corners");
+    CHECK_TALLY(t, "places");
 }
 
 /* ---- Levels of textures ------------------------------------------------------------------------------------------ */
 
-/* MODEL 8, for the depth of corner 0's pixel: 2 log2(S Z^2 / (F d)), with the product of the corners' depths for Z^3.
+/* MODEL 8, for the depth of the pixel: 2 log2(S Z^2 / (F d)), with the product of the corners' depths for Z^3.
  */
 static double exact_level2(double texels2)
 {
     const double f = frame.cam.focal2_px_q16 / 131072.0, one = 1 << bits;
-    double v[3][3], n[3], z = ldexp(frame.cam.near_q16, 16) / tri.iz_ref, product = z;
+    double v[3][3], n[3], z = ldexp(frame.cam.near_q16, 16) / middle, product = z;
     for (int k = 0; k < 3; k++) {
         const double depth = ldexp(frame.cam.near_q16, 16) / nearness(k);
         v[k][0] = tri.x[k] / one / f * depth, v[k][1] = -tri.y[k] / one / f * depth, v[k][2] = depth;
@@ -335,12 +477,13 @@ static void test_levels(void)
         int32_t view_q14[3];
         double n[3];
         any_record(&r);
+        find_middle();
         gn_record_face(&r, &frame, view_q14);
-        exact_face(&r, n);
+        exact_face(n);
         const uint64_t texels = rng_wide_u64(&random_state, 54);
         const int32_t log2_ = rng_range(&random_state, -30, 2), focal2 = (int32_t)(frame.cam.focal2_px_q16 >> 16),
                       got = gn_record_level2(&r, &frame, view_q14, texels, log2_);
-        const double x = 2 * r.x0 + 1 - frame.picture.width, y = frame.picture.height - 1 - 2 * r.y0,
+        const double x = 2 * r.x + 1 - frame.picture.width, y = frame.picture.height - 1 - 2 * r.y,
                      facing = -(n[0] * x + n[1] * y + n[2] * focal2), all = fabs(x) + fabs(y) + focal2;
         /* four factors lose 2^-15, the focal length a pixel twice, the normal 5 units of Q14 */
         const double share = (ldexp(1, -13) + 1.0 / focal2 + (1 + 5 / 16384.0 * all) / facing);
@@ -351,60 +494,14 @@ static void test_levels(void)
     CHECK_TALLY(t, "levels of textures");
 }
 
-/* ---- Values ------------------------------------------------------------------------------------------------------ */
-
-static int32_t any_value(int32_t most_log2)
-{
-    return rng_range(&random_state, -(1 << most_log2), 1 << most_log2);
-}
-
-static gn_patch_weights any_weights(void)
-{
-    const int32_t all = rng_range(&random_state, 0, 32768), first = rng_range(&random_state, 0, all);
-    const gn_patch_weights w = {{first, all - first}};
-    return w;
-}
-
-static void test_values(void)
-{
-    tally at = {0}, row = {0};
-    for (int i = 0; i < 10 * CASES; i++) {
-        const int32_t most = rng_range(&random_state, 0, 29), n = rng_range(&random_state, 1, GN_PATCH_COVERS - 1),
-                      v0 = any_value(most), v1 = any_value(most), v2 = any_value(most);
-        gn_patch_span span = {{any_weights(), any_weights()}, n, 0};
-        const gn_patch_weights *ends = span.ends;
-        gn_patch_value value;
-        gn_patch_set(&value, v0, v1, v2);
-        const double unit = fmax(1, fmax(fabs((double)v1 - v0), fabs((double)v2 - v0)) / 16384),
-                     exact = v0 + (ends[0].of[0] * ((double)v1 - v0) + ends[0].of[1] * ((double)v2 - v0)) / 32768;
-        /* differences of 15 bits and a sign lose less than a unit each, times weights; the sum another */
-        const double e = gn_patch_at(&value, ends[0]) - exact;
-        HOLDS(&at, e <= 0 && e > -2 * unit, "%d, %d, %d: off by %g", (int)v0, (int)v1, (int)v2, e);
-        const gn_row_value got = gn_patch_row(&value, &span);
-        const double first = gn_patch_at(&value, ends[0]), change = gn_patch_at(&value, ends[1]) - first;
-        HOLDS(&row, got.at == first, "a row begins with %d, not %g", (int)got.at, first);
-        span.at = n / 2;
-        HOLDS(&row, gn_patch_row(&value, &span).at == got.at + got.step * span.at,
-              "pixel %d of %d differs where a run begins", (int)span.at, (int)n);
-        /* a step is even and rounded down: 2 for each; the part of a row is off by n / 2^30 */
-        for (int k = 1; k < n; k++)
-            HOLDS(&row,
-                  fabs(got.at + (double)k * got.step - first - change * k / (n - 1)) <=
-                      2 * k + fabs(change) * n / 1073741824.0,
-                  "pixel %d of %d: off by %g of %g", k, n, got.at + (double)k * got.step - first - change * k / (n - 1),
-                  change);
-    }
-    CHECK_TALLY(at, "values at weights");
-    CHECK_TALLY(row, "values along rows");
-}
-
 /* ------------------------------------------------------------------------------------------------------------------ */
 
 static void test_all(void)
 {
     bits = GN_K(&frame, subpixel_bits);
     test_begin();
-    test_weights();
+    test_round();
+    test_slopes();
     test_depths();
     test_faces();
     test_places();
@@ -419,7 +516,6 @@ int main(void)
     for (int i = 0; i < 3; i++)
         for (int32_t step = 8; step <= 16; step += 8)
             if (TAKES_KNOB(&frame, subpixel_bits, some_bits[i]) && TAKES_KNOB(&frame, persp_step, step)) test_all();
-    test_values();
 #endif
     return check_report();
 }

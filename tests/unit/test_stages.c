@@ -156,6 +156,7 @@ static void check_place(const gn_frame *frame, gn_lattice *l, const gn_surface *
 static void check_samples(const gn_frame *frame, int32_t view[][3])
 {
     gn_surface_cache cache = {.object = NULL};
+    gn_normals normals = {.object = NULL};
     gn_scratch *scratch = &renderer.scratch;
     for (uint32_t i = 0; i < GN_VERTEX_CACHE; i++) scratch->vertex[i].tag = 0;
     for (uint32_t t = 0; t < frame->stats.n_triangles; t++) {
@@ -166,7 +167,7 @@ static void check_samples(const gn_frame *frame, int32_t view[][3])
         static gn_corner corner;
         plane_of(&p, view, tri->source.triangle_idx);
         gn_surface_place(frame, scratch, &cache, &surface, &tri->source);
-        gn_surface_begin(frame, scratch, &cache, &surface, &tri->source);
+        gn_surface_begin(frame, &normals, &surface, &tri->source);
         gn_corner_begin_pixels(&lattice, frame, &surface);
         gn_rect r = gn_setup_bounds(frame, tri);
         for (int y = r.y0; y < r.y1; y += 3) {

@@ -86,11 +86,17 @@ static long cut_bytes(const settings *s)
     return 216;
 }
 
+/* Whether gn_normals has joints. */
+static int poses_normals(const settings *s)
+{
+    return s->feature.vertex_joints && s->feature.vertex_values % 2;
+}
+
 /* gn_casting of lib/geometry/gn_geometry_types.h */
 static long casting_bytes(const settings *s)
 {
     if (!s->feature.shadows) return 0;
-    return 808 + cut_bytes(s);
+    return 808 + cut_bytes(s) + (poses_normals(s) ? 120 : 0);
 }
 
 /* gn_corner of lib/shade/gn_lattice_types.h */
@@ -126,12 +132,12 @@ static int wide_coordinates(const settings *s);
 static long patch_bytes(const settings *s)
 {
     layout all = {0, 4};
-    put(&all, 1, 104, 4);                                                           /* shared, record */
+    put(&all, 1, 128, 4);                                                           /* shared, record */
     if (s->quality.triangle_groups) put(&all, 1, wide_coordinates(s) ? 44 : 32, 4); /* again */
-    put(&all, 1, 168, 4);                                                           /* view_q14 to colour */
-    put(&all, 3, 252, 4);                                                           /* light */
-    put(&all, 3, 16, 4);                                                            /* tint_q16 */
-    if (s->feature.texture_formats) put(&all, 1, has_levels(s) ? 52 : 36, 4);       /* texture to level */
+    put(&all, 1, 152, 4);                                                           /* view_q14 to colour */
+    put(&all, 3, 220, 4);                                                           /* light */
+    put(&all, 3, 12, 4);                                                            /* tint_q16 */
+    if (s->feature.texture_formats) put(&all, 1, has_levels(s) ? 44 : 28, 4);       /* texture to level */
     put(&all, 1, 384, 4);                                                           /* attenuation to texel */
     return all.size;
 }
@@ -152,8 +158,8 @@ static long line_bytes(const settings *s)
 static long patch_shared_bytes(const settings *s)
 {
     layout all = {0, 4};
-    put(&all, 1, 56 + line_bytes(s), 4); /* of, line */
-    if (s->feature.vertex_values % 2) put(&all, 32, 8, 4);
+    put(&all, 1, 20 + line_bytes(s), 4); /* of, line */
+    if (s->feature.vertex_values % 2) put(&all, 32, 8, 2);
     return all.size;
 }
 
@@ -208,8 +214,9 @@ static void put_work(layout *out, const settings *s)
     if (has_changes(s)) put(&surface, 1, 4, 4); /* squares */
     put(&surface, s->capacity.surface_lights, s->quality.vertex_light ? 44 : 36, 4);
     pad(&surface, surface.align);
-    put(&all, 1, 40, 4);  /* frame to rows */
-    put(&all, 1, 120, 4); /* cache */
+    put(&all, 1, 40, 4); /* frame to rows */
+    put(&all, 1, 80, 4); /* cache */
+    put(&all, 1, poses_normals(s) ? 200 : 40, 4);
     put(&all, 1, surface.size, 8);
     put(&all, s->quality.persp_step > 1 ? 6 : 5, 4, 4);    /* tri to last_pixel */
     if (s->quality.transparent_layers) put(&all, 4, 4, 4); /* mixture */
